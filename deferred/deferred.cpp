@@ -164,7 +164,8 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
-        for (const CapturedImage& image : addCaptureImages(passes, pass, group, lit, inputs.samples))
+        for (const CapturedImage& image :
+             addCaptureImages(passes, pass, group, lit, inputs.samples, request.every_sample))
             images.push_back(image);
         Variant variant = lightingVariant(inputs);
         variant.set(gpu::FEATURE_captures, group.images);

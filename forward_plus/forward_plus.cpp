@@ -16,11 +16,11 @@ namespace diptych {
 
 namespace {
 
-// What draws that shade read the stored depth by; null where they shade with the fragment's own: without a
-// pre-pass there is none, and where both have the same bits fetching it would be in vain.
+// Descriptor set for the pre-pass depth. Null if fragments use their own depth: without a pre-pass, or if
+// both have the same bits.
 std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const FrameInputs& inputs,
                                                   const FrameImages& images) {
-    // With several samples a pixel a fragment is shaded between them, where no depth is stored.
+    // Under MSAA a fragment is shaded between its samples, where no depth is stored.
     if (inputs.samples > 1 || !inputs.prepass) return nullptr;
     if (!inputs.device.profile().fetches_depth && !inputs.depth.inSteps()) return nullptr;
     return std::make_shared<const DescriptorSets>(gbufferSet(passes, inputs, images));
@@ -58,7 +58,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
             .depth(images.depth, Load::clear)
             .record(recordDraws(inputs, depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
-    // Without a pre-pass the first draw that shades writes depth.
+    // Without a pre-pass the first shading pass writes depth.
     bool drawn = inputs.prepass;
     const auto addShading = [&](Pass& pass, const LightBatch& batch, const auto& keyOf) {
         if (drawn)
@@ -103,7 +103,8 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
-            for (CapturedImage image : addCaptureImages(passes, pass, group, lit, inputs.samples)) {
+            for (CapturedImage image :
+                 addCaptureImages(passes, pass, group, lit, inputs.samples, request.every_sample)) {
                 image.through_gbuffer = encoded;
                 images.push_back(image);
             }

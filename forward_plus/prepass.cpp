@@ -47,7 +47,7 @@ private:
     OwnedQueryPool pool_;
 };
 
-// Whether any triangle of a solid draw may show.
+// Whether any triangle of an opaque draw may be visible.
 bool drawsSolids(const DrawList& draws) {
     return std::ranges::any_of(draws.solids(), [&](const DrawItem& item) {
         const auto runs = std::span(draws.runs).subspan(item.first_run, item.runs);
@@ -65,7 +65,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
         overdraw.textures += static_cast<double>(triangles) * texturesOf(item.variant);
     }
     overdraw.textures /= static_cast<double>(std::max<std::uint64_t>(overdraw.triangles, 1));
-    // lavapipe 22.3 crashes where nothing is drawn before a full-screen triangle without a fragment shader.
+    // lavapipe 22.3 crashes if a full-screen triangle without a fragment shader is the first draw.
     if (!drawsSolids(inputs.draws) || !inputs.device.support().has(DeviceFeature::occlusionQueryPrecise))
         return overdraw;
     const std::uint32_t part = std::max({1u, width / 320, height / 180});
@@ -80,7 +80,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
             draws(commands);
             queries.end(commands, 0);
         });
-    // The full-screen triangle passes the depth test where something was drawn, as in deferred lighting.
+    // As in deferred lighting, the full-screen triangle passes the depth test on covered pixels.
     const VkPipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::full_screen_vert,
                                                   .fragment = Shader::none,
@@ -121,9 +121,9 @@ PrepassChoice choosePrepass(const Overdraw& overdraw, double lights, const Devic
 
 std::vector<std::string> prepareForwardPlus(FrameInputs& inputs, const Settings& settings) {
     inputs.prepass = settings.prepass != Switch::off;
-    // Both paths shade the depth that was stored.
+    // With quantised depth, both paths shade at the stored depth, which needs a pre-pass.
     if (inputs.depth.inSteps()) return {};
-    // Tiles are bounded by depth, so they need a pre-pass.
+    // The depth of a tile bounds its lights, so tiles need a pre-pass.
     if (settings.prepass != Switch::automatic || settings.assign == Assignment::tiled) return {};
     if (inputs.samples > 1 && inputs.device.profile().shades_failed_samples) {
         inputs.prepass = false;

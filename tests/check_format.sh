@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# check_format.sh CLANG_FORMAT ROOT: every C++ file under ROOT is as .clang-format would write it. Prints the places
-# that are not; `clang-format -i FILE` mends one.
+# check_format.sh CLANG_FORMAT ROOT: checks that every C++ file under ROOT is formatted by .clang-format.
+# Prints the differences; `clang-format -i FILE` fixes a file.
 set -eu
 cd -- "$2"
 find compare deferred forward_plus shared shaders tests \( -name '*.cpp' -o -name '*.h' \) -print0 |

@@ -63,7 +63,7 @@ scratch=$(mktemp -d) || fail "no folder for temporary files"
 child=
 trap 'rm -rf -- "$scratch"' EXIT
 
-# What is drawn here is drawn by the device that everything else will take.
+# The device chosen here is used for everything else.
 timeout -k 10 120 "$program" render builtin:triangle --size 16x9 --json -o "$scratch/triangle.png" \
     >"$scratch/triangle.json" 2>"$scratch/error" </dev/null ||
     fail "no device draws a triangle: $(tail -n 1 "$scratch/error")"
@@ -89,7 +89,7 @@ commit=$(git -C "$home" rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 version=$("$program" --version 2>/dev/null | head -n 1)
 date=$(date -u +'%F %H:%M UTC')
 
-# How much is asked: of a GPU all; of a CPU device what fits into ten minutes, and no step begins after nine.
+# Amount of work: everything for a GPU; for a CPU device ten minutes, without new steps after nine.
 amount=$size
 if [ "$size" = default ]; then
     amount=whole
@@ -110,15 +110,15 @@ fi
 
 # ---- steps -------------------------------------------------------------------------------------------
 
-rows=      # of the summary's table
-differs=   # what failed, in words
-measured=  # what probes found
-left_out=  # what was not asked
+rows=      # rows of the summary's table
+differs=   # failures, in words
+measured=  # results of probes
+left_out=  # skipped steps
 failures=0
 started=$SECONDS
 deadline=0
 
-# limited SECONDS COMMAND...: runs it for at most so long, and never past the step's own limit.
+# limited SECONDS COMMAND...: runs it for at most SECONDS, and never past the step's own limit.
 limited() {
     local left=$((deadline - SECONDS))
     [ "$left" -lt "$1" ] || left=$1
@@ -132,10 +132,10 @@ limited() {
     return $code
 }
 
-# One line of a table: no bar and no end of line of its own.
+# One table cell: escapes bars and removes newlines.
 cell() { printf '%s' "$1" | tr '\n\t' '  ' | sed 's/|/\\|/g' | cut -c1-"${2:-300}"; }
 
-# summary [STATE]: written anew after every step, so that it is there even if the machine is not any more.
+# summary [STATE]: rewritten after every step, so that it survives a crash of the machine.
 summary() {
     local verdict="all right"
     [ $failures -eq 0 ] || verdict="steps that failed: $failures"
@@ -166,7 +166,7 @@ began=$SECONDS
 trap interrupted INT TERM HUP
 
 # step NAME LIMIT FUNCTION ARGUMENTS...: FUNCTION returns 0 (passed), 3 (nothing to run) or another code
-# (failed) and leaves in `what` what the table says of it.
+# (failed), and sets `what` to the text for the table.
 step() {
     name=$1
     local limit=$2 code result start=${EPOCHREALTIME/./} ms
@@ -203,9 +203,9 @@ step() {
     printf '%-16s %-8s %7s s  %s\n' "$name" "${result//\*/}" "$ms" "$what"
     summary "unfinished; so far: "
 }
-faults=  # of the step that runs, as items of a list
+faults=  # list items of the current step
 
-# ---- what a step can be ------------------------------------------------------------------------------
+# ---- kinds of steps ----------------------------------------------------------------------------------
 
 devices() {
     if ! limited 120 "$program" devices --json >"$out/devices.json" ||
@@ -220,7 +220,7 @@ devices() {
     measured+="$(grep -E '^[0-9]|^ *no ' "$out/devices.txt" | sed 's/^/    /')"$'\n\n'
 }
 
-# How exact a device's arithmetic is, and the shipped functions of the shaders on it.
+# Accuracy of the device's arithmetic, and of the shipped shader functions on it.
 arithmetic() {
     local code=0
     limited 300 "$program" devices --probe >"$out/arithmetic.txt" || code=$?
@@ -230,7 +230,7 @@ arithmetic() {
     return $code
 }
 
-# Pictures that must be alike: what a driver gets wrong without any truth beside it.
+# Images that must be equal: finds driver errors without a reference.
 relations() {
     local code=0
     limited 900 "$program" audit "$relations_scene" --relations --force -o "$out/relations" \
@@ -242,7 +242,7 @@ relations() {
     return $code
 }
 
-# The channels of a report.json that failed.
+# The failing channels of a report.json.
 failed_channels() {
     awk '/"number":/ { channel = 1 }
          /"name":/ { name = $2; gsub(/[",]/, "", name) }
@@ -250,16 +250,16 @@ failed_channels() {
          /"verdict":/ { channel = 0 }' "$1"
 }
 
-# The largest difference of the depths in a report.json, relative; no encoding explains any.
+# The largest relative depth difference in a report.json; no encoding explains any.
 depth_difference() {
     awk '/"name":/ { name = $2 }
          name == "\"depth\"," && /"max":/ { sub(/,$/, "", $2); printf "%s", $2; exit }' "$1" 2>/dev/null
 }
 
-# What a command says beside how far it is.
+# A command's output without progress lines.
 without_progress() { grep -Ev '^diptych: [^ ]+: +[0-9]+ % |/index\.html$|^$' "$1"; }
 
-# validation SCENES...: each is compared under the validation layers.
+# validation SCENES...: compares each under the validation layers.
 validation() {
     local scene file code message depth bad=0 differing=0 depths=0 t
     mkdir -p "$out/validation"
@@ -295,7 +295,7 @@ validation() {
     [ $((differing + bad)) -eq 0 ]
 }
 
-# Of a log of GoogleTest: the TESTs that failed and the first failure of each.
+# From a GoogleTest log: the failed TESTs and the first failure of each.
 failed_tests() {
     awk '/^\[ RUN      \]/ { name = $4; text = ""; lines = 0; next }
          /^\[  FAILED  \] .*\([0-9]+ ms/ {
@@ -338,7 +338,7 @@ tests() {
     fi
 }
 
-# probe SUITE: of whichever program has it, with what it prints and records.
+# probe SUITE: runs it from the program that has it, with its output and recorded properties.
 probe() {
     local suite=$1 candidate code
     for candidate in unit_tests probe_tests image_tests; do
@@ -357,7 +357,7 @@ probe() {
     return $code
 }
 
-# bench ARGUMENTS...: the table is in the log, the page in the step's own folder.
+# bench ARGUMENTS...: the table goes to the log, the page to the step's own folder.
 bench() {
     set -- "$@" --size "$bench_size" --paths deferred,forward_plus -o "$out/$name"
     if ! limited 1000000 "$program" bench "$@"; then

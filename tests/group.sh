@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # group.sh PROGRAM FILTER RESULTS: runs GoogleTest suites in one process; JUnit in RESULTS.xml. FILTER is
-# SUITE.*:SUITE.*[-PATTERN:...]. After a crash every suite runs again alone, so that the TEST that crashes is named and
-# no other is left out. Exit code: 0 where all pass.
+# SUITE.*:SUITE.*[-PATTERN:...]. After a crash every suite runs again alone, to name the crashing TEST and
+# run all others. Exit code: 0 if all pass.
 set -uf
 program=$1 filter=$2 results=$3
 "$program" --gtest_brief=1 --gtest_filter="$filter" --gtest_output="xml:$results.xml" && exit

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs the .deb on a Debian 12 that has nothing else, and compares the gallery there:
+# Installs the .deb on a minimal Debian 12, and compares the gallery there:
 #   cmake --build build --target package
 #   tests/package-on-bare-debian.sh build/diptych_*.deb
-# As root, with debootstrap and a network: takes some minutes and 1 GB below TMPDIR.
+# Needs root, debootstrap and a network; takes some minutes and 1 GB in TMPDIR.
 set -eu
 [ $# -eq 1 ] && [ -f "$1" ] || { echo "usage: $0 FILE.deb" >&2; exit 2; }
 for need in debootstrap chroot; do
@@ -18,7 +18,7 @@ debootstrap --variant=minbase bookworm "$bare" "${DEBIAN_MIRROR:-http://deb.debi
 rm -f -- "$bare.log"
 cp -- "$1" "$bare/root/diptych.deb"
 cp -- /etc/resolv.conf "$bare/etc/resolv.conf"
-# A proxy or mirror of this machine serves there as well.
+# Uses this machine's proxy or mirror there as well.
 for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -f "$file" ] || cp -- "$file" "$bare/etc/apt/apt.conf.d/"; done
 mount -t proc proc "$bare/proc"
 chroot "$bare" sh -euc '

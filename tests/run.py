@@ -59,7 +59,7 @@ def kinds(results, since, other):
 def main():
     build = sys.argv[1]
     call, chosen = command(build, sys.argv[2:])
-    since = time.time() - 1  # files' clocks are coarser
+    since = time.time() - 1  # file timestamps are coarser
     other = {}
     ctest = subprocess.Popen(call, stdout=subprocess.PIPE, text=True, errors="replace", env={**os.environ, **chosen})
     for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):

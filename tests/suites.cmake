@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: MIT
-# ctest reads this when it starts, once a program: its GoogleTest suites become tests of ctest, FOLDER.1, FOLDER.2 and
-# on, a process each (group.sh), of neighbouring suites: what one has made (a device, pipelines, uploaded scenes) serves
-# the next.
+# ctest reads this at start, once per program. It makes ctest tests FOLDER.1, FOLDER.2 ... of GoogleTest
+# suites. Each runs neighbouring suites in one process (group.sh), which share a device, pipelines and
+# uploaded scenes.
 #
-# Environment, as ./diptych test sets it; without it everything is run:
-#   DIPTYCH_TIER=default   leaves out what longer.txt lists
-#   DIPTYCH_TESTS=NAME     only what has NAME in it: a suite, FOLDER.SUITE, or TESTs, FOLDER.SUITE.TEST; a process each
+# Environment, set by ./diptych test; without it everything runs:
+#   DIPTYCH_TIER=default   skips the tests of longer.txt
+#   DIPTYCH_TESTS=NAME     only names that contain NAME: FOLDER.SUITE or FOLDER.SUITE.TEST, a process each
 #
-# Variables: program; folder, its label; seconds, the most that a process may take; results, the folder of JUnit files;
-# here, the folder of this file; processes, into how many suites are dealt; 0: one each; validated, the suites that run
-# under the validation layers, in three processes more, where others set DIPTYCH_VALIDATE=0 (empty: all of them), and
-# those that are beside them where nothing is left out; costs, names and seconds of the longest, which start first.
+# Variables:
+#   program, folder (its label), results (folder of JUnit files), here (folder of this file)
+#   seconds: limit of a process
+#   processes: number of processes that share the suites; 0: one for each suite
+#   validated: suites under the validation layers, in three further processes; all if empty. Others set
+#     DIPTYCH_VALIDATE=0.
+#   validated_by_all: further such suites, if no test is skipped
+#   costs: names and seconds of the longest, which start first
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
   set_tests_properties(${folder}.NOT_BUILT PROPERTIES LABELS ${folder})
@@ -68,7 +72,7 @@ foreach(line IN LISTS lines)
     set(test ${folder}.${short}.${CMAKE_MATCH_1})
     string(FIND ${test} "$ENV{DIPTYCH_TESTS}" test_is_asked)
     if(test_is_asked GREATER -1)
-      string(REPLACE / . test ${test})  # of a table's rows
+      string(REPLACE / . test ${test})  # of a parameterized test
       run_in(${test} ${suite}.${CMAKE_MATCH_1})
     endif()
   endif()

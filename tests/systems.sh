@@ -1,10 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Makes a bare Debian, clones this repository into it (what is committed), and runs the README's two commands there:
+# Makes a minimal Debian, clones this repository into it (committed files only), and runs the README's two
+# commands there:
 #   tests/systems.sh debian12|debian13 [DIR]           CXX=clang++ tests/systems.sh debian13
-# Prints versions, seconds and verdicts; a compiler warning is an error. Exit code 0: all passed, 1: a verdict or a test failed, 2: it could not run.
-# As root, with debootstrap and a network: some minutes beyond the build, 5 GB in DIR, which is kept for the next run;
-# without DIR, in a folder of TMPDIR that is removed.
+# Prints versions, seconds and verdicts; a compiler warning is an error. Exit code 0: all passed, 1: a
+# verdict or a test failed, 2: it could not run.
+# Needs root, debootstrap and a network: some minutes plus the build, and 5 GB in DIR, which is kept for
+# the next run. Without DIR it uses a folder of TMPDIR and removes it.
 set -eu
 fail() {
     printf '%s: %s\n' "$0" "$1" >&2
@@ -35,12 +37,12 @@ if [ ! -x "$system/usr/bin/apt-get" ]; then
 fi
 grep -qx "VERSION_CODENAME=$suite" "$system/etc/os-release" || fail "$system: holds another system than $1"
 cp -- /etc/resolv.conf "$system/etc/resolv.conf"
-# A proxy or mirror of this machine serves there as well.
+# Uses this machine's proxy or mirror there as well.
 for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -f "$file" ] || cp -- "$file" "$system/etc/apt/apt.conf.d/"; done
 rm -rf --one-file-system -- "$system/root/diptych" "$system/root/.cache"
 git clone -q --no-hardlinks "$repository" "$system/root/diptych"
 
-# Mounts end with the namespace, so that nothing of them is there when the folder is removed.
+# Mounts end with the namespace, so that none is left when the folder is removed.
 status=0
 SYSTEM=$system unshare --mount sh -euc '
     mount --make-rprivate /

@@ -13,10 +13,11 @@ namespace diptych::audit {
 namespace {
 
 constexpr double mostCopies = 3000;
-// Lights times pixels of a picture: a second of lavapipe where every light is met at every pixel.
+// Lights times pixels of an image; one second of lavapipe if every pixel evaluates every light.
 constexpr double mostLit = 1e8;
 
-// A picture of the same shape in which so many lights meet few enough pixels; as large at every magnitude.
+// An image size of the same aspect ratio for which this many lights are affordable; equal at every
+// magnitude.
 Size sizeForLights(const Subject& subject) {
     const Size size = subject.given.settings.size;
     const double pixels = static_cast<double>(size.width) * size.height;
@@ -28,7 +29,7 @@ Size sizeForLights(const Subject& subject) {
     return {side(size.width), side(size.height)};
 }
 
-// So many copies of every local light, which share its intensity: the picture stays the same.
+// This many copies of every local light, sharing its intensity, so that the image stays the same.
 void pushLights(Case& pushed, const Subject& subject, double copies) {
     const auto count = static_cast<std::size_t>(copies);
     pushed.settings.size = sizeForLights(subject);
@@ -44,9 +45,8 @@ void pushLights(Case& pushed, const Subject& subject, double copies) {
     pushed.scene.lights = std::move(lights);
 }
 
-// Sums of float32, in order: each addition rounds to 2^-24 of what has been added so far; equal terms are
-// rounded one way for as long as the sum has one exponent, half as far on the mean, and the other way in
-// every other.
+// float32 sums, in order: each addition rounds to 2^-24 of the sum so far. Equal terms round one way while
+// the sum has one exponent, half as far on average, and the other way in every second exponent.
 Predicted predictLights(const Subject& subject, const Settings&, double error) {
     const auto reaching =
         static_cast<double>(std::ranges::count_if(subject.given.scene.lights, [&](const Light& light) {
@@ -63,7 +63,7 @@ Value blended(const std::vector<Value>& of, const std::uint32_t* corners, const 
     return of[corners[0]] * weights.x + of[corners[1]] * weights.y + of[corners[2]] * weights.z;
 }
 
-// Cuts every triangle into n x n of its shape.
+// Splits every triangle into n x n similar ones.
 Primitive divided(const Primitive& whole, int n) {
     Primitive parts;
     parts.material = whole.material;

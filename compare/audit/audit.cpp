@@ -12,8 +12,8 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double resolved = 1.25;      // a reach is known to this factor
-constexpr std::size_t mostAdded = 16;  // steps of a quantity beyond its own
+constexpr double resolved = 1.25;      // a breaking point is known to this factor
+constexpr std::size_t mostAdded = 16;  // refinement steps of a quantity
 constexpr double agreement = 2;
 
 double errorOf(const Outcome& outcome) {
@@ -26,13 +26,13 @@ double nonfiniteOf(const Outcome& outcome) {
     return static_cast<double>(outcome.nonfinite);
 }
 
-// The steps in an order that leads away from the usual one.
+// The steps in order of distance from the default one.
 BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
                               std::size_t original, int way) {
     BreakingPoint point{.last = steps[original].magnitude};
     for (auto i = static_cast<std::ptrdiff_t>(original) + way; i >= 0 && i < std::ssize(steps); i += way) {
         const Step& step = steps[static_cast<std::size_t>(i)];
-        // What a device refuses to draw is no failure of arithmetic.
+        // A case that the device rejects is no arithmetic failure.
         if (!step.outcomes[series].failed.empty()) return point;
         if (!passes(criterion, step.outcomes[series])) {
             point.first = step.magnitude;
@@ -44,7 +44,7 @@ BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step
     return point;
 }
 
-// To four digits, which is finer than what is resolved.
+// Four digits, which is finer than the resolution.
 double rounded(double magnitude, const Quantity& quantity) {
     return quantity.whole ? std::round(magnitude) : std::stod(fmt::format("{:.4g}", magnitude));
 }
@@ -56,7 +56,7 @@ Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Se
     return quantity.predict && isPrecise(original) ? quantity.predict(subject, settings, error) : Predicted{};
 }
 
-// Between two magnitudes: by ratios, as they are tried.
+// Geometric mean, because magnitudes are tried by ratios.
 double between(double a, double b) {
     return std::sqrt(a * b);
 }
@@ -154,7 +154,7 @@ Requirement evaluate(const QuantityAudit& audit, double magnitude) {
     }
     requirement.met = true;
     for (const Path path : drawn_paths) {
-        // The best of the path: a G-buffer that rounds is a choice, not a limit.
+        // The best series of the path: a G-buffer that rounds is a choice, not a limit.
         bool met = false;
         std::optional<double> furthest;
         for (std::size_t s = 0; s < audit.series.size(); ++s) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pushes quantities until the paths break, and finds the last magnitude at which they hold.
+// Increases quantities until the paths fail, and finds the last magnitude at which they pass.
 #pragma once
 
 #include "compare/audit/measure.h"
@@ -16,72 +16,72 @@
 
 namespace diptych::audit {
 
-// What a path's picture is held to.
+// A criterion that a path's image must meet.
 struct Criterion {
     std::string_view name, title;  // "1e-3", "error below 1e-3"
     double limit;
     double (*figure)(const Outcome&);
 };
-// Error below 1e-3 and below 1e-2; not visible, which is mean HDR-FLIP below 0.05; and every pixel a number.
+// Error below 1e-3 and below 1e-2; not visible (mean HDR-FLIP below 0.05); and every pixel finite.
 inline constexpr std::size_t criterionCount = 4;
 extern const std::array<Criterion, criterionCount> criteria;
-inline constexpr std::size_t requiredCriterion = 1;  // by which --require is judged
+inline constexpr std::size_t requiredCriterion = 1;  // the criterion of --require
 inline constexpr std::size_t visibleCriterion = 2, numberCriterion = 3;
 
 bool passes(const Criterion& criterion, const Outcome& outcome);
 
-// How far one way a criterion holds, from the usual magnitude on.
+// How far one way a criterion is met, starting at the default magnitude.
 struct BreakingPoint {
-    double last = 0;   // the last magnitude tried at which it holds
-    double first = 0;  // the first at which it does not; without meaning where there is none
+    double last = 0;   // last magnitude tried that meets it
+    double first = 0;  // first one that does not; meaningless if not broken
     bool broken = false;
 };
-// Where it does not hold at the usual magnitude already there is none.
+// `up` and `down` are empty if the criterion fails at the default magnitude.
 struct ValidRange {
-    bool at_original = false;
+    bool original = false;
     BreakingPoint up, down;
 };
 
-// Where a series breaks, in the smallest scene that shows it.
+// Where a series fails, in the smallest scene that reproduces it.
 struct Failure {
     std::string words;    // "forward_plus at 1e6: 1 triangle, 1 light, 1x1 pixels: error 0.8"
-    std::string scene;    // a file of the audit's folder; empty: the scene that was given, as it is
-    std::string command;  // that shows it
+    std::string scene;    // file in the audit's folder; empty: the original scene
+    std::string command;  // reproduces the failure
 };
 
 struct QuantityAudit {
     const Quantity* quantity = nullptr;
-    std::string lacks;  // why it is not pushed; empty where it is
+    std::string lacks;  // why it is not varied; empty if it is
     double original = 0;
     std::vector<Series> series;
     std::vector<std::string> left_out;  // ChosenSeries::left_out
     std::vector<Step> steps;            // ascending
     // By criterion and series.
-    std::array<std::vector<ValidRange>, criterionCount> valid_ranges;
-    // By criterion (the two of errors) and series.
+    std::array<std::vector<ValidRange>, criterionCount> passes;
+    // By criterion (only the two error criteria) and series.
     std::array<std::vector<Predicted>, 2> predicted;
     std::vector<Failure> failures;
 };
 
-// Whether a measured reach and a predicted one agree: within a factor of 2, or both beyond what was tried.
-// `tried`: the last magnitude that was.
+// Whether a measured and a predicted breaking point agree: within a factor of 2, or both beyond the last
+// magnitude tried (`tried`).
 bool agrees(const BreakingPoint& point, double predicted, bool up, double tried);
 
-// The holds of steps that have been measured.
+// Ranges in which measured steps meet the criteria.
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
                                                                   std::size_t series, double original);
 
-// A magnitude between two steps at which to measure next, so that a reach is known to a factor of 1.25;
-// nothing where all are, or where so many steps have been added as pay.
+// The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
+// Empty if all are known, or after the maximum number of refinement steps.
 std::optional<double> nextMagnitude(const QuantityAudit& audit);
 
-// Measures a quantity. `step`: measures at a magnitude, or finds what was measured before. `beside`:
-// magnitudes that are measured too.
+// Measures a quantity. `step` measures at a magnitude, or returns an earlier measurement. `beside`:
+// additional magnitudes.
 QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
                             const std::function<Step(std::span<const Series>, double magnitude)>& step,
                             std::span<const double> beside = {});
 
-// --require: whether every path, by its best series, holds requiredCriterion as far as the magnitude.
+// --require: whether the best series of every path meets requiredCriterion up to the magnitude.
 struct Requirement {
     std::string quantity;
     double magnitude = 0;
@@ -92,10 +92,10 @@ Requirement evaluate(const QuantityAudit& audit, double magnitude);
 
 struct Audit : Audited {
     std::vector<QuantityAudit> quantities;
-    std::vector<std::string> to_come;  // quantities that are not measured yet; none when it is complete
+    std::vector<std::string> to_come;  // quantities still to measure; empty when complete
     std::vector<Requirement> requirements;
-    std::map<std::string, std::string> scenes;  // reduced ones: name of the file, and its text
-    std::size_t kept = 0;                       // steps that an earlier command had measured
+    std::map<std::string, std::string> scenes;  // reduced scenes: file name and text
+    std::size_t kept = 0;                       // steps measured by an earlier command
 };
 
 }  // namespace diptych::audit

@@ -18,7 +18,7 @@ std::string lacksPerspective(const Subject& subject) {
     return subject.view.camera.orthographic ? "the camera is orthographic" : "";
 }
 
-// A far plane that holds all of the scene, m.
+// A far plane beyond the whole scene, m.
 double farOf(const Subject& subject) {
     const double reach = glm::distance(subject.bounds.centre(), subject.view.eye()) + subject.bounds.radius();
     return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * reach;
@@ -41,8 +41,8 @@ void pushFov(Case& pushed, const Subject&, double degrees) {
     pushed.camera().yfov = glm::radians(degrees);
 }
 
-// The eye goes round the point in the middle of the picture, as far from it as it was, until it sees the
-// surface there under this angle.
+// Rotates the eye around the point in the image's centre, at the same distance, until it sees the surface
+// there under this angle.
 void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
     const glm::dvec3 to_eye = subject.view.eye() - subject.point;
     glm::dvec3 along = to_eye - glm::dot(to_eye, subject.normal) * subject.normal;
@@ -70,7 +70,7 @@ Predicted predictExposure(const Subject&, const Settings&, double) {
                 "after the tone curve"};
 }
 
-// How far z is off, and why.
+// Error of the stored depth, and its reason.
 Predicted roundingOf(DepthFormat format) {
     switch (format) {
         case DepthFormat::d32f:
@@ -86,8 +86,9 @@ Predicted roundingOf(DepthFormat format) {
     return {};
 }
 
-// A step dz of depth is one of d (f - n) / (n f) dz of the distance d, relative to it, most where the scene
-// is farthest away; and what a lamp at a distance r from the middle sends there changes by 2 d / r as much.
+// A depth step dz changes the distance d by the relative amount d (f - n) / (n f) dz, most for the
+// farthest surface. Light from a lamp at distance r from the centre changes there by 2 d / r times as
+// much.
 Predicted predictNear(const Subject& subject, const Settings& settings, double error) {
     if (settings.depth_format != DepthFormat::d32f) {
         double lamp = std::numeric_limits<double>::infinity();
@@ -106,8 +107,8 @@ Predicted predictNear(const Subject& subject, const Settings& settings, double e
                 "a position"};
 }
 
-// A vertex lies within 2^-24 of its distance; seen through so small an angle that is a part of a pixel, and
-// where the surface is inclined its depth differs by as much.
+// A vertex is accurate to 2^-24 of its distance, which at such a small angle is part of a pixel. On an
+// inclined surface its depth differs by as much.
 Predicted predictFov(const Subject& subject, const Settings&, double) {
     const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
     const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;

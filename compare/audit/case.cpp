@@ -15,9 +15,9 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr int probedAcross = 32;  // rays across and down that look for a surface near the middle
+constexpr int probedAcross = 32;  // rays across and down that search for the surface nearest to the centre
 
-// The direction through a place of the picture, (-1, -1) to (1, 1), from the bottom left: unit, world.
+// World direction (unit) through an image point from (-1, -1), bottom left, to (1, 1).
 glm::dvec3 directionAt(const View& view, double x, double y) {
     const double t = std::tan(view.camera.yfov / 2), aspect = static_cast<double>(view.width) / view.height;
     return glm::normalize(view.right() * (x * t * aspect) + view.up() * (y * t) - view.backward());
@@ -55,7 +55,7 @@ Subject makeSubject(const Scene& scene, const Settings& settings) {
     Case& given = subject.given;
     given.scene.lights = view.lights;
     if (view.sun && !given.scene.lights.empty())
-        given.scene.lights.pop_back();  // --env-sun takes it out again
+        given.scene.lights.pop_back();  // --env-sun extracts it again
     for (Light& light : given.scene.lights) {
         light.node = -1;
         light.source = -1;
@@ -91,7 +91,7 @@ void scaleLengths(Case& pushed, double factor) {
     for (Light& light : pushed.scene.lights) {
         for (float* length : {&light.range, &light.width, &light.height, &light.radius, &light.length})
             *length *= f;
-        // Candela are lux at a metre.
+        // Candela equal lux at one metre.
         if (light.kind == LightKind::point || light.kind == LightKind::spot)
             light.intensity = static_cast<float>(double{light.intensity} * factor * factor);
     }

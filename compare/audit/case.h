@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an audit pushes: a scene with all that is chosen for its picture fixed, so that nothing is chosen anew
-// when a part of it is changed.
+// Input of an audit: a scene in which everything chosen automatically for its image is fixed, so that
+// changing a part changes no other choice.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -17,29 +17,30 @@
 namespace diptych::audit {
 
 struct Case {
-    Scene scene;        // the only camera that is used is its last one, without a node, and so are all lights
-    Settings settings;  // camera: that one; no rig of lights
-    // Above 0: pictures are compared, of 8 bits, exposed by this factor beyond the automatic one.
+    // Uses only its last camera, which has no node; lights have no nodes either.
+    Scene scene;
+    Settings settings;  // camera: that one; no light rig
+    // If above 0, 8-bit images are compared, exposed by this factor times the automatic exposure.
     double exposure = 0;
 
     Camera& camera() { return scene.cameras.back(); }
     const Camera& camera() const { return scene.cameras.back(); }
 };
 
-// What there is to push, of the case as it is given.
+// Properties of the original case that quantities and relations use.
 struct Subject {
     Case given;
     View view;
-    std::string view_name;  // the camera's, or how it was chosen
-    // The surface in the middle of the picture, or the nearest to the middle that is seen: world, m.
+    std::string view_name;  // the camera's name, or how it was chosen
+    // The visible surface in or nearest to the image's centre: world, m.
     bool seen = false;
-    glm::dvec3 point{0}, normal{0, 1, 0};  // the normal: unit, the triangle's own, towards the eye
-    double nearest = 0;                    // m, from the eye to the nearest surface that was found
-    Bounds bounds;                         // of the posed scene
-    bool moves = false;                    // an animation plays in it
+    glm::dvec3 point{0}, normal{0, 1, 0};  // the normal: unit, of the triangle, towards the eye
+    double nearest = 0;                    // m, from the eye to the nearest surface found
+    Bounds bounds;                         // of the scene at its pose
+    bool moves = false;                    // whether an animation moves it
 };
 
-// What was audited, as its report says.
+// Subject of an audit, as its report states it.
 struct Audited {
     std::string scene, camera;
     Settings settings;
@@ -47,15 +48,14 @@ struct Audited {
     std::vector<std::string> notes;
 };
 
-// The lights are those of the Settings' rig, the scene's own or the default sun.
+// Lights come from the Settings' rig, the scene, or the default directional light.
 Subject makeSubject(const Scene& scene, const Settings& settings);
 
-// Puts the whole scene, its lights and its camera elsewhere: world' = move * world. A uniform scale and a
-// translation. Lights and planes of the camera keep their own units: see scaleLengths().
+// Moves the whole scene, its lights and its camera: world' = move * world, a uniform scale and a
+// translation. Does not scale lights and camera planes; see scaleLengths().
 void moveAll(Case& pushed, const glm::dmat4& move);
 
-// Multiplies all lengths by a factor so that the picture stays the same: scene, lights, haze, shadows,
-// camera.
+// Scales all lengths of scene, lights, haze, shadows and camera, so that the image stays the same.
 void scaleLengths(Case& pushed, double factor);
 
 }  // namespace diptych::audit

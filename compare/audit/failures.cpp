@@ -18,14 +18,14 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr std::size_t mostTried = 120;  // cases that a reduction draws
+constexpr std::size_t mostTried = 120;  // cases that a reduction renders
 
 struct Broken {
     std::size_t series = 0, criterion = 0;
     double magnitude = 0;
 };
 
-// The first precise series that breaks somewhere, by the criterion of errors: where it first does.
+// The first precise series that fails by a criterion of errors, where it first fails.
 std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subject) {
     for (const std::size_t criterion : {numberCriterion, requiredCriterion})
         for (std::size_t s = 0; s < of.series.size(); ++s) {
@@ -37,8 +37,8 @@ std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subjec
     return {};
 }
 
-// The words of a comparison with the reference of the scene and the lights in a folder. Mode surface judges
-// light; what is wrong with the surfaces themselves only mode scene tells.
+// Command line of a comparison with the reference, for the scene and lights in a folder. Mode surface
+// compares light; only mode scene detects wrong surfaces.
 std::vector<std::string> comparisonWords(const Failure& failure, const std::string& lights, Settings asked,
                                          ReferenceMode mode, const std::vector<std::string>& more,
                                          const std::filesystem::path& folder) {
@@ -64,7 +64,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     const auto test = [&](const Case& candidate) {
         const Step step = measurer.measure(candidate, std::span(&series, 1));
         const Outcome& outcome = step.outcomes.front();
-        // A picture of nothing shows nothing.
+        // An empty image shows no failure.
         const bool drawn = outcome.failed.empty() && step.covered > 0;
         return FailingPixel{drawn && !passes(criterion, outcome), outcome.worst_x, outcome.worst_y,
                             outcome.error()};

@@ -10,10 +10,11 @@
 
 namespace diptych::audit {
 
-// Where a quantity's first precise series breaks (of what breaks nearest to the usual magnitude), reduced and
-// added to its failures, its files to `scenes`; nothing where none breaks. `folder`: where the files will be.
-// A command that shows it is one that was tried: its words name files of `trial.folder`, where they are until
-// then, and trial.fails() says whether it exits with 1. Without one that does there is no command.
+// Adds the reduced failure of a quantity's first precise series to its failures, and the files to
+// `scenes`. It takes the failure nearest to the default magnitude; adds nothing if no series fails.
+// `folder`: where the files will be. A failure's command was tried: its words name files in
+// `trial.folder`, where they are until then, and trial.fails() returned true (it exits with 1). Otherwise
+// there is no command.
 struct Trial {
     std::filesystem::path folder;
     std::vector<std::string> words;  // of every command: the device

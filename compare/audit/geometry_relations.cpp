@@ -12,7 +12,7 @@ namespace diptych::audit {
 
 namespace {
 
-// Whose vertices no joint and no morph target moves.
+// Whether no joint and no morph target moves its vertices.
 bool isRigid(const Primitive& primitive) {
     return primitive.joint_sets.empty() && primitive.targets.empty();
 }
@@ -31,7 +31,7 @@ std::string lacksRigidMesh(const Subject& subject) {
     return any ? "" : "every mesh of the scene is skinned or morphed";
 }
 
-// Lets a node's mesh be drawn by a node of its own instead, after all others. `mesh`: another one.
+// Adds a node after all others that draws mesh `mesh` at the place of node `index`.
 void carry(Scene& scene, std::size_t index, int mesh) {
     Node carrier = scene.nodes[index];
     carrier.parent = static_cast<int>(index);
@@ -47,7 +47,7 @@ std::string lacksOrder(const Subject& subject) {
     return lacksRigidMesh(subject);
 }
 
-// What blends from as far away is blended in the order of the file.
+// Blended surfaces at equal distance are blended in the order of the file.
 bool isReversible(const Scene& scene, const Mesh& mesh) {
     return isRigid(mesh) && std::ranges::none_of(mesh.primitives, [&](const Primitive& primitive) {
                return isBlended(scene, primitive);
@@ -66,7 +66,7 @@ void reverseDraws(Related& related, const Subject&) {
         if (isReversible(scene, mesh)) std::ranges::reverse(mesh.primitives);
 }
 
-// Every mesh becomes two, of the first and the last half of its triangles.
+// Splits every mesh into two, with the first and the last half of its triangles.
 void splitMeshes(Related& related, const Subject&) {
     Scene& scene = related.changed.scene;
     const std::size_t meshes = scene.meshes.size(), nodes = scene.nodes.size();
@@ -78,7 +78,7 @@ void splitMeshes(Related& related, const Subject&) {
         for (std::size_t p = 0; p < rest.primitives.size(); ++p) {
             std::vector<std::uint32_t>&first = scene.meshes[m].primitives[p].indices,
             &last = rest.primitives[p].indices;
-            // What blends is sorted by what is drawn.
+            // Blended triangles are sorted per draw call, so they stay together.
             const auto count = isBlended(scene, rest.primitives[p]) ? last.size() / 3 : last.size() / 6;
             last.erase(last.begin(), last.begin() + static_cast<std::ptrdiff_t>(3 * count));
             first.resize(3 * count);
@@ -96,7 +96,7 @@ void splitMeshes(Related& related, const Subject&) {
             carry(scene, i, other[static_cast<std::size_t>(mesh)]);
 }
 
-// The attributes of a primitive's vertices, one after the other.
+// Appends a vertex with all its attributes.
 void addVertex(Primitive& to, const Primitive& from, std::uint32_t i) {
     to.indices.push_back(static_cast<std::uint32_t>(to.positions.size()));
     to.positions.push_back(from.positions[i]);
@@ -124,8 +124,8 @@ void unindex(Related& related, const Subject&) {
         }
 }
 
-// Whether what is interpolated on it is linear, so that its parts interpolate the same: normals and tangents
-// are made unit vectors at a mesh's vertices.
+// Whether its interpolated attributes are linear, so that its parts interpolate equally: normals and
+// tangents are normalised at a mesh's vertices.
 bool isFlat(const Primitive& primitive, const std::uint32_t* corners) {
     const auto same = [&](const auto& values) {
         return values[corners[0]] == values[corners[1]] && values[corners[0]] == values[corners[2]];
@@ -150,7 +150,7 @@ std::uint32_t middleOf(Primitive& primitive, std::uint32_t a, std::uint32_t b) {
 
 std::string lacksFlat(const Subject& subject) {
     if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
-    // The middle of an edge is rounded to 2^-24 of its distance from the mesh's origin.
+    // Edge midpoints round to 2^-24 of their distance from the mesh's origin.
     if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
         return "the scene's farthest surface is over 1000 times as far as its nearest: rounded edge "
                "midpoints would be visible";
@@ -161,7 +161,7 @@ std::string lacksFlat(const Subject& subject) {
     return "the scene has no flat triangle outside skinned and morphed meshes";
 }
 
-// Each flat triangle becomes four.
+// Splits each flat triangle into four.
 void splitTriangles(Related& related, const Subject&) {
     for (Mesh& mesh : related.changed.scene.meshes)
         for (Primitive& primitive : mesh.primitives) {
@@ -210,7 +210,7 @@ std::string lacksFile(const Subject& subject) {
                                       "written file leaves them out";
 }
 
-// The scene without textures, environment and motion, as it is read of a file of it.
+// The scene without textures, environment and animation, written to a file and read back.
 Case readAgain(const Case& flat, const std::string& file, const char* name) {
     Case read = flat;
     read.scene = parseGltf({file.begin(), file.end()}, name);
@@ -223,7 +223,7 @@ void throughGltf(Related& related, const Subject& subject) {
     related.own_base = true;
     related.base = *flattened(subject.given);
     related.changed = readAgain(related.base, gltfOf(related.base), "relation.gltf");
-    // A material that nothing shows is not written, and they are numbered as they are met.
+    // Unused materials are not written; the others are numbered in order of first use.
     related.map.ids = writtenMaterials(related.base.scene);
 }
 void throughGlb(Related& related, const Subject& subject) {

@@ -37,7 +37,7 @@ double originalOne(const Subject&) {
 std::vector<double> ladder(double first, double last, double step) {
     std::vector<double> rungs;
     for (int i = 0;; ++i) {
-        const double rung = first * std::pow(step, i);  // not a product of products, whose errors add up
+        const double rung = first * std::pow(step, i);  // not repeated products, whose errors accumulate
         if (rung > last * 1.001) return rungs;
         rungs.push_back(std::stod(fmt::format("{:.3g}", rung)));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The quantities by what they push; quantities() has them all.
+// Quantities by subject; quantities() returns all.
 #pragma once
 
 #include "compare/audit/quantity.h"
@@ -8,16 +8,16 @@
 
 namespace diptych::audit {
 
-std::vector<Quantity> placeQuantities();     // where the scene is, and how large
-std::vector<Quantity> cameraQuantities();    // how it is seen
-std::vector<Quantity> lightQuantities();     // by what it is lit
-std::vector<Quantity> materialQuantities();  // of what it is made
+std::vector<Quantity> placeQuantities();     // position and size of the scene
+std::vector<Quantity> cameraQuantities();    // camera
+std::vector<Quantity> lightQuantities();     // lights
+std::vector<Quantity> materialQuantities();  // materials
 std::vector<Quantity> shadowQuantities();    // shadow maps and haze
-std::vector<Quantity> amountQuantities();    // how much there is of it: lights, triangles, pixels, seconds
+std::vector<Quantity> amountQuantities();    // amounts: lights, triangles, pixels, seconds
 
-// What several lack.
+// Shared reasons why a quantity or relation does not apply; empty if it does.
 std::string lacksNothing(const Subject& subject);
-std::string lacksSurface(const Subject& subject);  // no surface is seen, or the camera is orthographic
+std::string lacksSurface(const Subject& subject);  // no surface is visible, or the camera is orthographic
 std::string lacksLocalLight(const Subject& subject);
 std::string lacksSun(const Subject& subject);
 std::string lacksEnvironment(const Subject& subject);

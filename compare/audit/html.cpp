@@ -29,7 +29,7 @@ std::string headOf(const std::vector<std::string>& names) {
     return out + "</tr></thead>\n";
 }
 
-// How far every series of every quantity holds.
+// The range that every series of every quantity meets.
 std::string tableOf(const Audit& audit) {
     std::vector<std::string> names{"quantity", "settings"};
     for (const Criterion& criterion : criteria) names.emplace_back(criterion.title);

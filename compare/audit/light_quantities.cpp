@@ -22,7 +22,7 @@ float times(float value, double factor) {
     return static_cast<float>(double{value} * factor);
 }
 
-// All that sends light: the picture is so many times as bright.
+// Scales everything that emits light, and thus the image's radiance.
 void pushIntensity(Case& pushed, const Subject&, double factor) {
     for (Light& light : pushed.scene.lights) light.intensity = times(light.intensity, factor);
     Settings& settings = pushed.settings;
@@ -38,7 +38,7 @@ void pushIntensity(Case& pushed, const Subject&, double factor) {
     pushed.scene.background = glm::vec3(glm::dvec3(pushed.scene.background) * factor);
 }
 
-// The brightest of what there is, in units of its own.
+// Range of light intensities, each in its own unit.
 Predicted predictIntensity(const Subject& subject, const Settings&, double) {
     double most = 0, least = std::numeric_limits<double>::infinity();
     for (const Light& light : subject.given.scene.lights) {
@@ -46,7 +46,7 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
         most = std::max(most, double{light.intensity});
         least = std::min(least, double{light.intensity});
     }
-    // Products with distances squared and D keep some ten binary orders from either end.
+    // Products with squared distances and D keep some ten binary orders from either end.
     return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
             .down = std::isfinite(least) ? 0x1p-116 / least : 0,
             .because = "light is float32 from its source to the picture: 1e-38 to 3e38"};
@@ -57,7 +57,7 @@ Predicted predictRange(const Subject&, const Settings&, double) {
                 "the range window uses the squared ratio of distance to range, which one step computes"};
 }
 
-// Whether something else than local lights shines on surfaces.
+// Whether anything but local lights shines on surfaces.
 bool hasOtherLight(const Subject& subject) {
     const Scene& scene = subject.given.scene;
     const Rgb& ambient = subject.given.settings.ambient;
@@ -66,9 +66,9 @@ bool hasOtherLight(const Subject& subject) {
                                [](const Light& light) { return !isLocal(light) && light.intensity > 0; });
 }
 
-// As bright in the middle as it was, a light at a height h is as h^3 elsewhere, where what is not local
-// outshines it: its height then decides over a place as large as h alone, which is less than the hundredth of
-// the picture that a 99th percentile leaves out before h is so small that its rounding matters.
+// A light at height h, scaled to equal brightness at the centre, is h^3 as bright elsewhere, where other
+// light outshines it. Its height then only matters in an area as wide as h. Before rounding of h matters,
+// that area is less than the hundredth of the image that a 99th percentile ignores.
 Predicted predictDistance(const Subject& subject, const Settings&, double error) {
     if (hasOtherLight(subject))
         return {.because =
@@ -101,7 +101,7 @@ void pushRange(Case& pushed, const Subject&, double metres) {
         if (isLocal(light)) light.range = static_cast<float>(metres);
 }
 
-// Local lights go to a place by themselves, as bright there as they were at theirs.
+// Moves each local light towards a point, scaled to keep its brightness there.
 void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres) {
     for (Light& light : pushed.scene.lights) {
         if (!isLocal(light)) continue;
@@ -136,7 +136,7 @@ double originalEye(const Subject& subject) {
     return localDistance(subject, subject.view.eye());
 }
 
-// As bright as they are: beside the eye a light shines on what is seen, not on the eye.
+// Intensities stay: a light beside the eye lights the visible surfaces, not the eye.
 void pushEye(Case& pushed, const Subject& subject, double metres) {
     const glm::dvec3 eye = subject.view.eye();
     for (Light& light : pushed.scene.lights) {
@@ -152,7 +152,7 @@ std::string lacksDistance(const Subject& subject) {
     return light.empty() ? lacksSurface(subject) : light;
 }
 
-// Points and spots become spots without a soft edge, which shine at the middle of the picture.
+// Point and spot lights become spot lights without a penumbra, aimed at the image's centre.
 void pushCone(Case& pushed, const Subject& subject, double degrees) {
     for (Light& light : pushed.scene.lights) {
         if (light.kind != LightKind::point && light.kind != LightKind::spot) continue;
@@ -178,8 +178,8 @@ float sumOf(const float* pixel) {
     return pixel[0] + pixel[1] + pixel[2];
 }
 
-// Radiance, its maps and their sums are float32; a path's estimate of it has a factor of at most some
-// thousand beside it. Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
+// Radiance, its maps and their sums are float32; a path's estimate multiplies it by some thousand at most.
+// Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
 Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
     const Image& radiance = subject.given.scene.environment->radiance;
     float most = 0;
@@ -191,7 +191,7 @@ Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
             .at_most = true};
 }
 
-// Its brightest pixel alone.
+// Scales only the brightest pixel.
 void pushEnvironment(Case& pushed, const Subject&, double factor) {
     Image& radiance = pushed.scene.environment->radiance;
     std::size_t brightest = 0;

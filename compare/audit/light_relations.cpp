@@ -32,7 +32,7 @@ std::string lacksSplittable(const Subject& subject) {
     return lacksPerObject(subject);
 }
 
-// Every light, so that it matters wherever one looks; but haze scatters the light of one sun.
+// Splits every light, so that all views are affected; haze, though, scatters the light of only one sun.
 void splitLights(Related& related, const Subject&) {
     std::vector<Light> halves;
     for (Light light : related.changed.scene.lights) {
@@ -47,7 +47,7 @@ void splitLights(Related& related, const Subject&) {
 }
 
 void multiplyLight(Related& related, const Subject& subject, double factor) {
-    // What is drawn without lighting sends its base colour, whatever is multiplied.
+    // Unlit materials emit their base colour, whatever is multiplied.
     for (std::size_t i = 0; i < related.base.scene.materials.size(); ++i) {
         if (!related.base.scene.materials[i].unlit) continue;
         related.own_base = true;
@@ -64,7 +64,7 @@ void multiplyLightMuch(Related& related, const Subject& subject) {
     multiplyLight(related, subject, 0x1p-6);
 }
 
-// Where the camera looks, so that its place is in many lists; before and after the others.
+// Lights where the camera looks, so that they are in many lists; before and after the others.
 void addDarkLights(Related& related, const Subject& subject) {
     Light dark;
     dark.name = "dark";
@@ -78,7 +78,7 @@ void addDarkLights(Related& related, const Subject& subject) {
     lights.push_back(dark);
 }
 
-// Bright ones whose range ends before it reaches anything.
+// Bright lights whose range ends before they reach anything.
 void addFarLights(Related& related, const Subject& subject) {
     const double away = 4 * subject.bounds.radius() + 16;
     Light far;

@@ -31,7 +31,7 @@ void pushNormalMap(Case& pushed, const Subject&, double strength) {
         if (material.normal_texture.texture >= 0) material.normal_scale = static_cast<float>(strength);
 }
 
-// Every surface sends so much of its own, in place of what it sends.
+// Replaces every surface's emission.
 void pushEmission(Case& pushed, const Subject&, double radiance) {
     const auto sent = static_cast<float>(std::min(radiance, double{std::numeric_limits<float>::max()}));
     for (Material& material : pushed.scene.materials) material.emissive = glm::vec3(sent);
@@ -41,7 +41,7 @@ void pushEmission(Case& pushed, const Subject&, double radiance) {
     }
 }
 
-// Of every vertex, beside the material's own.
+// Sets every vertex colour, beside the material's colour.
 void pushColor(Case& pushed, const Subject&, double factor) {
     for (Mesh& mesh : pushed.scene.meshes)
         for (Primitive& primitive : mesh.primitives)
@@ -53,7 +53,7 @@ std::string lacksTexture(const Subject& subject) {
     return subject.given.scene.images.empty() ? "no material has a texture" : "";
 }
 
-// Colours, normals and all else; alpha stays, which decides where a surface is.
+// Colours, normals and all else; keeps alpha, which decides where a surface is.
 template <class Value>
 void setTexels(std::vector<Value>& texels, Value value) {
     for (std::size_t i = 0; i < texels.size(); ++i)

@@ -39,8 +39,8 @@ ChannelStats statsOf(int mode, const Frame& truth, const Frame& test, const Cove
     return channelStats(channel.metric, channel.kind, truth.channels.at(mode), test.channels.at(mode), where);
 }
 
-// The 99th percentile over the pixels of the largest difference of a component of pictures of lit, as a part
-// of white. Both are exposed alike, by the truth.
+// 99th percentile over pixels of the largest component difference between images of lit, as a fraction of
+// white. Both use the truth's exposure.
 double pictureError(const Frame& truth, const Frame& test, const Coverage& where, double exposure) {
     PictureScale scale;
     scale.exposure = exposureFor({}, &truth.channels.at(litOf), where);
@@ -62,7 +62,7 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
     return apart[static_cast<std::size_t>(rank)] / 255.0;
 }
 
-// Removes the pixels for which `out` holds.
+// Removes the pixels that `out` selects.
 template <class Out>
 void remove(Coverage& where, const Out& out) {
     for (std::size_t i = 0; i < where.covered.size(); ++i)
@@ -72,8 +72,8 @@ void remove(Coverage& where, const Out& out) {
         }
 }
 
-// Whether something blends within so many pixels: there the reference of captured surfaces traces what blends
-// by rays of its own, whose light it filters otherwise than a path does.
+// Whether a blended surface is within this many pixels. There the reference of captured surfaces traces
+// its own rays through blended surfaces, whose light it filters differently from a path.
 constexpr int blendedReach = 2;
 bool isNearBlended(const Image& blended, std::size_t pixel) {
     if (blended.pixels() == 0) return false;
@@ -86,7 +86,7 @@ bool isNearBlended(const Image& blended, std::size_t pixel) {
     return false;
 }
 
-// Leaves of a material what decides where its surface is seen.
+// Keeps only the properties of a material that decide where its surface is visible.
 void leaveShape(Material& material) {
     for (TextureSlot* slot :
          {&material.metallic_roughness_texture, &material.normal_texture, &material.occlusion_texture,
@@ -112,7 +112,7 @@ Outcome failedOutcome(const std::string& why) {
     return outcome;
 }
 
-// The scene that a planted fault makes of another, and what draws it.
+// The scene after an injected fault, and its renderer.
 struct Spoilt {
     std::optional<Case> spoilt;
     std::optional<SceneViews> views;
@@ -254,7 +254,7 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series) {
 
 Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> series) {
     Drawn drawn;
-    // One core traces while the device draws, and shades what was drawn.
+    // One core traces rays while the device renders, and then shades the captured surfaces.
     std::future<Frame> rays =
         std::async(std::launch::async, [&pushed] { return tracedRays(pushed.scene, pushed.settings); });
     {
@@ -286,7 +286,7 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
     Step step;
     step.magnitude = magnitude;
     try {
-        // What changes pictures alone is drawn once.
+        // A quantity that only changes images is rendered once.
         const bool again = quantity && quantity->of_pictures;
         std::optional<Drawn> own;
         if (!again || fault_.scene || fault_.picture)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a pushed case by either path and holds it against the reference.
+// Renders a modified case by either path and compares it with the reference.
 #pragma once
 
 #include "compare/audit/quantity.h"
@@ -19,7 +19,7 @@
 
 namespace diptych::audit {
 
-// One line of a plot: a path, with Settings that differ from those that are given.
+// One line of a plot: a path with changed Settings.
 struct Series {
     Path path = Path::deferred;
     std::vector<Change> changes;
@@ -28,38 +28,38 @@ struct Series {
     std::string words() const;  // "deferred, gbuffer full"
 };
 
-// Series that each draw another picture, and in words what was left out of them because it does not.
+// Series that render different images, and descriptions of the omitted ones.
 struct ChosenSeries {
     std::vector<Series> series;
     std::vector<std::string> left_out;  // "forward_plus, gbuffer full: is drawn as forward_plus"
 
-    // `settings`: the whole of them, as the series is drawn. Leaves out what has no meaning, and what draws
-    // the same picture as a series that is there.
+    // Adds a series unless it has no meaning or renders the same image as an earlier series. `settings`:
+    // all Settings of the series.
     void add(Series series, const Settings& settings);
 
 private:
     std::vector<Settings> known_;
 };
 
-// The series of a quantity: both paths as they are given; deferred with a G-buffer of float32, which rounds
-// no more than arithmetic does; and what the quantity names.
+// Series of a quantity: both paths with the original Settings; deferred with a float32 G-buffer, which
+// rounds no more than arithmetic does; and the quantity's variants.
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject);
 
 struct Outcome {
-    // 99th percentiles, by nearest rank, of the relative errors (PixelError) of the pixels that show a
-    // surface: at edges a path and the reference may see another surface through rounding alone.
-    // `light`: of lit, against the reference's of the surfaces that forward+ captures in float32; of pictures
-    // (Case::exposure) the difference of a component, as a part of white.
+    // 99th percentiles (nearest rank) of relative errors (PixelError) over pixels that show a surface. At
+    // edges, rounding alone may make a path and the reference see different surfaces.
+    // `light`: of lit, against the reference's shading of the surfaces that forward+ captures in float32.
+    // For 8-bit images (Case::exposure), the largest component difference as a fraction of white.
     // `depth`: of view depth, against rays that the reference traces in double.
     double light = 0, depth = 0;
-    double flip = 0;                 // mean HDR-FLIP of the whole picture, against the former
-    std::uint64_t misplaced = 0;     // pixels that show another material than the latter, or none
+    double flip = 0;                 // mean HDR-FLIP of the image; reference as for `light`
+    std::uint64_t misplaced = 0;     // pixels with another material than the traced rays, or none
     std::uint64_t nonfinite = 0;     // pixels of lit that are NaN or infinite
-    int worst_x = -1, worst_y = -1;  // the first that is no number, or else of the largest error of lit
-    std::string failed;              // why nothing was drawn; then the errors are infinite
-    double light_999 = 0;            // `light` of 99.9 % of the pixels; of what is measured now alone
+    int worst_x = -1, worst_y = -1;  // first non-finite pixel, or the one with the largest error of lit
+    std::string failed;              // why nothing was rendered; the errors are then infinite
+    double light_999 = 0;            // `light` at 99.9 % of pixels; only for the current measurement
 
-    // The larger of both; infinite where a pixel is no number.
+    // The larger of both; infinite if a pixel is not finite.
     double error() const {
         return nonfinite > 0 ? std::numeric_limits<double>::infinity() : std::max(light, depth);
     }
@@ -67,9 +67,9 @@ struct Outcome {
 
 struct Step {
     double magnitude = 0;
-    std::vector<Outcome> outcomes;  // as the series
-    // Quantity::same_picture: the reference's own error() against its picture of the scene as it is, which is
-    // the truth then: how far it could be trusted by itself.
+    std::vector<Outcome> outcomes;  // one for each series
+    // Quantity::same_picture: error() of the reference itself against its image of the original scene,
+    // which is then the truth. Measures how far the reference can be trusted.
     std::optional<double> reference_moved{};
     std::uint64_t covered = 0;  // pixels of the reference that show a surface
     std::string failed;         // why there is no reference
@@ -77,11 +77,11 @@ struct Step {
 
 class Measurer {
 public:
-    // `device` and `subject` outlive it. Draws the reference of the subject as it is.
+    // `device` and `subject` must outlive it. Renders the reference of the original subject.
     Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep);
 
-    // What is wrong with the paths, for tests of what an audit finds: they draw another scene than the truth
-    // is of, or their picture is another one. `channels`: what of it `picture` reads beside lit and depth.
+    // An injected fault for tests: the paths render another scene than the truth, or their image is
+    // changed. `channels`: channels that `picture` reads, beside lit and depth.
     struct Fault {
         std::function<void(Case&)> scene{};
         std::function<void(const Case&, Frame&)> picture{};
@@ -89,25 +89,25 @@ public:
     };
     void plant(Fault fault) { fault_ = std::move(fault); }
 
-    // Of the pixels of the truth of the subject as it is, which stand for whatever files it comes from.
+    // Hash of the pixels of the original subject's truth; represents all files that it comes from.
     std::string fingerprint();
     Step measure(const Quantity& quantity, std::span<const Series> series, double magnitude);
-    // The same of a case that is pushed already.
+    // Measures an already modified case.
     Step measure(const Case& pushed, std::span<const Series> series);
 
 private:
-    // What a path is held against: lit of captured surfaces; depth and materials of traced rays.
+    // Ground truth for a path: lit of captured surfaces; depth and materials of traced rays.
     struct Truth {
         Frame lit, rays;
     };
     static Frame litOfSurfaces(Renderer& renderer, Settings settings);
-    // Takes from the scene what does not decide where a surface is.
+    // Removes from the scene what does not decide where a surface is.
     static Frame tracedRays(Scene scene, Settings settings);
-    // Of the subject as it is, in a picture of this size.
+    // Truth of the original subject at an image size.
     const Truth& original(const Size& size);
     // `exposure`: Case::exposure.
     static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
-    // What is drawn of a case: the truth of it, and a Frame of each series or why there is none.
+    // Results for a case: its truth, and for each series a Frame or the reason why there is none.
     struct Drawn {
         Truth truth;
         std::vector<Frame> frames;
@@ -121,8 +121,8 @@ private:
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::pair<int, int>, Truth> original_;  // by the picture's width and height
-    std::optional<Drawn> pictures_;                  // of the quantity that changes pictures alone
+    std::map<std::pair<int, int>, Truth> original_;  // by image width and height
+    std::optional<Drawn> pictures_;                  // of a quantity that only changes images
     Fault fault_{};
 };
 

@@ -12,7 +12,7 @@ namespace diptych::audit {
 
 namespace {
 
-// Level, so that haze stays as it is, and along no axis.
+// Horizontal, so that haze stays the same, and along no axis.
 const glm::dvec3 away = glm::normalize(glm::dvec3(0.8, 0, 0.6));
 
 void pushOffset(Case& pushed, const Subject&, double metres) {
@@ -23,7 +23,7 @@ void pushScale(Case& pushed, const Subject&, double factor) {
     scaleLengths(pushed, factor);
 }
 
-// Vertices that lie far from the origin of their own mesh, whose node brings them back.
+// Moves vertices far from their mesh's origin; its node moves them back.
 void pushVertex(Case& pushed, const Subject&, double metres) {
     Scene& scene = pushed.scene;
     const glm::dvec3 offset = metres * away;
@@ -35,7 +35,7 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
             primitive.deformation_bounds = {};
         }
     const auto back = glm::translate(glm::dmat4(1), -offset);
-    // The mesh alone is brought back, not the nodes below.
+    // Moves back only the mesh, not child nodes.
     const std::size_t count = scene.nodes.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (scene.nodes[i].mesh < 0 || scene.nodes[i].skin >= 0) continue;
@@ -53,7 +53,7 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
     }
 }
 
-// Of the scene, m: how far away what is seen is.
+// Viewing distance, m.
 double distanceOf(const Subject& subject) {
     return subject.seen ? glm::distance(subject.point, subject.view.eye())
                         : std::max(subject.bounds.radius(), 1e-6);
@@ -76,7 +76,7 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
     for (const Light& light : subject.given.scene.lights)
         if (light.kind == LightKind::point || light.kind == LightKind::spot)
             least = std::min(least, double{light.intensity});
-    // Candela go with the square of the factor.
+    // Candela scale with the square of the factor.
     const double dim = std::isfinite(least) && least > 0 ? std::sqrt(0x1p-126 / least) : 0;
     return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
             .down = std::max(dim, 0x1p-63 / distanceOf(subject)),

@@ -11,16 +11,16 @@ namespace diptych::audit {
 
 namespace {
 
-// Level, along no axis, in radii of the scene: float32 would place it within a hundredth of its size, and
-// double has bits to spare.
+// Horizontal and along no axis, in radii of the scene. float32 would place the scene to a hundredth of its
+// size; double has bits to spare.
 const glm::dvec3 movedBy{86421.3, 0, -50321.7};
 constexpr double turnedBy = 37;  // degrees
-// Even, so that the 2x2 pixels whose differences choose a texture's level stay together; not a multiple of
-// what tiles are.
+// Even, so that the 2x2 pixels whose differences choose a mip level stay together; not a multiple of a
+// tile's size.
 constexpr int border = 6;
 
-// Puts scene, lights and camera elsewhere: world' = place * world, whose 3x3 part is orthogonal. Where it
-// mirrors, so does the picture.
+// Transforms scene, lights and camera: world' = place * world, whose 3x3 part is orthogonal. If it
+// mirrors, so does the image.
 void placeAll(Case& placed, const glm::dmat4& place) {
     const glm::dmat3 turn(place);
     const bool mirrors = glm::determinant(turn) < 0;
@@ -49,14 +49,14 @@ void turnTogether(Related& related, const Subject&) {
     related.map.turn = glm::dmat3(turn);
 }
 
-// Numbers of 0 and 1 alone.
+// A matrix of only 0 and 1.
 void turnByAQuarter(Related& related, const Subject&) {
     const glm::dmat3 quarter({0, 0, -1}, {0, 1, 0}, {1, 0, 0});
     placeAll(related.changed, glm::dmat4(quarter));
     related.map.turn = quarter;
 }
 
-// Without textures: which pixel of 2x2 decides on a level of a texture is not mirrored.
+// Without textures: the pixel of 2x2 that decides a texture's mip level is not mirrored.
 void mirror(Related& related, const Subject&) {
     related.own_base = true;
     for (Case* of : {&related.base, &related.changed})
@@ -89,7 +89,7 @@ std::string lacksMirrorable(const Subject& subject) {
     return lacksTurnable(subject);
 }
 
-// A wider picture of the same pixels.
+// A wider view whose central pixels stay the same.
 void shiftTiles(Related& related, const Subject&) {
     Size& size = related.changed.settings.size;
     const double taller = static_cast<double>(size.height + 2 * border) / size.height;
@@ -106,7 +106,7 @@ std::string lacksWithoutFar(const Subject& subject) {
     return lacksWithShadows(subject);
 }
 
-// The stored depth is the near plane's distance over the view depth where nothing is too far.
+// Stored depth is the near plane's distance over view depth if there is no far plane.
 void halveNear(Related& related, const Subject&) {
     related.own_base = true;
     for (Case* of : {&related.base, &related.changed})

@@ -18,7 +18,7 @@ constexpr double plotWidth = 720, plotHeight = 380, leftEdge = 74, rightEdge = 1
 constexpr double legendLine = 18;
 constexpr double leastError = 1e-8, mostError = 1e2;
 
-// Over many decades only some have their name, and nothing is marked between them.
+// Over many decades, labels only some ticks and removes the unlabelled ones.
 std::vector<Tick> fewerNames(std::vector<Tick> ticks) {
     constexpr std::size_t most = 9;
     const auto named = static_cast<std::size_t>(
@@ -50,7 +50,7 @@ public:
         if (audit_.original > 0)
             out += fmt::format("<line class=\"usual\" x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{2}\"/>",
                                svgNumber(x(audit_.original)), svgNumber(box_.top), svgNumber(box_.bottom));
-        // Of series that lie on each other the first is on top.
+        // The first of overlapping series is on top.
         for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
         out += legend();
         return plotElement(plotWidth,
@@ -78,7 +78,7 @@ private:
         return box_.bottom - up_.place(shown) * (box_.bottom - box_.top);
     }
     std::string kind(std::size_t s) const {
-        // Dashes tell series of one path apart.
+        // Dashes distinguish series of the same path.
         std::size_t before = 0;
         for (std::size_t i = 0; i < s; ++i) before += audit_.series[i].path == audit_.series[s].path;
         return fmt::format("curve {} dash{}", nameOf(audit_.series[s].path),

@@ -8,8 +8,8 @@
 
 namespace diptych::audit {
 
-// Errors of every series over the magnitude, both axes logarithmic. What is below 1e-8, where float32 rounds,
-// stands at the foot, infinite errors at the top, and a magnitude of 0 at the left.
+// Errors of every series over the magnitude, both axes logarithmic. Errors below 1e-8, where float32
+// rounds, are at the bottom; infinite errors at the top; magnitude 0 at the left.
 std::string auditPlot(const QuantityAudit& audit, PlotPlace place);
 
 }  // namespace diptych::audit

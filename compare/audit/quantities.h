@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All quantities that an audit knows.
+// All stress parameters that an audit can vary.
 #pragma once
 
 #include "compare/audit/quantity.h"
@@ -13,8 +13,8 @@ namespace diptych::audit {
 
 std::span<const Quantity> quantities();
 
-// Those of these names, all without any, in the order of quantities(). Throws std::runtime_error naming
-// `option` and the one that there is not.
+// Quantities with these names, or all if there are none, in the order of quantities(). Throws
+// std::runtime_error with `option` and the unknown name.
 std::vector<const Quantity*> quantitiesOf(std::span<const std::string> names,
                                           std::string_view option = "--quantity");
 

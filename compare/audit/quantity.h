@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an audit pushes, one at a time: each quantity with the magnitudes that are tried.
+// Stress parameters of an audit, varied one at a time, with the magnitudes to try.
 #pragma once
 
 #include "compare/audit/case.h"
@@ -11,17 +11,17 @@
 
 namespace diptych::audit {
 
-// A Setting in the words of Settings::set().
+// A Setting in the syntax of Settings::set().
 struct Change {
     std::string_view option, value;
 };
 
-// How far a quantity can be pushed before arithmetic fails, by what is known of it: magnitudes.
+// Predicted magnitudes at which arithmetic fails.
 struct Predicted {
     static constexpr double never = std::numeric_limits<double>::infinity();
-    double up = never, down = 0;  // of those above and below the usual one
-    std::string because{};        // "float32 has 24 bits: ..."; empty: nothing is predicted
-    // Arithmetic alone ends there; what approximates light may err before, by how much nothing predicts.
+    double up = never, down = 0;  // above and below the default magnitude
+    std::string because{};        // "float32 has 24 bits: ..."; empty: no prediction
+    // Only arithmetic ends there; approximations of light may fail earlier, by an unpredicted amount.
     bool at_most = false;
 };
 
@@ -30,24 +30,24 @@ struct Quantity {
     std::string_view unit;               // "m"; may be empty
     std::string_view what;               // "scene, lights and camera moved together away from the origin"
     std::vector<double> magnitudes;      // ascending; above 0, but for a first one of 0
-    double (*original)(const Subject&);  // that of the scene as it is, or the nearest that shows it alike
-    // Why this scene cannot be pushed so; empty where it can.
+    double (*original)(const Subject&);  // that of the original scene, or the nearest that looks the same
+    // Why this scene cannot be varied; empty if it can.
     std::string (*lacks)(const Subject&);
-    // Pushes a case that is as given.
+    // Modifies an original case.
     void (*push)(Case&, const Subject&, double magnitude);
-    // Settings that matter here, each beside those that are given.
+    // Relevant Settings, each tried beside the original ones.
     std::vector<Change> variants = {};
-    // Whether the picture is that of the scene as it is at every magnitude, which is the truth then; but that
-    // its light is multiplied by the magnitude, or its lengths are.
+    // Whether the image stays that of the original scene, which is then the truth. `light`, `lengths`:
+    // except that its light or its lengths are multiplied by the magnitude.
     bool same_picture = false, light = false, lengths = false;
-    bool of_pictures = false;  // Case::exposure alone is pushed, so that frames stay the same
-    bool whole = false;        // magnitudes are whole numbers
-    // At which magnitude the relative error of a path with these Settings reaches `error`.
+    bool of_pictures = false;  // only changes Case::exposure, so frames stay the same
+    bool whole = false;        // magnitudes are integers
+    // Magnitudes at which the relative error of a path with these Settings reaches `error`.
     Predicted (*predict)(const Subject&, const Settings&, double error) = nullptr;
-    bool predicts_formats = false;  // also with other formats of depth than reversed floats
+    bool predicts_formats = false;  // also predicts depth formats other than reversed floats
 };
 
-// Whether a path with these Settings has no other error than arithmetic's: predictions are of such.
+// Whether arithmetic is the only error of a path with these Settings; predictions assume so.
 bool isPrecise(const Settings& settings);
 
 }  // namespace diptych::audit

@@ -21,8 +21,7 @@ public:
 
     std::optional<Reduced> run() {
         if (!accept(Case(now_))) return {};
-        // First, so that all that follows is drawn in no time; again at the end where it needs more pixels
-        // now.
+        // First, so that all later steps render fast; again at the end if it needs more pixels now.
         onePixel();
         dropNodes();
         dropLights();
@@ -40,7 +39,7 @@ public:
     }
 
 private:
-    // Takes the case in place of the present one if it fails too.
+    // Replaces the current case if the candidate fails too.
     bool accept(Case candidate) {
         if (tried_ >= budget_) return false;
         ++tried_;
@@ -51,7 +50,7 @@ private:
         return true;
     }
 
-    // Removes parts of `count`, first by halves, then by ever smaller ones. remove(case, from, to).
+    // Removes ranges of `count` elements, first halves, then smaller ones. remove(case, from, to).
     template <class Count, class Remove>
     void shrink(const Count& count, std::size_t least, const Remove& remove) {
         for (std::size_t part = (count(now_) + 1) / 2; part > 0; part /= 2)
@@ -70,7 +69,7 @@ private:
                    const auto nodes = c.scene.nodes.begin();
                    c.scene.nodes.erase(nodes + static_cast<std::ptrdiff_t>(from),
                                        nodes + static_cast<std::ptrdiff_t>(to));
-                   // Each node has the mesh of its own number.
+                   // Each node has the mesh of its own index.
                    const auto mesh = c.scene.meshes.begin();
                    c.scene.meshes.erase(mesh + static_cast<std::ptrdiff_t>(from),
                                         mesh + static_cast<std::ptrdiff_t>(to));
@@ -79,7 +78,7 @@ private:
                });
     }
 
-    // The last one stays: a scene without lights has a sun.
+    // Keeps the last one: a scene without lights has a default directional light.
     void dropLights() {
         shrink([](const Case& c) { return c.scene.lights.size(); }, 1,
                [](Case& c, std::size_t from, std::size_t to) {
@@ -105,7 +104,7 @@ private:
                });
     }
 
-    // Looks through the worst pixel alone.
+    // Points the camera at the worst pixel only.
     void onePixel() {
         const Camera& camera = now_.camera();
         if (camera.orthographic || shown_.x < 0) return;

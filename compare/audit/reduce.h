@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the smallest scene that still shows a failure: delta debugging (Zeller and Hildebrandt 2002,
-// "Simplifying and Isolating Failure-Inducing Input") over what is drawn, lights and triangles, then one
-// pixel.
+// Finds the smallest scene that still shows a failure. Delta debugging (Zeller and Hildebrandt 2002,
+// "Simplifying and Isolating Failure-Inducing Input") over draws, lights and triangles, then one pixel.
 #pragma once
 
 #include "compare/audit/case.h"
@@ -24,8 +23,8 @@ struct Reduced {
     std::size_t triangles = 0, lights = 0, tried = 0;
 };
 
-// `test`: whether a case fails as it should. At most `budget` cases are tried; nothing where the scene
-// without textures and motion does not fail.
+// `test`: whether a case fails as expected. Tries at most `budget` cases. Empty if the scene without
+// textures and animation does not fail.
 std::optional<Reduced> reduce(const Case& failing, const std::function<FailingPixel(const Case&)>& test,
                               std::size_t budget);
 

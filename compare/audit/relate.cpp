@@ -7,7 +7,6 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/gbuffer.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
@@ -28,18 +27,19 @@ namespace {
 
 constexpr auto relatedLit = static_cast<int>(gpu::DEBUG_lit);
 
-// Roundings that a term of lit passes through on its way from a vertex, beside those of the sum: transform,
-// interpolation, normalisation, D, V, F, attenuation, each of some ten operations.
+// Roundings of a term of lit from the vertex on, without those of the sum: transform, interpolation,
+// normalisation, D, V, F, attenuation, each of some ten operations.
 constexpr double roundingsOfATerm = 128;
-// Other terms of lit: emission, ambient light, lightmap, the environment's two, haze, and products of a sum.
+// Other terms of lit: emission, ambient light, lightmap, the environment's two, haze, and products of a
+// sum.
 constexpr double termsBesideLights = 8;
-// Of the differences of two places a pixel apart, across and down: each of the four is the last of some
-// seven, three products, three sums and an interpolation.
+// Differences of positions one pixel apart, across and down. Each of the four positions rounds some seven
+// times: three products, three sums and an interpolation.
 constexpr double roundingsOfAFacet = 28;
-// That a filter's weight falls on another of 256 steps between two texels: in two directions, in up to four
-// maps of two levels each, by coordinates that four operations have rounded.
+// Chance that a filter's weight takes another of 256 steps between two texels: in two directions, in up to
+// four maps of two levels each, with coordinates rounded by four operations.
 constexpr double chancesOfATexel = 256.0 * 2 * 4 * 2 * 4;
-constexpr double mostFiltered = 0.25;  // where more are, something else is wrong
+constexpr double mostFiltered = 0.25;  // more than this is another fault
 constexpr double roundoff = 0x1p-24;   // of one float32 operation
 
 RenderOptions drawingRelated(bool packed = false) {
@@ -64,27 +64,25 @@ bool anyBlends(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const Material& m) { return blends(m); });
 }
 
-// By how much a component of a channel may be off, decoded from a G-buffer; emission: a part of the largest.
+// Error bound of a channel's component decoded from the G-buffer; emission: relative to the largest
+// component.
 std::map<int, double> packedBounds(const Settings& settings) {
-    if (settings.gbuffer == GBufferEncoding::full || settings.path != Path::deferred) return {};
-    const bool compact = settings.gbuffer == GBufferEncoding::compact;
-    const auto normal = [](unsigned bits) { return glm::radians(octahedralBound(bits)); };
-    return {
-        {gpu::DEBUG_albedo, squareBound(gpu::ALBEDO_BITS)},
-        {gpu::DEBUG_normals, normal(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
-        {gpu::DEBUG_geometric_normal,
-         normal(compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS)},
-        {gpu::DEBUG_metallic, unormBound(compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS)},
-        {gpu::DEBUG_roughness,
-         unormBound(compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS)},
-        {gpu::DEBUG_emission, radianceBound()}};
+    if (settings.path != Path::deferred) return {};
+    Requirements needs;
+    needs.emission = true;
+    std::map<int, double> bounds;
+    for (const int mode : relatedChannels())
+        if (const auto field = storedField(mode, settings.gbuffer, needs))
+            bounds[mode] = field->code == StoredField::Code::octahedral ? glm::radians(field->largestBound())
+                                                                        : field->largestBound();
+    return bounds;
 }
 
 bool isReferenceSeries(const Series& series) {
     return series.path == Path::reference;
 }
 
-// Of the picture; of an orthographic one as it is seen from as far as it is drawn from.
+// Pixels per radian of the image; an orthographic one as seen from the distance at which it is rendered.
 double pixelsPerRadian(const Subject& subject) {
     const Camera& camera = subject.view.camera;
     if (!camera.orthographic) return subject.view.height / (2 * std::tan(camera.yfov / 2));
@@ -206,7 +204,7 @@ RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const 
     const double terms =
         static_cast<double>(std::max(related.base.scene.lights.size(), related.changed.scene.lights.size())) +
         termsBesideLights;
-    // Of both pictures: either may round the other way.
+    // Both images may round in opposite directions.
     if (relation.equality == Equality::sums) tolerance.relative = 2 * terms * roundoff;
     if (relation.equality != Equality::rounding) return tolerance;
     tolerance.relative = 2 * (terms + roundingsOfATerm) * roundoff;
@@ -257,11 +255,11 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
         before.push_back(settingsOfSeries(series, related.base.settings));
         after.push_back(settingsOfSeries(series, related.changed.settings));
     }
-    // The given pictures are drawn once, unless a relation has others.
+    // The original images are rendered once, unless a relation has its own base.
     const bool own = related.own_base;
     std::optional<Drawn> others;
-    // The reference integrates an environment for a minute where a path looks up its maps. It decides
-    // nothing: it says whose fault it is that a path breaks a relation, and what blends.
+    // The reference integrates an environment for a minute, where a path reads its maps. It decides
+    // nothing here: it only shows whose fault a broken relation is, and which pixels blend.
     const bool dear = related.base.scene.environment.has_value();
     if (own) others = draw(related.base, before, !dear || anyBlends(related.base.scene));
     if (!own && !given_) given_ = draw(related.base, before, !dear || anyBlends(related.base.scene));
@@ -305,7 +303,7 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
         of.tolerance.packed_light = of.tolerance.blended = nullptr;
         result.series.push_back(std::move(of));
     }
-    // Surfaces that lie in one another are seen by chance.
+    // Visibility among coinciding surfaces is arbitrary.
     if (relation.equality != Equality::rounding && !relation.reorders) return result;
     const bool many = std::ranges::any_of(
         result.series, [](const SeriesResult& of) { return of.comparison.aside > of.comparison.most_aside; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws what relations bind, by both paths and by the reference, and says whether they hold.
+// Renders the images of metamorphic relations, by both paths and the reference, and checks the relations.
 #pragma once
 
 #include "compare/audit/measure.h"
@@ -17,54 +17,54 @@
 
 namespace diptych::audit {
 
-// One renderer's two pictures.
+// One renderer's two images.
 struct SeriesResult {
-    Series series;      // the reference's, too: of mode scene, in double
-    std::string lacks;  // why the relation says nothing of it; empty where it does
+    Series series;      // also the reference's: mode scene, in double
+    std::string lacks;  // why the relation does not apply; empty if it does
     FrameResult comparison;
     RelationTolerance tolerance;
-    std::optional<Frame> given{}, changed{};  // of what is broken: with lit, mapped back
+    std::optional<Frame> given{}, changed{};  // only if broken: with lit, mapped back
 };
 
-// Whose fault a broken relation is, by what the reference in double precision says of it.
+// Likely cause of a broken relation, judged by the double-precision reference.
 enum class Blame { none, ours_likely, driver_or_ours, relation };
 
 struct RelationResult {
     const Relation* relation = nullptr;
-    std::string lacks;  // why it says nothing of this scene; empty where it does
+    std::string lacks;  // why it does not apply to this scene; empty if it does
     std::vector<SeriesResult> series;
 
-    bool passes() const;  // of the paths; the reference only tells whose fault it is
+    bool passes() const;  // of the paths; the reference only shows the cause
     Blame blame(bool cpu) const;
 };
 
-// The renderers that are asked: both paths as given, deferred with a G-buffer of float32, and last the
+// Renderers to test: both paths with the original Settings, deferred with a float32 G-buffer, and last the
 // reference.
 ChosenSeries relatedSeries(const Subject& subject);
 
 class RelationMeasurer {
 public:
-    // `device` and `subject` outlive it.
+    // `device` and `subject` must outlive it.
     RelationMeasurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep,
                      std::shared_ptr<PipelineSet> pipelines = nullptr);
 
-    // `spoil`: a fault that is planted in the changed case, for tests of this room; without one as it is.
+    // `spoil`: a fault injected into the changed case, for tests.
     RelationResult measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
-    // Of the series, in words.
+    // Descriptions of omitted series.
     const std::vector<std::string>& leftOut() const { return chosen_.left_out; }
 
 private:
-    // A case's pictures, as the series; without what a path refuses, whose words are in `failed`.
+    // Images of a case, one for each series. If a path rejects the case, `failed` has the message.
     struct Drawn {
         std::vector<std::optional<Frame>> frames;
         std::vector<std::string> failed;
     };
-    // `reference`: also what needs no device.
+    // `reference`: also render series that need no device.
     Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
-    // What draw() left out.
+    // Adds the series that draw() omitted.
     static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
-    // What the G-buffer's encoding changes in lit, as forward+ shades it, W x H x 1: of a case, in the place
-    // of its lit; and the sum of both cases, as the base shows them.
+    // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1. Of a case, in place of
+    // its lit; or the sum of both cases, in the base's pixels.
     Frame packedLight(const Case& of);
     Image packedLight(const Related& related);
     RelationTolerance toleranceOf(const Relation& relation, const Related& related,
@@ -74,15 +74,15 @@ private:
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    // Pixels of the given picture that show surfaces of one depth, either of which is seen where they are
-    // drawn in another order.
+    // Pixels of the original image where surfaces have equal depth, so that the drawing order decides
+    // which is visible.
     std::uint64_t tied();
 
     const ChosenSeries chosen_;
     const std::vector<Series>& series_ = chosen_.series;
     std::optional<std::uint64_t> tied_;
-    std::optional<Drawn> given_;  // the subject as it is
-    Image packed_light_;          // of the subject as it is
+    std::optional<Drawn> given_;  // the original subject
+    Image packed_light_;          // of the original subject
 };
 
 }  // namespace diptych::audit

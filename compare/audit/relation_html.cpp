@@ -26,7 +26,7 @@ std::string seriesCell(const SeriesResult& of) {
     return fmt::format("<i class=\"swatch {}\"></i>{}", nameOf(of.series.path), markup(seriesInWords(of)));
 }
 
-// What is broken first.
+// Broken relations come first.
 std::vector<const RelationResult*> ordered(const RelationAudit& audit) {
     std::vector<const RelationResult*> all;
     for (const RelationResult& of : audit.relations) all.push_back(&of);

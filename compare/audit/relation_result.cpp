@@ -33,11 +33,11 @@ constexpr std::array compared{
     roughnessMode, static_cast<int>(gpu::DEBUG_emission), idMode,     viewDepth,
     facet};
 
-// A vertex that is placed a step elsewhere moves an edge by as much: over the length of an edge that crosses
-// a pixel, 2 steps of it change sides, of either of two edges. Twice that, as they do not fall evenly.
+// Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
+// steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
 constexpr std::uint64_t edgesForOneAside = 16;
-constexpr std::uint64_t fewPixels = 8;  // chance decides of so few
-// Surfaces of one depth are an accident of modelling.
+constexpr std::uint64_t fewPixels = 8;  // chance decides about so few
+// Surfaces of equal depth are modelling accidents.
 constexpr std::uint64_t pixelsForOneTie = 100;
 
 double largest(const float* pixel, int components) {
@@ -47,7 +47,7 @@ double largest(const float* pixel, int components) {
     return most;
 }
 
-// Infinite where one is no number and the other is not the same.
+// Infinite if one value is not finite and the other is not the same.
 double apart(const float* a, const float* b, int components) {
     double most = 0;
     for (int c = 0; c < components; ++c) {
@@ -58,13 +58,13 @@ double apart(const float* a, const float* b, int components) {
     return most;
 }
 
-// Of what is allowed; what is no number is beyond all of it, also where that is infinite.
+// Fraction of the tolerance used; a non-finite error exceeds any tolerance, even an infinite one.
 double shareOf(double error, double allowed) {
     if (error == 0) return 0;
     return allowed > 0 && error < unbounded ? error / allowed : unbounded;
 }
 
-// In units in the last place of the largest component.
+// In ulps of the largest component.
 double ulpsApart(const float* a, const float* b, int components) {
     const double difference = apart(a, b, components);
     if (difference == 0 || difference == unbounded) return difference;
@@ -115,8 +115,8 @@ private:
     const Image& given(int mode) const { return given_.channels.at(mode); }
     const Image& changed(int mode) const { return changed_.channels.at(mode); }
 
-    // By how much a channel of either picture changes to the pixels around this one that show the same
-    // material, or to all where none does.
+    // Largest change of a channel, in either image, to neighbouring pixels of the same material, or to all
+    // if none has it.
     double variation(int mode, std::size_t pixel) const {
         double alike = 0, any = 0;
         bool found = false;
@@ -140,26 +140,26 @@ private:
                tolerance_.textured[static_cast<std::size_t>(id)];
     }
 
-    // By how much shading normals differ, radians, beyond what packing them may; they are judged themselves.
+    // Difference of shading normals, radians, beyond the packing error; normals are compared separately.
     double normalApart(std::size_t pixel) const {
         const auto packed = tolerance_.packed.find(normalMode);
         return std::max(0.0, apart(given(normalMode).pixel(pixel), changed(normalMode).pixel(pixel), 3) -
                                  (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
-    // By what part light changes for a radian of that, at most: ln D of GGX by 2 / alpha, where the half
-    // vector is alpha away, and cosines, Smith's and Fresnel's factors by some 4.
+    // Largest relative change of light per radian. ln D of GGX changes by 2 / alpha if the half vector is
+    // alpha away; cosines, Smith's and Fresnel's factors by some 4.
     double lightPerNormal(std::size_t pixel) const {
         const double roughness = given(roughnessMode).data[pixel];
         return 2 / std::max(roughness * roughness, leastAlpha) + 4;
     }
 
-    // Of `rounding`, of the largest component; without steps of a filter.
+    // Tolerance of `rounding` for the largest component, without steps of a texture filter.
     double allowedByRounding(int mode, std::size_t pixel) const {
         const Image &a = given(mode), &b = changed(mode);
         const double size =
             std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
         if (mode == idMode) return 0;
-        // A light's end cancels: what is left of it is rounded by parts of the whole.
+        // A light's end cancels: the remainder has rounding errors relative to the whole.
         double allowed = tolerance_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
                          std::numeric_limits<float>::min();
         if (mode == facet) allowed += tolerance_.facet;
@@ -176,7 +176,7 @@ private:
                allowedByRounding(mode, pixel);
     }
 
-    // Of a textured surface, whose light follows its channels: without what it changes by to the next pixel.
+    // For a textured surface, whose light follows its channels: without the change to the next pixel.
     bool isFilteredAlike(int mode, std::size_t pixel) const {
         const Image &a = given(mode), &b = changed(mode);
         const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
@@ -187,8 +187,8 @@ private:
                size * (tolerance_.relative + (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
 
-    // Whether another surface is seen beside the pixel in a picture: another material, another triangle's
-    // normal, or a step in depth.
+    // Whether another surface is visible beside the pixel: another material, another triangle's normal, or
+    // a step in depth.
     static bool isBesideEdge(const Frame& frame, std::size_t pixel) {
         const Image &ids = frame.channels.at(idMode), &depth = frame.channels.at(viewDepth),
                     &facets = frame.channels.at(facet);
@@ -266,7 +266,7 @@ private:
                            std::max({1.0, largest(p, a.components), largest(q, a.components)});
             return apart(p, q, a.components);
         }
-        // Terms are at least 0, so that each component's sum is that of their sizes.
+        // Terms are at least 0, so each component's sum equals the sum of magnitudes.
         double worst = 0, error = 0;
         for (int c = 0; c < a.components; ++c) {
             const double may =

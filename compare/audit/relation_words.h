@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Relations in words, as JSON, as a page and as a folder.
+// Results of relations as text, JSON, an HTML page and a folder.
 #pragma once
 
 #include "compare/audit/relate.h"
@@ -21,33 +21,31 @@ struct RelationAudit : Audited {
     bool passes() const;
 };
 
-// "holds", "broken", "does not apply".
 std::string_view verdictOf(const RelationResult& result);
 std::string_view verdictOf(const SeriesResult& result);
-// Whose fault it is; empty where nothing is broken.
+// Likely cause; empty if nothing is broken.
 std::string blameInWords(const RelationResult& result, const ReportDevice& device);
-// "lit 3.1e-08 of 2e-07 at 12,30": the worst pixel; "the same" where there is no difference.
+// "lit 3.1e-08 of 2e-07 at 12,30": the worst pixel; "the same" without a difference.
 std::string worstInWords(const SeriesResult& result);
 
 // "deferred, gbuffer full"; "reference, in double".
 std::string seriesInWords(const SeriesResult& result);
 
-// One relation for a terminal: its name, its verdict and the worst pixel; a broken one with all that is
-// known.
+// Terminal text of one relation: its name, verdict and worst pixel; all details if it is broken.
 std::string inWords(const RelationResult& result, const ReportDevice& device);
-// How many hold, and how many are broken.
+// Number of relations that hold and that are broken.
 std::string inWords(const RelationAudit& audit);
 
 nlohmann::ordered_json toJson(const RelationAudit& audit);
 
-// One page without external resources but the pictures beside it. `files`: others of the folder.
+// One page without external resources except images beside it. `files`: other files of the folder.
 std::string relationsHtml(const RelationAudit& audit, const std::vector<std::string>& files);
 
-// Writes the folder: index.html, relations.json, and of each broken series NAME-SERIES-{given,changed,
-// used}.png. Returns the JSON. Throws std::runtime_error naming -o where something else is there.
+// Writes the folder: index.html, relations.json, and NAME-SERIES-{given,changed,used}.png for each broken
+// series. Returns the JSON. Throws std::runtime_error naming -o if the folder contains something else.
 std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& folder, bool force);
 
-// "moved-deferred-full": what the pictures of a broken series are named by.
+// Stem of a broken series' image files: "moved-deferred-full".
 std::string pictureStem(const Relation& relation, const SeriesResult& result);
 
 }  // namespace diptych::audit

@@ -15,7 +15,7 @@ namespace diptych::audit {
 
 namespace {
 
-// lit, exposed by the given picture.
+// lit with the original image's exposure.
 Image8 shownLit(const Frame& frame, const Frame& given) {
     const DebugMode& mode = debugMode(static_cast<int>(gpu::DEBUG_lit));
     PictureScale scale;

@@ -12,21 +12,21 @@ namespace diptych::audit {
 
 std::span<const Relation> relations();
 
-// Those that are named, in the order of relations(); all where none is. Throws std::runtime_error naming
-// --relation, the unknown name and what there is.
+// Relations with these names, in the order of relations(); all if there are none. Throws
+// std::runtime_error naming --relation, the unknown name and the known ones.
 std::vector<const Relation*> relationsOf(std::span<const std::string> names);
 
-// By what they change; relations() has them all.
-std::vector<Relation> lightRelations();     // lights, and all that sends light
-std::vector<Relation> placeRelations();     // where the scene is, and how it is seen
-std::vector<Relation> geometryRelations();  // how the same surfaces are written down
+// Relations by subject; relations() returns all.
+std::vector<Relation> lightRelations();     // lights and everything that emits light
+std::vector<Relation> placeRelations();     // position of the scene, and its camera
+std::vector<Relation> geometryRelations();  // equivalent descriptions of the same surfaces
 std::vector<Relation> settingRelations();   // Settings that must not matter
 
-// What several lack.
+// Shared reasons why a relation does not apply; empty if it does.
 std::string lacksNone(const Subject& subject);
-// Shadow maps have texels of their own, which fall elsewhere once the scene is elsewhere.
+// The texels of shadow maps fall on other points once the scene is moved.
 std::string lacksWithShadows(const Subject& subject);
-// --assign per_object takes the brightest lights alone for what they are.
+// --assign per_object evaluates only the brightest lights exactly.
 std::string lacksPerObject(const Subject& subject);
 
 }  // namespace diptych::audit

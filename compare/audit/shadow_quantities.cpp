@@ -19,7 +19,8 @@ void castIfNoneDoes(Case& pushed) {
     if (pushed.settings.shadows == Shadows::off) pushed.settings.shadows = Shadows::pcf;
 }
 
-// A small triangle far up towards the sun: it throws no shadow into the picture, but shadow maps reach there.
+// Adds a small triangle far towards the directional light. It casts no visible shadow, but shadow maps
+// must reach it.
 void pushCaster(Case& pushed, const Subject& subject, double metres) {
     castIfNoneDoes(pushed);
     Scene& scene = pushed.scene;
@@ -47,9 +48,9 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
     scene.meshes.push_back({.name = "caster", .primitives = {std::move(triangle)}});
 }
 
-// Depth of a map is reversed: 0 where the scene ends, so that its steps there are of the scene's size,
-// however far away the nearest caster is. Moments have one exponent for the whole range, and lose what is
-// near.
+// Map depth is reversed: 0 where the scene ends, so its steps there are of the scene's size, however far
+// the nearest caster is. Moments have one exponent for the whole range, and lose precision for near
+// depths.
 Predicted predictCaster(const Subject& subject, const Settings& settings, double) {
     const Shadows kind = settings.shadows;
     if (kind == Shadows::evsm || kind == Shadows::evsm4 || kind == Shadows::msm4)
@@ -86,13 +87,13 @@ void pushHaze(Case& pushed, const Subject&, double density) {
     pushed.settings.haze_density = static_cast<float>(density);
 }
 
-// What the nearest surface sends through the air is the brightest of the picture: once that is below what
-// float32 holds nothing is left.
+// The nearest surface is the brightest through the air: once its light underflows float32, the image is
+// empty.
 Predicted predictHaze(const Subject& subject, const Settings& settings, double) {
     if (settings.haze_march_steps > 0 || !subject.seen) return {};
     const Rgb &r = settings.haze_rayleigh, &m = settings.haze_mie;
     const double least = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
-    constexpr double opaque = 87;  // e^-87 is float32's least normal number
+    constexpr double opaque = 87;  // e^-87 is float32's smallest normal number
     return {.up = opaque / (least * subject.nearest),
             .because =
                 "float32 transmittance is 0 beyond an optical depth of 87, which the nearest surface reaches "

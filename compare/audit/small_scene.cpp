@@ -84,7 +84,6 @@ GltfFile writtenScene(const Case& flat) {
             flat.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives.front();
         if (primitive.indices.empty()) continue;
         const auto material = std::ranges::find(materials, primitive.material) - materials.begin();
-        // Only the vertices that are used.
         Primitive used;
         for (const std::uint32_t i : primitive.indices) {
             used.indices.push_back(static_cast<std::uint32_t>(used.positions.size()));

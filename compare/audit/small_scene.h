@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene reduced to what a failure needs, and a glTF file of it.
+// Reduces a scene to what a failure needs, and writes it as a glTF file.
 #pragma once
 
 #include "compare/audit/case.h"
@@ -11,18 +11,18 @@
 
 namespace diptych::audit {
 
-// The same case of one node for each primitive that is drawn, each with a mesh of its own, without textures
-// and animations; nothing where something poses a vertex.
+// The same case with one node and one mesh for each drawn primitive, without textures and animations.
+// Empty if a vertex is skinned or morphed.
 std::optional<Case> flattened(const Case& whole);
 
 std::size_t triangleCount(const Scene& scene);
 
-// A flattened case's scene as glTF 2.0: its buffer inside, its camera 0 the case's; lights are in a file of
-// their own, as --lights reads it, because glTF knows no area lights.
+// Scene of a flattened case as glTF 2.0 with an embedded buffer; camera 0 is the case's. Lights are in a
+// separate file for --lights, because glTF has no area lights.
 std::string gltfOf(const Case& flat);
-// The same as a .glb file, its buffer in the binary chunk.
+// The same as a .glb file, with its buffer in the binary chunk.
 std::string glbOf(const Case& flat);
-// The materials of a flattened scene that such files hold, in their order there.
+// Materials of a flattened scene that these files contain, in their order there.
 std::vector<int> writtenMaterials(const Scene& scene);
 std::string lightsFileOf(const Case& flat);
 

@@ -77,7 +77,7 @@ Json jsonOf(const QuantityAudit& audit) {
     return json;
 }
 
-// From an end that was found to another.
+// Text of a range between optional ends.
 std::string rangeOf(std::optional<double> from, std::optional<double> to) {
     if (from && to) return magnitudeInWords(*from) + " to " + magnitudeInWords(*to);
     if (to) return "up to " + magnitudeInWords(*to);
@@ -113,8 +113,8 @@ std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, st
     const Predicted& predicted = audit.predicted[criterion][series];
     if (predicted.because.empty()) return {};
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
-    if (!range.at_original) return {};  // something else errs by more
-    // A bound is refuted by what holds beyond it alone.
+    if (!range.at_original) return {};  // another error is larger
+    // An upper bound is only refuted by passing beyond it.
     if (predicted.at_most && range.up.broken && range.up.last <= predicted.up) return {};
     return agrees(range.up, predicted.up, true, last) && agrees(range.down, predicted.down, false, first);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An audit in words, as JSON and as a table of values separated by commas.
+// Results of an audit as text, JSON and CSV.
 #pragma once
 
 #include "compare/audit/audit.h"
@@ -12,33 +12,33 @@
 
 namespace diptych::audit {
 
-// A number, or "infinite", which JSON has no number for.
+// A number, or the string "infinite", which JSON numbers cannot express.
 nlohmann::ordered_json numberOf(double value);
 
 // "0.03", "1e7".
 std::string magnitudeInWords(double magnitude);
 
-// How far a criterion holds: "1e-6 to 3.2e5", "up to 3.2e5", "all of it" that was tried, "not at all".
+// Range in which a criterion is met: "1e-6 to 3.2e5", "up to 3.2e5", "whole range", "not at all".
 std::string rangeInWords(const ValidRange& range);
-// The same of a prediction; `audit`: between which magnitudes it was tried. Empty where there is none.
+// The same for a prediction; `audit` gives the range of magnitudes tried. Empty without a prediction.
 std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
 
-// Whether what was measured agrees with what was predicted, of a criterion (the two of errors) and a series;
-// nothing where nothing is predicted.
+// Whether measurement and prediction agree for a criterion (only the two error criteria) and a series;
+// empty without a prediction.
 std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series);
 
-// One quantity for a terminal: its name, a line for each series, and what is to be said beside.
+// Terminal text of one quantity: its name, a line for each series, and remarks.
 std::string inWords(const QuantityAudit& audit);
-// What --require asked, one line each.
+// One line for each --require.
 std::string inWords(const Requirement& requirement);
 
 nlohmann::ordered_json toJson(const Audit& audit);
 nlohmann::ordered_json toJson(const Step& step);
-// The way back; throws nlohmann::json::exception where it is none.
+// Inverse of toJson(); throws nlohmann::json::exception on invalid JSON.
 Step stepFromJson(const nlohmann::ordered_json& json);
 
-// A line for each magnitude and series: quantity, magnitude, unit, path, settings, error, light, depth, flip,
-// misplaced, nonfinite, failed.
+// A line for each magnitude and series: quantity, magnitude, unit, path, settings, error, light, depth,
+// flip, misplaced, nonfinite, failed.
 std::string toCsv(const Audit& audit);
 
 }  // namespace diptych::audit

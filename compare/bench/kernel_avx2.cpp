@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One listed point light at one pixel, optimized for the CPU. Follows shaders/lib/brdf.glsl and
+// One listed point light at one pixel, optimized for the CPU. Follows shaders/lib/shading/brdf.glsl and
 // lights.glsl function by function. Shades 8 pixels per vector; broadcasts lights from memory and keeps
 // sums in registers. A test compares its image with the shaders'.
 #include "compare/bench/kernel_avx2.h"

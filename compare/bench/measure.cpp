@@ -59,7 +59,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
             measured.emplace_back(*row.requested_lights, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
-    return fmt::format("would take about {} ms, as estimated from {} and {} lights; --max-ms {:.6g}",
+    return fmt::format("would take about {} ms (estimated from {} and {} lights), over --max-ms {:.6g}",
                        msText(*predicted), measured[measured.size() - 2].first, measured.back().first,
                        bench.options.max_ms);
 }
@@ -175,7 +175,7 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
             timed.push_back(i);
         else
             bench.skips.push_back(skipOf(bench, tried[i], group,
-                                         fmt::format("its first frame took {} ms; --max-ms {:.6g}",
+                                         fmt::format("its first frame took {} ms, over --max-ms {:.6g}",
                                                      msText(ms), bench.options.max_ms)));
     }
     std::vector<TimedFrame> times = timeInTurns(frames, timed, bench.runs, profiled, step);

@@ -12,7 +12,7 @@
 namespace diptych::bench {
 
 // Tiles of 16 x 16 pixels, each with its own ascending light list. Surfaces come from benchSurface() in
-// shaders/lib/bench_lights.glsl.
+// shaders/lib/lights/bench_lights.glsl.
 struct KernelWorkload {
     Size size;                           // multiple of the tile size
     std::vector<gpu::Light> lights;      // at most mostKernelLights

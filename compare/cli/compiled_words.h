@@ -15,7 +15,7 @@ namespace diptych::cli {
 // one. Below it: the cost of each feature, and problems.
 std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& device);
 
-// The changed statistics: "+38 VGPRs, occupancy 16 to 10, +2,048 bytes".
+// The changed statistics: "+38 VGPRs, occupancy 16 -> 10, +2,048 bytes".
 std::string addedInWords(const FeatureCost& cost);
 
 nlohmann::ordered_json compiledJson(std::span<const CompiledPath> paths, const DeviceInfo& device);

@@ -29,13 +29,12 @@ Explained explainedOf(const Explanation& explanation, const ExplainedPictures& o
 }
 
 Explained notExplained(const std::string& because) {
-    return {"the cause of the difference in lit is unknown: " + because,
+    return {"differences in lit cannot be explained: " + because,
             jsonText(nlohmann::json{{"not_explained", because}}, -1),
             {},
             [because](const std::string&) {
-                return fmt::format(
-                    "<p class=\"soft\">The cause of the difference in lit is unknown: {}</p>\n",
-                    page::markup(because));
+                return fmt::format("<p class=\"soft\">Differences in lit cannot be explained: {}</p>\n",
+                                   page::markup(because));
             }};
 }
 

@@ -32,23 +32,40 @@ constexpr int numberOf(gpu::uint mode) {
     return static_cast<int>(mode);
 }
 
-// Where the surface is, what it is made of, what light reaches it, what it sends.
-constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),       numberOf(gpu::DEBUG_depth),
-                               numberOf(gpu::DEBUG_position),          numberOf(gpu::DEBUG_geometric_normal),
-                               numberOf(gpu::DEBUG_texcoords),         numberOf(gpu::DEBUG_tangent),
-                               numberOf(gpu::DEBUG_handedness),        numberOf(gpu::DEBUG_tangent_normal),
-                               numberOf(gpu::DEBUG_normals),           numberOf(gpu::DEBUG_albedo),
-                               numberOf(gpu::DEBUG_metallic),          numberOf(gpu::DEBUG_roughness),
-                               numberOf(gpu::DEBUG_dielectric_f0),     numberOf(gpu::DEBUG_dielectric_f90),
-                               numberOf(gpu::DEBUG_specular),          numberOf(gpu::DEBUG_occlusion),
-                               numberOf(gpu::DEBUG_emission),          numberOf(gpu::DEBUG_lightmap),
-                               numberOf(gpu::DEBUG_shadow_visibility), numberOf(gpu::DEBUG_cascade),
-                               numberOf(gpu::DEBUG_page_residency),    numberOf(gpu::DEBUG_local_visibility),
-                               numberOf(gpu::DEBUG_list_overflow),     numberOf(gpu::DEBUG_light_count),
-                               numberOf(gpu::DEBUG_shaded_samples),    numberOf(gpu::DEBUG_lit_diffuse),
-                               numberOf(gpu::DEBUG_lit_specular),      numberOf(gpu::DEBUG_lit_ambient),
-                               numberOf(gpu::DEBUG_lit_environment),   numberOf(gpu::DEBUG_transmittance),
-                               numberOf(gpu::DEBUG_lit_haze),          numberOf(gpu::DEBUG_lit)};
+// Order: the surface's position, its material, the light that reaches it, the light that it sends.
+constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),
+                               numberOf(gpu::DEBUG_depth),
+                               numberOf(gpu::DEBUG_position),
+                               numberOf(gpu::DEBUG_geometric_normal),
+                               numberOf(gpu::DEBUG_texcoords),
+                               numberOf(gpu::DEBUG_tangent),
+                               numberOf(gpu::DEBUG_handedness),
+                               numberOf(gpu::DEBUG_tangent_normal),
+                               numberOf(gpu::DEBUG_normals),
+                               numberOf(gpu::DEBUG_albedo),
+                               numberOf(gpu::DEBUG_metallic),
+                               numberOf(gpu::DEBUG_roughness),
+                               numberOf(gpu::DEBUG_dielectric_f0),
+                               numberOf(gpu::DEBUG_dielectric_f90),
+                               numberOf(gpu::DEBUG_specular),
+                               numberOf(gpu::DEBUG_occlusion),
+                               numberOf(gpu::DEBUG_emission),
+                               numberOf(gpu::DEBUG_lightmap),
+                               numberOf(gpu::DEBUG_lightmapped),
+                               numberOf(gpu::DEBUG_shadow_visibility),
+                               numberOf(gpu::DEBUG_cascade),
+                               numberOf(gpu::DEBUG_page_residency),
+                               numberOf(gpu::DEBUG_local_visibility),
+                               numberOf(gpu::DEBUG_list_overflow),
+                               numberOf(gpu::DEBUG_light_count),
+                               numberOf(gpu::DEBUG_shaded_samples),
+                               numberOf(gpu::DEBUG_lit_diffuse),
+                               numberOf(gpu::DEBUG_lit_specular),
+                               numberOf(gpu::DEBUG_lit_ambient),
+                               numberOf(gpu::DEBUG_lit_environment),
+                               numberOf(gpu::DEBUG_transmittance),
+                               numberOf(gpu::DEBUG_lit_haze),
+                               numberOf(gpu::DEBUG_lit)};
 
 constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 11> kindNames{
     {{PixelTerm::Kind::light, "light"},
@@ -142,7 +159,7 @@ private:
         const float* const p = image->pixel(pixel_);
         return {p, p + image->components};
     }
-    // Of a channel that both paths have.
+    // Value of a channel that both paths have.
     Rgb3 colorOf(std::size_t side, gpu::uint mode) const {
         const float* const p = frames_.at(side).channels.at(numberOf(mode)).pixel(pixel_);
         return {double{p[0]}, double{p[1]}, double{p[2]}};
@@ -168,7 +185,7 @@ private:
         }
     }
 
-    // By more than rounding.
+    // Whether they differ by more than rounding.
     bool differs(const Image& a, const Image& b) const {
         return unequalPixels(a, b, pair_.cpu ? 0 : gpuUlps) > 0;
     }
@@ -231,18 +248,18 @@ private:
         }
     }
 
-    // Whether the reference has light of it here, or a path may evaluate it.
+    // Whether the reference has light from it here, or a path may evaluate it.
     bool mayMatter(std::size_t light) const {
         return sentBy(light) > 0 || !breakdown_.lists_known[0] || !breakdown_.lists_known[1] ||
                breakdown_.lights[light].listed[0] || breakdown_.lights[light].listed[1];
     }
-    // By the reference, the largest component; 0 where it sees background.
+    // Light in the reference, largest component; 0 if it sees background.
     double sentBy(std::size_t light) const {
         return light < reference_.lights.size() ? reference_.lights[light].reflected.size() : 0;
     }
 
-    // The lights in the order in which they matter here: by what the reference has of them; then those that
-    // are listed, then all others, the nearest first.
+    // Lights by importance at the pixel: by their light in the reference, then listed ones, then all
+    // others by distance.
     std::vector<std::size_t> byImportance() const {
         std::vector<std::size_t> order(view_.lights.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -253,7 +270,7 @@ private:
         return order;
     }
 
-    // A term of both paths and of the reference, which may have none.
+    // Adds a term of both paths and the reference, which may lack it.
     PixelTerm& add(PixelTerm::Kind kind, std::vector<std::size_t> lights, const std::array<Rgb3, 2>& values,
                    const std::optional<Rgb3>& reference, double uncertainty = 0) {
         PixelTerm term{.kind = kind,
@@ -277,7 +294,7 @@ private:
             const std::optional<std::vector<std::size_t>> list =
                 alone.at(side).listAt(query_.x, query_.y, depth);
             const double count = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count))).at(0);
-            // What was read must be what the pixel says that it evaluated.
+            // The list is only valid if its length equals the pixel's own light count.
             if (!list || static_cast<double>(list->size()) != count) continue;
             breakdown_.lists_known.at(side) = true;
             for (const std::size_t light : *list) breakdown_.lights[light].listed.at(side) = true;
@@ -322,10 +339,11 @@ private:
         }
     }
 
-    // Lights by object are in harmonics, too, which are made of all of them: none can be drawn alone.
+    // Per-object lights are also in harmonics, which combine all of them, so no light can be rendered
+    // alone.
     static bool isByObject(const Settings& settings) { return settings.assign == Assignment::per_object; }
 
-    // What lobes reflect less the environment's share, as the one term of all lights.
+    // Adds the reflected light minus the environment's as one term for all lights.
     void takeLightsTogether(const std::array<Rgb3, 2>& environment) {
         std::array<Rgb3, 2> values{};
         for (std::size_t side = 0; side < 2; ++side)
@@ -360,7 +378,7 @@ private:
                 const Settings& settings = side == 0 ? query_.baseline : query_.test;
                 LightTerms with = renderer_.lightTerms(settings, true);
                 environment.at(side) = with.at({}, query_.x, query_.y);
-                // Without the harmonics, which no light's own blackness darkens.
+                // Subtracts the harmonics, which black lights do not darken.
                 if (isByObject(settings))
                     environment.at(side) =
                         plus(environment.at(side), alone.at(side).at({}, query_.x, query_.y), -1);
@@ -383,7 +401,7 @@ private:
         takeSum();
     }
 
-    // What blended surfaces change of lit, of the baseline, the test and the reference.
+    // Change of lit by blended surfaces: baseline, test and reference.
     std::array<Rgb3, 3> blendedOver() const {
         if (frames_[0].unblended.empty() || frames_[1].unblended.empty()) return {};
         std::array<Rgb3, 3> values{};
@@ -421,8 +439,8 @@ private:
         add(PixelTerm::Kind::lit, {}, lit, truth, reference_.uncertainty);
         add(PixelTerm::Kind::residual, {}, {plus(lit[0], sums[0], -1), plus(lit[1], sums[1], -1)},
             plus(truth, sums[2], -1));
-        // Each addition, one for a light that is evaluated and a few beside, rounds a sum that is no larger
-        // than all summands together.
+        // Each addition, one for each evaluated light and a few more, rounds a sum no larger than all
+        // summands together.
         for (std::size_t side = 0; side < 2; ++side) {
             const PixelValue lights = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count)));
             breakdown_.residual_rounding.at(side) = (lights.at(0) + 8) * 0x1p-23 * sizes.at(side);
@@ -435,7 +453,7 @@ private:
     const Scene& scene_;
     const SceneView& view_;
     const std::array<Frame, 2> frames_;  // baseline, test
-    const Coverage covered_, this_one_;  // pixels with a surface; the pixel alone
+    const Coverage covered_, this_one_;  // pixels with a surface; only this pixel
     const FramePair pair_;
     const std::size_t pixel_;
     reference::PixelLight reference_;

@@ -63,7 +63,7 @@ Probe roughnessProbe() {
     return p;
 }
 
-// Turquin 2019 and Fdez-Aguera 2019 (shaders/lib/multiscatter.glsl).
+// Turquin 2019 and Fdez-Aguera 2019 (shaders/lib/shading/multiscatter.glsl).
 Probe betweenProbe(bool energy) {
     Probe p = surfaceProbe(
         "surfaces", energy ? "between microfacets, energy" : "between microfacets, Fdez-Aguera",

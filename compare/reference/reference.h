@@ -17,7 +17,8 @@ namespace diptych::reference {
 struct Picture {
     // by debug mode number, all supported channels; background as in a Frame
     std::map<int, Image> channels;
-    // litModes of the surfaces of Request::decoded; positions, visibility and blended surfaces as in `channels`.
+    // litModes of the surfaces of Request::decoded; positions, visibility and blended surfaces as in
+    // `channels`.
     std::map<int, Image> decoded;
     // Uncertainty of lit, in its unit: half the 95 % confidence interval of sampling, plus the quadrature
     // error. Empty if 0 everywhere.

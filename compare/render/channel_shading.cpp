@@ -27,7 +27,7 @@ constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_PLACE)};
 #undef DIPTYCH_CHANNEL_PLACE
 constexpr std::size_t channelCount = channelModes.size();
 
-// The Settings of the frame whose depth, lists and shadows light the surfaces.
+// Settings of the frame whose depth, light lists and shadows light the surfaces.
 Settings litBy(Settings settings) {
     settings.path = Path::deferred;
     settings.gbuffer = GBufferEncoding::full;
@@ -44,8 +44,8 @@ const Image& channelOf(const Frame& frame, gpu::uint mode) {
     return found->second;
 }
 
-// To how many bits per coordinate the path quantises geometric normals before lighting; 0: none, or the
-// channel shows it after that.
+// Bits per coordinate to which the path quantises geometric normals before lighting. 0: none, or the
+// channel already shows quantised normals.
 float quantisedTo(const Frame& frame) {
     if (frame.settings.path != Path::forward_plus) return 0;
     switch (frame.settings.gbuffer) {
@@ -59,7 +59,7 @@ float quantisedTo(const Frame& frame) {
     return 0;
 }
 
-// RGBA32F texels of an image of 1 or 3 components. `fourth`: of each pixel.
+// RGBA32F texels of an image of 1 or 3 components. `fourth`: alpha of a pixel.
 template <class Fourth>
 std::vector<float> texelsOf(const Image& image, const Fourth& fourth) {
     std::vector<float> texels(image.pixels() * 4);
@@ -153,7 +153,7 @@ struct ChannelShading::State {
         passes.run(last, passes.size());
     }
 
-    const Settings settings;  // which the view refers to
+    const Settings settings;  // the view refers to it
     const SurfaceImages::State& images;
     Uploader& uploader;
     PreparedFrame frame;
@@ -161,7 +161,7 @@ struct ChannelShading::State {
     VkSampler nearest;
     std::size_t first = 0, last = 0;  // passes of lit
     ImageRef lit;
-    std::optional<std::array<ImageRef, 6>> terms;  // made when they are asked for
+    std::optional<std::array<ImageRef, 6>> terms;  // created on first use
 };
 
 ChannelShading::ChannelShading(Device& device, SharedResources& shared, const SceneView& view,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shades surfaces that are made of channels of two Frames, each channel of either, by the lighting that both
-// paths share.
+// Shades surfaces made from channels of two Frames, each channel taken from either, with the lighting code
+// that both paths share.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -18,19 +18,19 @@ namespace diptych {
 class Device;
 struct SharedResources;
 
-// Debug modes of the channels that make a surface (SURFACE_CHANNELS), in the order of the bits below.
+// Debug modes of SURFACE_CHANNELS, in the order of the bits below.
 std::span<const int> surfaceChannels();
 
-// The channels of two Frames on the device. A channel that both have alike is there once.
+// The channels of two Frames on the device. A channel that is equal in both is stored once.
 class SurfaceImages {
 public:
     SurfaceImages(Device& device, const Size& size);
     SurfaceImages(SurfaceImages&&) noexcept;
     ~SurfaceImages();
 
-    // Image `side` (0, 1) of channel number `channel` of surfaceChannels().
-    // With it what else lighting reads of the Frame (SURFACE_CHANNELS): lightmapped beside lightmap.
-    // Throws std::logic_error where the Frame lacks one.
+    // Image `side` (0, 1) of channel index `channel` in surfaceChannels(). Includes the other inputs that
+    // lighting reads of the Frame (SURFACE_CHANNELS): lightmapped beside lightmap. Throws std::logic_error
+    // if the Frame lacks one.
     void set(std::size_t side, std::size_t channel, const Frame& frame);
 
 private:
@@ -39,37 +39,36 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// What lit of opaque surfaces is the sum of: ((diffuse + specular + ambient) + emission) transmittance +
-// haze. W x H x 3 each, 0 in the background.
+// The terms of lit of opaque surfaces: ((diffuse + specular + ambient) + emission) transmittance + haze. W
+// x H x 3 each, 0 in the background.
 struct ChannelTerms {
     Image diffuse, specular, ambient, haze, transmittance;
-    Image environment;  // a part of diffuse and specular
+    Image environment;  // included in diffuse and specular
 };
 
-// Direct light of one light, before any haze: W x H x 3 each.
+// Direct light of one light, before haze: W x H x 3 each.
 struct LightChannels {
     Image diffuse, specular;
 };
 
-// One view under one Settings. What it is made of must outlive it.
+// One view under one Settings. The constructor's arguments must outlive it.
 class ChannelShading {
 public:
-    // Of Settings what lights surfaces, lies behind them and is blended over them matters, with one sample a
-    // pixel. Draws the deferred frame once, for depth, light lists and shadows. Throws std::runtime_error,
-    // one line.
+    // Uses the Settings of lighting, background and blended surfaces, without MSAA. Renders the deferred
+    // frame once, for depth, light lists and shadows. Throws std::runtime_error with a one-line message.
     ChannelShading(Device& device, SharedResources& shared, const SceneView& view, const Settings& settings,
                    const SurfaceImages& images);
     ChannelShading(ChannelShading&&) noexcept;
     ~ChannelShading();
 
-    // lit, W x H x 3. Bit i of `sides`: of which side channel i is.
+    // lit, W x H x 3. Bit i of `sides` selects the Frame of channel i.
     Image shade(std::uint32_t sides);
-    // The terms of the same, before anything is blended.
+    // The terms of the same image, before blending.
     ChannelTerms terms(std::uint32_t sides);
-    // Of these, what one light adds: all others are black, and shadow maps and lists are those of the whole
-    // picture. `place`: in lights().
+    // The part of these terms that one light adds: all others are black, but shadow maps and light lists
+    // are the full image's. `place`: index in lights().
     LightChannels light(std::uint32_t sides, std::size_t place);
-    // The lights of the view, those of SceneView::lights.
+    // The lights of the view (SceneView::lights).
     const std::vector<Light>& lights() const;
 
 private:

@@ -18,8 +18,7 @@ namespace diptych {
 
 namespace {
 
-// Every channel that the path makes, lit ones also through the encoding. The same pipelines draw the
-// encoding's bounds.
+// Every channel that the path supports, and lit channels also through the encoding.
 CaptureRequest everyChannel(const Settings& settings) {
     CaptureRequest request;
     for (const DebugMode& mode : debugModes())
@@ -39,10 +38,10 @@ PipelineRequest without(PipelineRequest request, gpu::uint feature) {
 
 struct Ablation {
     const FeatureRow* feature;
-    std::size_t pipeline;  // the one that is compiled without it
+    std::size_t pipeline;  // the one compiled without the feature
 };
 
-// The heaviest pipeline of the frame with each feature. A draw's depth alone is never the heaviest.
+// The heaviest pipeline of the frame with each feature. A depth-only draw is never the heaviest.
 std::vector<Ablation> ablations(std::span<const PipelineRequest> requests,
                                 std::span<const PlannedPipeline> pipelines) {
     std::vector<Ablation> all;
@@ -82,7 +81,7 @@ std::vector<FeatureCost> featureCosts(const DeviceCompiler& compiler,
     return costs;
 }
 
-// Those of a frame that evaluate lights are compiled without any, too.
+// Also compiles a frame's light-evaluating pipelines without lights.
 void addUnlitCycles(const DeviceCompiler& compiler, std::span<const PipelineRequest> requests,
                     std::span<PlannedPipeline> pipelines) {
     constexpr gpu::uint kinds[] = {gpu::FEATURE_directional_lights, gpu::FEATURE_point_lights,

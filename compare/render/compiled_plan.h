@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiles the pipelines of both paths' frames and captures for a GPU that is not there.
+// Compiles the pipelines of both paths' frames and captures for a GPU that need not be present.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -14,20 +14,20 @@
 namespace diptych {
 
 struct PlannedPipeline {
-    std::string pass;       // that has asked for it first
-    bool captures = false;  // of a capture, and of no frame
-    std::string name;       // the shader that it is called by: "forward_shade.frag"
-    std::string variant;    // the features that are on: "normal_texture shadows=2"
+    std::string pass;       // the first that requested it
+    bool captures = false;  // only a capture uses it
+    std::string name;       // the shader that names it: "forward_shade.frag"
+    std::string variant;    // enabled features: "normal_texture shadows=2"
     CompiledPipeline compiled;
-    std::optional<double> unlit_cycles{};  // ShaderCost::cycles without lights, where it has some
+    std::optional<double> unlit_cycles{};  // ShaderCost::cycles without lights, if it evaluates any
 
-    // The last shader's, which names the pipeline; nullptr: it did not compile.
+    // Cost of the last shader, which names the pipeline; nullptr if it did not compile.
     const ShaderCost* cost() const {
         return compiled.shaders.empty() ? nullptr : &compiled.shaders.back().cost;
     }
 };
 
-// The heaviest pipeline of a frame with a feature, and without it.
+// The heaviest pipeline of a frame that uses a feature, with and without it.
 struct FeatureCost {
     std::string feature, pass, shader;
     ShaderCost with, without;
@@ -36,19 +36,19 @@ struct FeatureCost {
 struct CompiledPath {
     Path path = Path::deferred;
     std::vector<PlannedPipeline> pipelines;
-    std::vector<FeatureCost> features;  // those that change anything
-    std::vector<std::string> errors;    // what does not compile or asks for more than there is, a line each
-    std::vector<std::string> warnings;  // what spills
+    std::vector<FeatureCost> features;  // features that change anything
+    std::vector<std::string> errors;    // compile errors and exceeded device limits, a line each
+    std::vector<std::string> warnings;  // register spills
 };
 
-// Pipelines are compiled for the compiler of `device`; nothing is drawn.
+// Compiles for the compiler of `device`; renders nothing.
 std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler, SceneViews& views,
                                        const std::vector<Settings>& settings);
 
 // Fills errors and warnings.
 void judge(CompiledPath& path);
 
-// The features of the variant that are on.
+// The enabled features of the variant.
 std::string inWords(const Variant& variant);
 
 }  // namespace diptych

@@ -26,7 +26,7 @@ ViewRequest viewRequest(const Settings& settings) {
     request.seed = settings.seed;
     request.animation = settings.animation;
     request.environment_sun = settings.env_sun;
-    if (settings.env_sun) {  // else one view serves however the environment is turned
+    if (settings.env_sun) {  // else all rotations of the environment share one view
         request.environment_rotation = double{settings.env_rotation};
         request.environment_factor = double{settings.ibl_intensity};
     }
@@ -40,7 +40,7 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     frame.settings = settings;
     frame.camera = cameraOf(view.view);
     frame.camera.choice = view.default_view;
-    if (!settings.haze || settings.haze_density == 0)  // else lit has all that is seen
+    if (!settings.haze || settings.haze_density == 0)  // else lit is complete
         frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
     if (!view.default_view.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Facts about a Frame that do not depend on who drew it.
+// Properties of a Frame that do not depend on its renderer.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -15,32 +15,33 @@ namespace diptych {
 
 class Device;
 
-// The view that these Settings ask for.
+// The view that these Settings request.
 ViewRequest viewRequest(const Settings& settings);
 
-// A Frame with all that is known before drawing: name, scene, Settings, camera, background and the scene's
-// notes.
+// A Frame with everything known before rendering: name, scene, Settings, camera, background and the
+// scene's notes.
 Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& settings);
 
 FrameCamera cameraOf(const View& view);
 
-// What reports say of a device.
+// The device as reports describe it.
 ReportDevice reportDevice(const Device& device);
 
 // Pixels with a component that is NaN or infinite.
 std::uint64_t nonfinitePixels(const Image& image);
 
-// What a picture says where some of its lit is as large as its format holds, or larger; nothing elsewhere.
+// A note if some lit values reach or exceed the largest value of their format; else empty.
 std::optional<std::string> overflowInWords(const Image& lit, LitFormat format);
 
-// Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the pixels that had some.
+// Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the indices of repaired
+// pixels.
 std::vector<std::uint32_t> repairNonfinite(Image& image);
 
-// Of each channel that was repaired a line: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
+// One line for each repaired channel: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
 // ...".
 std::vector<std::string> repairedInWords(const Frame& frame);
 
-// Median, least and greatest, ms.
+// Median, minimum and maximum, ms.
 FrameTime timeOf(std::vector<double> ms);
 
 }  // namespace diptych

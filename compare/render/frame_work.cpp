@@ -9,7 +9,7 @@ namespace diptych {
 
 namespace {
 
-// A full-screen triangle or two are no geometry of the scene.
+// A pass of up to two triangles is full-screen and has no scene geometry.
 constexpr std::uint64_t screenTriangles = 2;
 constexpr double positionBytes = sizeof(gpu::vec3), attributeBytes = sizeof(gpu::VertexAttributes);
 
@@ -23,7 +23,7 @@ PassWork workOf(Path path, const PassCounts& counts, double textures, double lig
         work.vertex_bytes = static_cast<double>(counts.vertices) *
                             (positionBytes + (counts.fragments > 0 ? attributeBytes : 0));
     }
-    // Of --lighting compute threads shade, those of the background among them.
+    // With --lighting compute, threads shade, including those of the background.
     if (shades) work.lights = (fragments + static_cast<double>(counts.compute)) * lights;
     return work;
 }

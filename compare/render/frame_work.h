@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame asks of a device, whichever it is: vertices, triangles, fragments, texels, lights and bytes.
+// Workload of a frame on any device: vertices, triangles, fragments, texels, lights and bytes.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -14,8 +14,8 @@ namespace diptych {
 struct PassWork {
     PassCounts counts;
     double texels = 0;        // filtered samples of material textures
-    double lights = 0;        // evaluations of a light at a fragment
-    double vertex_bytes = 0;  // read by vertex shaders, each vertex once a shading
+    double lights = 0;        // light evaluations at fragments
+    double vertex_bytes = 0;  // read by vertex shaders; counts each vertex once per invocation
 };
 
 struct FrameWork {
@@ -23,9 +23,9 @@ struct FrameWork {
     std::vector<PassWork> passes;
 };
 
-// Draws each frame twice, the second time with its passes counted. Textures are those of the materials of the
-// triangles in view, on average; lights those of the lists, on average over the pixels that show a surface.
-// Throws std::runtime_error where the device cannot count.
+// Renders each frame twice and counts the passes of the second. Textures are an average over the materials
+// of visible triangles; lights are an average over the light lists of pixels that show a surface. Throws
+// std::runtime_error if the device cannot count.
 std::vector<FrameWork> countWork(Device& device, SceneViews& views, const std::vector<Settings>& settings);
 
 }  // namespace diptych

@@ -15,7 +15,7 @@
 namespace diptych {
 namespace {
 
-// Bytes a sample takes in a frame's images: depth, lit and the G-buffer.
+// Bytes per sample of a frame's images: depth, lit and the G-buffer.
 double sampleBytes(const Settings& settings) {
     const double depth = settings.depth_format == DepthFormat::d16 ? 2 : 4;
     const double lit = settings.lit_format == LitFormat::fp32   ? 16
@@ -32,7 +32,7 @@ double pixelsOf(const Settings& settings) {
     return double(settings.size.width) * double(settings.size.height);
 }
 
-// Texels of 32 bits; what filters moments has four times that.
+// 32-bit texels; moment maps take four times that.
 double shadowBytes(const Settings& settings) {
     constexpr double texel = 4;
     const auto squared = [](double side) { return side * side; };
@@ -53,8 +53,8 @@ double imageBytes(const Settings& settings, bool sun) {
     return pixelsOf(settings) * settings.msaa * sampleBytes(settings) + (sun ? shadowBytes(settings) : 0);
 }
 
-// Beside the frame's images, bytes a pixel: pictures that are read back and held until they are in a file; a
-// capture's images, of several samples as the frame's; pages of files.
+// Bytes per pixel beyond the frame's images: images read back and kept until they are in a file; a
+// capture's images, multisampled like the frame's; pages of files.
 double captureBytes(const Settings& settings, const RenderOptions& options, bool software) {
     constexpr double one_picture = 60, channel = 4, once_more = 20, channel_once_more = 2, target = 16;
     const auto channels = static_cast<double>(options.channels.size());
@@ -67,8 +67,7 @@ double captureBytes(const Settings& settings, const RenderOptions& options, bool
     return bytes;
 }
 
-// The reference's sums in double precision and what it tells beside lit; of that stay in memory
-// `keptReference`.
+// The reference's double-precision sums and its other outputs; `keptReference` of them stay in memory.
 constexpr double keptReference = 60;
 double referenceBytes(const Settings& settings, const RenderOptions& options) {
     constexpr double lit = 190, surfaces = 110, judged = 190;
@@ -76,8 +75,8 @@ double referenceBytes(const Settings& settings, const RenderOptions& options) {
            (options.environment_errors ? judged : 0);
 }
 
-// A CPU device's code of one path, beside what draws nothing: for each channel, and for materials, which
-// share pipelines.
+// Code of one path on a CPU device: a constant, and more for each channel and for materials, which share
+// pipelines.
 double pipelineBytes(const RenderOptions& options, std::size_t materials) {
     return 40e6 + 0.8e6 * static_cast<double>(options.channels.size()) +
            2e6 * static_cast<double>(std::min(materials, std::size_t{64}));
@@ -97,7 +96,7 @@ std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions
             continue;
         }
         const double images = software ? imageBytes(of, sun) : 0;
-        if (options.runs > 0) timed += images;  // of all at once
+        if (options.runs > 0) timed += images;  // of all frames at once
         if (options.channels.empty()) continue;
         largest = std::max(largest, images + pixelsOf(of) * captureBytes(of, options, software));
     }

@@ -10,10 +10,10 @@
 
 namespace diptych {
 
-// One note for each kind of light in the scene that the path does not draw yet; the reference draws all.
+// One note for each type of light in the scene that the path does not support; the reference supports all.
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
 
-// What of the lights casts no shadow where shadows are asked for.
+// Lights that cast no shadow although shadows are enabled.
 std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings);
 
 }  // namespace diptych

@@ -34,10 +34,10 @@ struct LightTerms::State {
     }
 
     SharedResources& shared;
-    const Settings settings;  // which the frame refers to
+    const Settings settings;  // the frame refers to it
     PreparedFrame frame;
-    std::vector<gpu::Light> lights;  // as they shine
-    std::size_t first = 0;           // pass of the capture
+    std::vector<gpu::Light> lights;  // with their original intensity
+    std::size_t first = 0;           // first pass of the capture
     std::vector<CapturedImage> captured;
 };
 
@@ -57,7 +57,7 @@ std::array<double, 3> LightTerms::at(std::span<const std::size_t> shining, int x
     std::array<double, 3> sum{};
     std::size_t next = state_->first;
     for (const CapturedImage& image : state_->captured) {
-        // Several images may be of one pass.
+        // Several images may belong to one pass.
         if (image.pass + 1 > next) {
             passes.run(next, image.pass + 1);
             next = image.pass + 1;

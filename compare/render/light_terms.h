@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What single lights send to a pixel, as a path draws them.
+// Contributions of single lights to a pixel, as a path renders them.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -17,23 +17,23 @@ namespace diptych {
 class Device;
 struct SharedResources;
 
-// One view by one path, whose lights shine or are black. Only what the lights send changes: light lists,
-// grids, shadow maps and pipelines are those of the whole picture, and so are the bits of what each light
-// adds. What it was made of must outlive it.
+// One view by one path, with lights switched on or black. Only the lights' intensity changes: light lists,
+// grids, shadow maps and pipelines are those of the full image, so each contribution is bitwise the same.
+// The constructor's arguments must outlive it.
 class LightTerms {
 public:
-    // Of one of the two paths. Without `environment` the environment is dark.
+    // For deferred or forward+. Without `environment` the environment is black.
     LightTerms(Device& device, SharedResources& shared, const SceneView& view, const Settings& settings,
                bool environment);
     LightTerms(LightTerms&&) noexcept;
     ~LightTerms();
 
-    // lit_diffuse + lit_specular at a pixel, W/(sr m^2) before any haze, where these lights shine alone:
-    // places in SceneView::lights, in any order. With several samples a pixel it is that of the first.
+    // lit_diffuse + lit_specular at a pixel, W/(sr m^2), before haze, with only these lights: indices in
+    // SceneView::lights, in any order. Under MSAA, of the first sample.
     std::array<double, 3> at(std::span<const std::size_t> shining, int x, int y);
 
-    // The lights that the pixel evaluates, as places in SceneView::lights, in ascending order; `depth`: its
-    // view depth, m. Nothing where each object has a list of its own.
+    // Lights that the pixel evaluates, as ascending indices in SceneView::lights. `depth`: view depth of
+    // the pixel, m. Empty if each object has its own list.
     std::optional<std::vector<std::size_t>> listAt(int x, int y, float depth) const;
 
 private:

@@ -13,8 +13,8 @@ namespace diptych {
 
 namespace {
 
-// Width and height of a planned picture: so large that what an image has beside its pixels, such as the rest
-// of a row, is nothing of a pixel's bytes, and small, since its images get memory.
+// Width and height of a planned image. Large enough that row padding is negligible per pixel, and small,
+// because its images get memory.
 constexpr std::uint32_t plannedSize = 256;
 
 SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings) {
@@ -63,7 +63,7 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
     std::vector<PathPlan> plans;
     for (const Settings& s : settings) {
         checkSize(device, s.size);
-        // A path's pipelines are counted as if it were alone, whichever of them another has made.
+        // Counts a path's pipelines as if it were alone, even those that another path has created.
         shared.pipelines.clear();
         const PreparedView view(device, shared, views.at(viewRequest(s)), s);
         const PathFunctions& path = functionsOf(s.path);

@@ -11,25 +11,24 @@
 
 namespace diptych {
 
-// What the scene of a view needs modelled and what is left out, each with its reason in words. The sun that
-// the tool adds to an unlit scene is not the scene's; what poses vertices, shadows and haze are chosen by
-// `settings`.
+// Features that the view's scene needs and features that are omitted, each with its reason. The default
+// light of an unlit scene does not count as the scene's. `settings` choose the skinning method, shadows
+// and haze.
 std::vector<Requirements::Line> planLines(const SceneView& view, const Settings& settings);
 
-// What a pixel takes in images, with so many samples.
+// Bytes of images per pixel, for a number of samples.
 struct SampledBytes {
     int samples = 1;
     std::uint32_t geometry = 0;  // PixelBytes
     std::uint32_t all = 0;
 };
 
-// The passes of a frame and their sizes, found without drawing it.
+// The passes of a frame and their sizes, found without rendering it.
 struct PathPlan {
     std::string path;
     std::vector<std::string> passes;
-    std::vector<SampledBytes> bytes;  // first as planned, then with other numbers of samples a pixel
-    std::uint64_t shared_bytes_per_pixel =
-        0;  // saved where images that are never needed together share memory
+    std::vector<SampledBytes> bytes;           // first as planned, then with other sample counts
+    std::uint64_t shared_bytes_per_pixel = 0;  // saved by images that share memory
     DrawnCounts drawn;
     std::vector<std::string> notes;
 };

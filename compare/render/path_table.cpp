@@ -11,7 +11,6 @@
 namespace diptych {
 namespace {
 
-// The paths, one row each.
 const PathFunctions paths[] = {
     {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
      addDeferredCapture,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The functions of the two paths, for everything that draws.
+// The functions of the two paths, for all code that renders.
 #pragma once
 
 #include "shared/draw/captures.h"
@@ -12,24 +12,23 @@
 
 namespace diptych {
 
-// The functions of one path.
 struct PathFunctions {
     Path path;
-    // Decides what the Settings leave to the path; notes on it. Called once, before the others.
+    // Makes the decisions that Settings leave to the path; returns notes. Called once, before the others.
     std::vector<std::string> (*prepare)(FrameInputs&, const Settings&);
     FrameImages (*add)(PassList&, const FrameInputs&);
     std::vector<CapturedImage> (*capture)(PassList&, const FrameInputs&, const FrameImages&,
                                           const CaptureRequest&);
-    bool (*draws)(Shader fragment);  // whether only this path draws with it
+    bool (*draws)(Shader fragment);  // whether only this path uses the shader
 };
-// What a pixel takes in a frame's images of the picture's size, bytes; each sample of it by itself.
+// Bytes per pixel of a frame's full-size images; each sample counts.
 struct PixelBytes {
-    std::uint32_t geometry = 0;  // depth, and what deferred keeps of surfaces
-    std::uint32_t all = 0;       // light too; as if no two images shared memory
+    std::uint32_t geometry = 0;  // depth, and deferred's G-buffer
+    std::uint32_t all = 0;       // also light; as if no two images shared memory
 };
 PixelBytes pixelBytes(const PassList& passes, const FrameImages& images);
 
-// Throws std::logic_error for the reference, which no device draws.
+// Throws std::logic_error for the reference, which no device renders.
 const PathFunctions& functionsOf(Path path);
 
 }  // namespace diptych

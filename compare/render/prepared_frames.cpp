@@ -62,7 +62,7 @@ std::vector<PassTime> PreparedFrames::profile(std::size_t i) {
     if (frame.view.culling.any()) times.push_back({Culling::name, frame.view.culling.run()});
     for (const PassMs& pass : passes.profile(0, passes.size()))
         if (!times.empty() && times.back().name == pass.name)
-            times.back().ms += pass.ms;  // both host and device choose
+            times.back().ms += pass.ms;  // culling runs on host and device
         else
             times.push_back({pass.name, pass.ms});
     return times;

@@ -16,34 +16,35 @@ namespace diptych {
 class Device;
 struct SharedResources;
 
-// Frames of one scene that can be drawn repeatedly and in any order. Switching between them uploads nothing
-// and makes no pipeline; only what each frame makes itself (light lists) is made again. What it is made of
-// must outlive it.
+// Frames of one scene that can be rendered repeatedly and in any order. Switching between them uploads
+// nothing and creates no pipeline; each frame only rebuilds its own data (light lists). The constructor's
+// arguments must outlive it.
 class PreparedFrames {
 public:
-    // Throws std::runtime_error, one line, where a picture is too large or memory ends.
+    // Throws std::runtime_error, one line, if an image is too large or memory runs out.
     PreparedFrames(Device& device, SharedResources& shared, SceneViews& views,
                    std::span<const Settings> settings);
     PreparedFrames(PreparedFrames&&) noexcept;
     ~PreparedFrames();
 
     std::size_t size() const;
-    // One whole frame, ms, as FrameTime has it. The first one of each may take longer: drivers compile then.
+    // Renders one frame; returns FrameTime's ms. The first call may take longer, because drivers compile
+    // then.
     double draw(std::size_t i);
-    // How long the host recorded the commands of the frame drawn last, and chose the lights of its objects,
+    // Time of the last frame's command recording, and of choosing the lights of its objects on the host,
     // ms.
     double recordMs(std::size_t i) const;
     double objectListsMs(std::size_t i) const;
-    // Draws frames `which` in turn until the device has worked as long as it must before times mean something
+    // Renders frames `which` in turn until the device has left its idle clocks
     // (DeviceProfile::warm_up_ms).
     void warmUp(std::span<const std::size_t> which);
-    // Each pass timed by itself, over another frame.
+    // Times each pass of another frame by itself.
     std::vector<PassTime> profile(std::size_t i);
-    // lit of the frame drawn last, W x H x 3.
+    // lit of the last frame, W x H x 3.
     Image lit(std::size_t i);
-    // The number of light lists of that frame that overflowed.
+    // Number of light lists of that frame that overflowed.
     void readCounters(std::size_t i, FrameCounters& counters) const;
-    // The Frame as far as it is known without drawing: Settings, camera, lights, bytes, notes.
+    // The Frame as known without rendering: Settings, camera, lights, bytes, notes.
     const Frame& described(std::size_t i) const;
 
 private:

@@ -39,7 +39,7 @@ std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
     return static_cast<std::uint32_t>(settings.pixel_lights);
 }
 
-// Nothing where no sun casts or none is asked to.
+// Empty if no directional light casts shadows or shadows are off.
 std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuLights& lights,
                                      const Settings& settings) {
     if (settings.shadows == Shadows::off) return {};
@@ -61,14 +61,16 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
         settings.shadows == Shadows::off ? LocalCasting{} : localCasting(lights, settings.shadow_lights);
     GpuLights result =
         gpuLights(withCutoff(lights, double{settings.light_cutoff}), seen.view.eye(), casting.lights);
+    result.falloff = {.squared_window = settings.range_window == RangeWindow::squared,
+                      .smooth_cones = settings.spot_cone == SpotFalloff::smoothstep};
     result.ambient = {settings.ambient.r, settings.ambient.g, settings.ambient.b};
     result.environment = EnvironmentLight::isLit(seen.environment, settings);
-    // What is not shaded per pixel cannot be shadowed.
+    // A light that is not shaded per pixel cannot be shadowed.
     if (const std::optional<CastingSun> sun = castingSun(lights, result, settings)) result.base = sun->light;
     return result;
 }
 
-// A thread a tile and word of lights suits a GPU; lavapipe marks the cells of each light faster
+// One thread per tile and word of lights suits a GPU; lavapipe is faster marking the cells of each light
 // (shared/light/MEASURED.md, "What lists cost").
 ListKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
@@ -215,7 +217,8 @@ Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Se
     frame.counters.shadow_pages = prepared.view.shadow.sun.pages();
     frame.local_shadow_reach = prepared.view.shadow.local.reach();
     frame.counters.lights = prepared.view.lights.count();
-    frame.counters.energy_cut = energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff});
+    frame.counters.energy_cut =
+        energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff}, prepared.view.lights.falloff);
     return frame;
 }
 

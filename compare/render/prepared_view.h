@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that drawing a scene needs, made in advance: the resources that all Settings share, and one view
-// of the scene under one Settings, which can be drawn repeatedly.
+// Everything needed to render a scene, prepared in advance: resources that all Settings share, and one
+// view of the scene under one Settings, which can be rendered repeatedly.
 #pragma once
 
 #include "compare/render/path_table.h"
@@ -24,7 +24,7 @@
 
 namespace diptych {
 
-// What all scenes on a device share: each pipeline is compiled once.
+// Shared by all scenes on a device, so that each pipeline is compiled once.
 struct PipelineSet {
     explicit PipelineSet(Device& device);
     OwnedDescriptorSetLayout material;
@@ -32,14 +32,14 @@ struct PipelineSet {
     Pipelines pipelines;
 };
 
-// The resources that all Settings share, uploaded and compiled once.
+// Resources that all Settings share, uploaded and compiled once.
 struct SharedResources {
-    // Without `set`: pipelines of its own.
+    // Without `set` it creates its own pipelines.
     SharedResources(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> set = nullptr);
     Uploader uploader;
     Geometry geometry;
     Posings posings;
-    // Uploaded when first asked for.
+    // Uploaded on first use.
     const Materials& materials(TexturePrecision precision);
     std::shared_ptr<PipelineSet> set;
     Layouts& layouts;
@@ -52,20 +52,19 @@ private:
     std::map<TexturePrecision, Materials> materials_;
 };
 
-// One view of the scene under one Settings, ready for passes. It refers to the arguments of its constructor,
-// which must outlive it.
+// One view of the scene under one Settings, ready for passes. Refers to its constructor's arguments, which
+// must outlive it.
 class PreparedView {
 public:
     PreparedView(Device& device, SharedResources& shared, const SceneView& scene, const Settings& settings);
     PreparedView(const PreparedView&) = delete;
     PreparedView& operator=(const PreparedView&) = delete;
 
-    std::vector<std::string> notes;  // what a reader of the picture must know
-    std::vector<std::string>
-        details;  // what any scene has, for -v and plan: pre-pass, triangles of shadow maps
+    std::vector<std::string> notes;    // what a reader of the image must know
+    std::vector<std::string> details;  // for -v and plan: pre-pass, triangles of shadow maps
     const SceneView& scene;
     const Materials& materials_at_rest;
-    std::optional<Materials> posed_materials;  // where an animation moves any; else those at rest
+    std::optional<Materials> posed_materials;  // if an animation changes any
     const Materials& materials;
     GpuLights lights;
     DrawList draws;
@@ -80,7 +79,7 @@ public:
     FrameInputs inputs;
 };
 
-// A PreparedView with its passes, images and pipelines: all that running it again needs.
+// A PreparedView with its passes, images and pipelines, ready to run again.
 struct PreparedFrame {
     PreparedFrame(Device& device, SharedResources& shared, const SceneView& scene, const Settings& settings);
 
@@ -90,16 +89,16 @@ struct PreparedFrame {
     FrameImages images;
 };
 
-// Throws std::runtime_error naming --size where the device draws no picture so large.
+// Throws std::runtime_error naming --size if the image is too large for the device.
 void checkSize(const Device& device, const Size& size);
 
-// The Frame as far as it is known before drawing: names, Settings, camera, lights, notes of the scene.
+// The Frame as known before rendering: names, Settings, camera, lights, notes of the scene.
 Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Settings& settings);
-// What the view's lists have counted in the last run.
+// Counters of the view's lists in the last run.
 void readCounters(PreparedView& view, FrameCounters& counters);
 FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared);
 
-// lit as the last run left it, row 0 on top, R, G, B.
+// lit of the last run, row 0 on top, R, G, B.
 Image readLit(PreparedFrame& prepared);
 std::vector<Image> readImages(PassList& passes, std::span<const PassList::ReadBack> requests);
 

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), background = static_cast<int>(gpu::DEBUG_material_id);
 
-// The 99.9th percentile of the uncertainty over the surface's pixels, relative to the pixel.
+// 99.9th percentile of the relative uncertainty over pixels that show a surface.
 double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverage& covered) {
     const PixelError error(Metric::relative, ChannelKind::color, image, covered);
     std::vector<double> all;
@@ -52,7 +52,7 @@ glm::dvec3 doubles(const Rgb& c) {
     return {double{c.r}, double{c.g}, double{c.b}};
 }
 
-// Nothing where there is no haze. Aerosols absorb a tenth of what they take away.
+// Empty without haze. Aerosols absorb a tenth of their extinction.
 std::optional<reference::Air> airOf(const std::vector<Light>& lights, const Settings& settings) {
     if (!settings.haze || settings.haze_density == 0) return {};
     const double density = double{settings.haze_density};
@@ -74,7 +74,7 @@ bool isLitFromEverywhere(const Scene& scene, const Settings& settings) {
            std::max({ambient.r, ambient.g, ambient.b}) > 0;
 }
 
-// `surroundings`: W x H x 2, light and what of it is hidden; nothing where there is none.
+// `surroundings`: W x H x 2, light and its occluded part; empty if there is none.
 std::optional<Frame::HiddenLight> hiddenLight(const Image& surroundings) {
     double all = 0, hidden = 0, above = 0;
     std::vector<double> shares;
@@ -100,7 +100,7 @@ std::string hiddenLightNote(const Frame::HiddenLight& hidden) {
         100 * hidden.mean, 100 * hidden.pixels, 100 * hidden.p99);
 }
 
-// What decides every pixel.
+// The inputs that determine every pixel.
 reference::Request requestOf(const Scene& scene, const SceneView& view, const Settings& settings,
                              const Frame* surfaces) {
     return {.scene = scene,
@@ -149,7 +149,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
         request.tile = [&](const reference::Picture& picture, int x, int y, int width, int height) {
             options.tile(picture.channels, x, y, width, height);
         };
-    // Before any tile is drawn.
+    // Called before any tile is rendered.
     request.expected = [&](double seconds) {
         step += fmt::format(", about {} in all", clockText(seconds));
         options.progress.at(0, step);
@@ -182,9 +182,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
     });
-    std::erase_if(frame.through_gbuffer, [&](const auto& entry) {
-        return std::ranges::count(options.channels, entry.first) == 0;
-    });
+    std::erase_if(frame.through_gbuffer,
+                  [&](const auto& entry) { return std::ranges::count(options.channels, entry.first) == 0; });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (picture.kept_share > 0)
         frame.notes.push_back(fmt::format(
@@ -224,7 +223,7 @@ KeptReferences::KeptReferences(const fs::path& output, bool isFolder)
     : stem_(besideOutput(output, "reference")), is_folder_(isFolder) {}
 
 reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t floats) {
-    std::error_code ignored;  // what cannot be made is said by who writes there
+    std::error_code ignored;  // whoever writes there reports the failure
     if (is_folder_ && stem_.has_parent_path()) fs::create_directories(stem_.parent_path(), ignored);
     checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
     sayWhenInterrupted(

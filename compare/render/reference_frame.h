@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a Frame with the reference renderer of compare/reference.
+// Makes a Frame with the reference renderer (compare/reference).
 #pragma once
 
 #include "compare/reference/checkpoint.h"
@@ -18,42 +18,42 @@
 
 namespace diptych {
 
-// `view` is the one that the Settings ask for. `surfaces` is the Frame of surfaceSettings() with
-// reference::surfaceChannels(); nullptr in mode scene. `decoded`: the same of deferred, for
-// Frame::through_gbuffer; or nullptr.
+// `view`: the view of the Settings. `surfaces`: the Frame of surfaceSettings() with
+// reference::surfaceChannels(); nullptr in mode scene. `decoded`: the same for deferred, for
+// Frame::through_gbuffer; may be nullptr.
 Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settings& settings,
                          const Frame* surfaces, const RenderOptions& options, const Frame* decoded = nullptr);
 
-// One pixel of that Frame and what each light adds to it, as reference::drawPixel() has it.
+// One pixel of that Frame and each light's contribution, by reference::drawPixel().
 reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& view, const Settings& settings,
                                          const Frame* surfaces, int x, int y);
 
-// Whether a Frame of these Settings is drawn with a Vulkan device: all but the reference of mode scene, which
-// makes its surfaces itself.
+// Whether these Settings need a Vulkan device: all do except the reference in mode scene, which finds its
+// surfaces itself.
 bool needsDevice(const Settings& settings);
 
-// One Frame per Settings, in order, none of which needsDevice(). Without views it has its own of the scene.
+// One Frame per Settings, in order; needsDevice() must be false for all. Without views it makes its own.
 std::vector<Frame> drawWithoutDevice(SceneViews& views, const std::vector<Settings>& settings,
                                      const RenderOptions& options);
 std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Settings>& settings,
                                      const RenderOptions& options);
 
-// Where references keep what is done of them until a command ends: beside its output, one file each, named
-// after the picture (.NAME.reference-HASH). They are gone on from when the same command is given again.
-// Programs with one output each have their own files.
+// Checkpoints of references until a command ends: one file each beside its output, named after the image
+// (.NAME.reference-HASH). The same command resumes from them. Programs with different outputs have
+// separate files.
 class KeptReferences {
 public:
-    // The folders above an output that is one itself are made, as they are for it.
+    // Creates the parent folders of an output that is a folder, as is done for the output itself.
     KeptReferences(const std::filesystem::path& output, bool isFolder);
 
-    // For one reference more. As reference::Request::keep; lives as long as this does. Throws
-    // std::runtime_error naming the file where it cannot be written.
+    // Opens a checkpoint for one more reference, for reference::Request::keep; lives as long as this
+    // object. Throws std::runtime_error naming the file if it cannot be written.
     reference::Checkpoint& open(std::uint64_t key, std::size_t floats);
 
-    void remove();  // the command has made its output
+    void remove();  // call when the output is complete
 
-    // A line for the user on what other commands with the same output have left, which nothing else would
-    // ever remove; empty where there is nothing.
+    // A line for the user about checkpoints left by other commands with the same output, which nothing
+    // else removes; empty if there are none.
     std::string leftByOthers() const;
 
 private:

@@ -15,9 +15,9 @@ namespace diptych {
 class Device;
 struct PipelineSet;  // renderer.h
 
-// renderAll() of one scene after the other, which share pipelines: what one has compiled, which is most of
-// the time that small pictures take on lavapipe, the next does not compile again. Beyond `pipelinesKept` of
-// them, which may take 1.5 MB each there, those of both paths are let go once a scene is drawn.
+// renderAll() for one scene after the other with shared pipelines. Compiling dominates the time of small
+// images on lavapipe, so later scenes reuse pipelines. If there are more than `pipelinesKept` after a
+// scene, those of both paths are destroyed; lavapipe takes 1.5 MB for each.
 inline constexpr std::size_t pipelinesKept = 256;
 std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
                              const RenderOptions& options, const std::shared_ptr<PipelineSet>& pipelines);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn and measured when a Frame is made of Settings.
+// What to render and measure for a Frame.
 #pragma once
 
 #include "compare/run/progress.h"
@@ -19,40 +19,41 @@ namespace reference {
 class Checkpoint;
 }
 
-// The channels that are drawn a second time: a difference is a race (Frame::noise).
+// Channels to render a second time; a difference indicates a race (Frame::noise).
 enum class Twice : std::uint8_t { none, lit, all };
 
 struct RenderOptions {
-    // Debug modes to draw; a forward-only one is left out of a deferred Frame. Empty: the frame is timed and
-    // nothing else.
+    // Debug modes to render; forward-only ones are omitted from a deferred Frame. Empty: only time the
+    // frame.
     std::vector<int> channels;
-    std::vector<int> requested;  // of these, Frame::requested; empty: all
-    int runs = 5;                // timed frames, beside which passes are timed; 0: no times
-    // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer): forward+
-    // encodes and decodes its own; renderAll() gives the reference those of the deferred Frame beside it.
+    std::vector<int> requested;  // subset of `channels` for Frame::requested; empty: all
+    int runs = 5;                // timed frames, apart from those with timed passes; 0: no times
+    // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer). Forward+
+    // encodes and decodes its own; renderAll() passes the deferred Frame's surfaces to the reference.
     bool through_gbuffer = false;
-    std::optional<Settings> decoded;  // reference in mode surface: that Frame's Settings
-    // reference: also what approximations of an environment cost (Frame::environment_costs), and what of its
-    // light and of ambient light geometry hides (Frame::hidden_light).
+    std::vector<int> every_sample;    // with MSAA: subset of `channels` for Frame::further_samples
+    std::optional<Settings> decoded;  // reference in mode surface: the deferred Frame's Settings
+    // reference: also the errors of environment approximations (Frame::environment_costs), and the
+    // environment and ambient light that geometry occludes (Frame::hidden_light).
     bool environment_errors = false;
-    // reference: also what is seen of suns, points and spots, and Frame::shadow_edge and local_shadow_edge.
-    // That takes about half of the rays of a picture with a sun.
+    // reference: also visibility of directional, point and spot lights, and Frame::shadow_edge and
+    // local_shadow_edge. Takes about half of the rays of an image with a directional light.
     bool shadow_edges = true;
     Twice twice = Twice::none;
-    // Whether what makes other channels than lit draws lit, too, and counts where it is not the timed
-    // frame's.
+    // Whether the capture of other channels also renders lit, and counts pixels where it differs from the
+    // timed frame's.
     bool recheck = true;
     std::function<void(const std::string&)> on_step;  // called before each step with its name, for -v
     Stage progress;                                   // of renderAll()
-    // Of a reference: called from any thread with each tile once it is drawn: all channels, of which only the
-    // tile may be read, its left and top pixel, width and height.
+    // For a reference: called from any thread with each finished tile: all channels, of which only the
+    // tile may be read, and its left and top pixel, width and height.
     std::function<void(const std::map<int, Image>& channels, int x, int y, int width, int height)> tile{};
-    // Where a reference keeps what is done of it, as reference::Request::keep; asked once for each. Empty:
-    // nowhere.
+    // Opens a reference's checkpoint, for reference::Request::keep; called once for each. Empty: no
+    // checkpoints.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
 
-// The cost of making one Frame, in multiples of drawing one frame; for progress lines.
+// Cost of one Frame relative to rendering one frame; for progress lines.
 double framesIn(const RenderOptions& options);
 
 }  // namespace diptych

@@ -31,9 +31,9 @@ namespace diptych {
 
 namespace {
 
-constexpr double captureFrames = 3;  // a capture of all channels; measured, lavapipe
+constexpr double captureFrames = 3;  // cost of capturing all channels; measured on lavapipe
 
-// Frames whose passes are timed one by one, beside `runs` timed ones.
+// Number of frames whose passes are timed one by one, apart from `runs` timed frames.
 int profiledOf(int runs) {
     return runs < 3 ? std::min(runs, 1) : 3;
 }
@@ -74,17 +74,17 @@ private:
     void announce(const std::string& step) const {
         if (options_.on_step) options_.on_step(frame_.name + ": " + step);
     }
-    // Before something that takes about as long as `frames` timed frames do.
+    // Announces a step that takes about as long as `frames` timed frames.
     void step(const std::string& what, double frames = 1) {
         options_.progress.at(framesDone_ / framesIn(options_), frame_.name + ": " + what);
         framesDone_ += frames;
         doing_ = what;
     }
-    // Between parts of what step() announced last.
+    // Reports progress between parts of the last step().
     void goOn() {
         options_.progress.at(std::min(1.0, framesDone_ / framesIn(options_)), frame_.name + ": " + doing_);
     }
-    // Whether the capture draws lit, too: where it draws nothing else there is nothing to vouch for.
+    // Whether the capture also renders lit; without other channels there is nothing to verify.
     bool rechecks() const {
         const auto isOther = [](int mode) { return mode != lit; };
         return options_.recheck && (std::ranges::any_of(options_.channels, isOther) ||
@@ -94,7 +94,7 @@ private:
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
-    // Draws with the pipelines without debug code, which are those that are timed.
+    // Renders with the timed pipelines, which contain no debug code.
     void drawLit() {
         for (const std::string& detail : prepared_.view.details) announce(detail);
         announce("draw");
@@ -103,28 +103,29 @@ private:
         frame_.bytes = bytesOf(prepared_, shared_);
     }
 
-    // lit, to be compared with the timed frame's unless that is not asked for, and every requested channel
-    // that this path can make.
+    // lit, for comparison with the timed frame's if requested, and every requested channel that this path
+    // supports.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
         if (rechecks()) request.modes = {lit};
         for (const int mode : options_.channels)
             if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
                 request.modes.push_back(mode);
+        request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
                 if (isRequested(mode)) request.through_gbuffer.push_back(mode);
         return request;
     }
 
-    // Keeps lit as it was before something was blended over it, where lit is wanted at all.
+    // Keeps lit from before blending, if lit was requested.
     void takeUnblended(const CapturedImage& read, Image image) {
         if (!isRequested(lit)) return;
         keepInFile(image.data);
         (read.through_gbuffer ? frame_.unblended_through_gbuffer : frame_.unblended) = std::move(image);
     }
 
-    // Draws every channel from the timed frame's images. lit itself stays the timed pipeline's.
+    // Renders every channel from the timed frame's images. lit stays that of the timed pipeline.
     void capture() {
         PassList& passes = prepared_.passes;
         announce("capture");
@@ -134,6 +135,11 @@ private:
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured, [this](const CapturedImage& read, Image image, Repaired repaired) {
             if (read.before_blending) return takeUnblended(read, std::move(image));
+            if (read.sample > 0) {
+                keepInFile(image.data);
+                frame_.further_samples[read.mode].push_back(std::move(image));
+                return;
+            }
             if (read.through_gbuffer) {
                 keepInFile(image.data);
                 frame_.through_gbuffer[read.mode] = std::move(image);
@@ -160,8 +166,9 @@ private:
         }
         if (options_.twice == Twice::all) {
             step("second capture", captureFrames);
-            // They come last, and are drawn once.
+            // They come last, and are rendered once.
             std::erase_if(captured, &CapturedImage::through_gbuffer);
+            std::erase_if(captured, [](const CapturedImage& read) { return read.sample > 0; });
             readCaptured(first, captured,
                          [this](const CapturedImage& read, const Image& image, const Repaired&) {
                              if (read.mode != lit) addNoise(read.mode, image);
@@ -170,9 +177,9 @@ private:
         if (!isRequested(lit)) frame_.channels.erase(lit);
     }
 
-    // Runs the capture's passes group by group, from pass `first` on, and hands out what each group left, one
-    // image's channels after the other, without NaN and infinity: each image is gone before the next is read,
-    // and only few channels are there at a time.
+    // Runs the capture's passes group by group, beginning at pass `first`. Passes each group's channels to
+    // `take`, image by image, without NaN and infinity. Frees each image before reading the next, so that
+    // few channels are in memory at a time.
     using Repaired = std::vector<std::uint32_t>;
     void readCaptured(std::size_t first, std::span<const CapturedImage> captured,
                       const std::function<void(const CapturedImage&, Image, Repaired)>& take) {
@@ -201,7 +208,7 @@ private:
         }
     }
 
-    // Stores how the second run of a channel differs from the first.
+    // Stores the difference of a channel's second run from its first.
     void addNoise(int number, const Image& again) {
         const Image& first = frame_.channels.at(number);
         ChannelNoise noise{unequalPixels(first, again, 0), 0};
@@ -224,11 +231,11 @@ private:
     PreparedFrame prepared_;
     Frame frame_;
     Image lit_;
-    std::map<std::string, std::size_t> kernels_;  // what they left, by buffer, if all is drawn twice
+    std::map<std::string, std::size_t> kernels_;  // results by buffer, if everything is rendered twice
 };
 
-// The Settings of the deferred picture of the same view that loses bits, for a reference that lights
-// captured surfaces.
+// For a reference that lights captured surfaces: the Settings of a deferred image of the same view with a
+// lossy G-buffer.
 std::optional<Settings> decodedBeside(const Settings& reference, const std::vector<Settings>& all) {
     if (reference.path != Path::reference || reference.reference_mode != ReferenceMode::surface) return {};
     for (const Settings& s : all)
@@ -250,7 +257,7 @@ double framesIn(const RenderOptions& options) {
 
 struct Renderer::State {
     Device& device;
-    std::unique_ptr<SceneViews> own_views;  // where none were given
+    std::unique_ptr<SceneViews> own_views;  // if none were given
     SceneViews& views;
     SharedResources shared;
     std::uint64_t granted = 0;  // bytes of host memory
@@ -293,7 +300,7 @@ Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     return frame;
 }
 
-// Draws the reference; in mode surface from surfaces that forward+ captures.
+// Renders the reference; in mode surface, from surfaces that forward+ captures.
 Frame Renderer::drawReference(const Settings& settings, const RenderOptions& options) {
     const Scene& scene = state_->views.scene();
     const SceneView& view = state_->views.at(viewRequest(settings));
@@ -305,7 +312,7 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
     return drawReferenceFrame(scene, view, settings, &surfaces, options, decoded ? &*decoded : nullptr);
 }
 
-// What the reference shades in mode surface, drawn under a path's Settings.
+// Surfaces that the reference shades in mode surface, rendered under a path's Settings.
 Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
     capture.channels = reference::surfaceChannels();
@@ -351,7 +358,7 @@ ChannelShading Renderer::shadeChannels(const Settings& settings, const SurfaceIm
 std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const RenderOptions& options) {
     std::vector<TimedFrame> times(settings.size());
     std::vector<Settings> drawn;
-    std::vector<std::size_t> places;  // of `drawn` in `settings`
+    std::vector<std::size_t> places;  // index of each `drawn` in `settings`
     for (std::size_t i = 0; i < settings.size(); ++i) {
         if (settings[i].path == Path::reference || options.runs == 0) continue;
         drawn.push_back(settings[i]);
@@ -414,7 +421,8 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
         frames.push_back(renderer.draw(settings[i], each));
         addTimes(times[i], frames.back());
         if (pipelines) continue;
-        // Those of a path that is drawn no more: lavapipe has some 1.5 MB for each of the gallery's.
+        // Destroys the pipelines of a path that is not needed again: lavapipe takes some 1.5 MB for each
+        // of the gallery's.
         if (settings[i].path != Path::reference &&
             std::none_of(settings.begin() + static_cast<std::ptrdiff_t>(i) + 1, settings.end(),
                          [&](const Settings& later) { return later.path == settings[i].path; }))

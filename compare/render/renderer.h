@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a scene and Settings to Frames, on one device.
+// Renders Frames of a scene with Settings, on one device.
 #pragma once
 
 #include "compare/reference/reference.h"
@@ -19,18 +19,17 @@ namespace diptych {
 
 class Device;
 
-// Pipelines for any number of Renderers on one device, whatever their scenes: each is compiled once. The
-// device outlives it.
+// Pipelines for any number of Renderers on one device, for any scenes; each is compiled once. The device
+// must outlive it.
 struct PipelineSet;
 std::shared_ptr<PipelineSet> makePipelineSet(Device& device);
 
-// Draws Frames of one scene on request. Everything is uploaded once, every pipeline is compiled once, and
-// each view of the scene is made once for all Frames. Device and scene or views must outlive it. Throws
-// std::runtime_error: one line.
+// Renders Frames of one scene on request. Uploads everything once, compiles every pipeline once, and makes
+// each view of the scene once for all Frames. Device and scene or views must outlive it. Throws
+// std::runtime_error with a one-line message.
 class Renderer {
 public:
-    // `pipelines`: of the same device; without them it has its own. Without views it has its own of the
-    // scene.
+    // `pipelines`: of the same device. Creates its own pipelines or views if not given.
     Renderer(Device& device, SceneViews& views, std::shared_ptr<PipelineSet> pipelines = nullptr);
     Renderer(Device& device, const Scene& scene, std::shared_ptr<PipelineSet> pipelines = nullptr);
     ~Renderer();
@@ -39,23 +38,23 @@ public:
 
     Frame draw(const Settings& settings, const RenderOptions& options);
 
-    // Of the two paths; all their images at once. Throws std::runtime_error as draw() does.
+    // Frames of deferred and forward+, with all their images in memory at once. Throws like draw().
     PreparedFrames prepare(std::span<const Settings> settings);
-    // Times frames of the two paths, all at once and in turn; `options`: runs, progress.
+    // Times interleaved frames of the two paths, all prepared at once; `options`: runs, progress.
     std::vector<TimedFrame> time(std::span<const Settings> settings, const RenderOptions& options);
-    // Lighting of channels as one Settings has it.
+    // Lighting of channels under one Settings.
     ChannelShading shadeChannels(const Settings& settings, const SurfaceImages& images);
-    // What single lights add to a pixel of one of the two paths (light_terms.h).
+    // Contributions of single lights to a pixel of one of the two paths (light_terms.h).
     LightTerms lightTerms(const Settings& settings, bool environment);
-    // One pixel of the reference, and what each light adds to it.
+    // One pixel of the reference, and each light's contribution.
     reference::PixelLight referencePixel(const Settings& settings, int x, int y);
-    // Destroys the pipelines of one path, of all Renderers that share them. Frames of it that are prepared
-    // must be gone.
+    // Destroys one path's pipelines in all Renderers that share them. Prepared frames of that path must be
+    // destroyed before.
     void clearPipelines(Path path);
-    // checkHostMemory() of Frames that will be drawn. What was granted once is not asked for again: it is
-    // used by one Frame after the other.
+    // checkHostMemory() for Frames to be rendered. Memory granted before is not requested again, because
+    // Frames use it one after the other.
     void checkMemory(std::span<const Settings> settings, const RenderOptions& options);
-    // How many pipelines there are by now, of all Renderers that share them.
+    // Number of pipelines in all Renderers that share them.
     std::size_t pipelines() const;
 
 private:
@@ -66,7 +65,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// One Frame per Settings, in order, by one Renderer.
+// One Frame per Settings, in order, with one Renderer.
 std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
                              const RenderOptions& options);
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,

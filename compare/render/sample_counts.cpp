@@ -10,7 +10,7 @@ namespace diptych {
 std::vector<int> sampleCounts(const Device& device) {
     std::vector<int> counts{1};
     VkSampleCountFlags all = ~VkSampleCountFlags{0};
-    // Of the G-buffer's words whatever its encoding.
+    // The formats of G-buffer words in every encoding.
     for (const VkFormat format :
          {litFormat, depthFormat, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32_UINT, VK_FORMAT_R32G32B32A32_UINT})
         all &= device.support().sampleCounts(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples a pixel: how many a device draws, and Settings of the same picture with another number.
+// Sample counts that a device supports, and Settings of the same image with another count.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -9,11 +9,11 @@
 
 namespace diptych {
 
-// Of 1, 4 and 8 those that every format has that the paths draw to, ascending. Asked of each format: a device
-// may say that it has one sample of integers (framebufferIntegerColorSampleCounts) and draw more.
+// The counts among 1, 4 and 8 that every render target format supports, ascending. Asks for each format: a
+// device may report one sample for integers (framebufferIntegerColorSampleCounts) and support more.
 std::vector<int> sampleCounts(const Device& device);
 
-// With so many samples, and the defaults of what has a meaning with several samples alone.
+// Sets the sample count, and the defaults of settings that need MSAA.
 Settings withSamples(const Settings& settings, int samples);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene as a picture of it shows it: with the environment that its Settings ask for.
+// Loads a scene with the environment that its Settings request.
 #pragma once
 
 #include "compare/run/progress.h"
@@ -10,7 +10,7 @@
 
 namespace diptych {
 
-// Loads the scene (shared/scene/load.h) with the environment of the Settings; reports to `progress`. Throws
+// Loads the scene (shared/scene/load.h) and the environment of the Settings; reports to `progress`. Throws
 // std::runtime_error, one line, naming the file.
 Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
 

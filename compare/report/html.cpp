@@ -147,8 +147,8 @@ std::string notes(const Report& report, const ReportLayout& layout) {
         const std::string about =
             all.size() == 1 ? ""
             : names.size() == all.size()
-                ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", numbers differ" : "")
-                : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", numbers differ" : "");
+                ? fmt::format("{} scenes{}: ", all.size(), note.varies ? ", with different numbers" : "")
+                : fmt::format("{}{}: ", listed(names, 3), note.varies ? ", with different numbers" : "");
         items.push_back(fmt::format("<b>{}</b>{}", isolated(about), isolated(note.text)));
     }
     return listBox("notes", "Notes", firstOf(items, "report.json has all of them"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The cards of one comparison: pictures, difference, wipe, numbers, reason.
+// Cards of one comparison: images, difference, wipe, values, reason.
 #include "compare/picture/heat.h"
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    // By how much the channel differs, where most, what decided, and the reason of its tolerance.
+    // The channel's largest difference and its pixel, the deciding criterion, and the reason of its
+    // tolerance.
     std::string finding() const {
         const ChannelStats& s = channel_.stats;
         std::string text = channel_.reason.empty() ? "" : "<b>" + markup(channel_.reason) + ".</b> ";
@@ -80,7 +81,7 @@ private:
         return "<p class=\"finding\">" + text + because() + "</p>\n";
     }
 
-    // Of the errors that are drawn.
+    // The largest of the displayed errors.
     double largestShown() const {
         return pictures_.worst.empty() ? channel_.stats.max : pictures_.worst.front().error;
     }
@@ -92,8 +93,8 @@ private:
                                : "--keep failing: pictures of passing channels are not kept");
     }
 
-    // A picture that can be moved and zoomed, without a name that of the left side; `over` is drawn on top of
-    // it and keeps its size.
+    // An image that can be panned and zoomed; without a name, the left side's. `over` is drawn on top of
+    // it at a fixed size.
     std::string panel(const std::string& picture, const std::string& alt,
                       const std::string& over = "") const {
         return fmt::format(
@@ -112,7 +113,7 @@ private:
                            (s.worst_y + 0.5) / left_.settings.size.height);
     }
 
-    // What the pictures' colours mean, below them.
+    // Legend of the images' colours.
     std::string scaleLegend() const {
         if (!isHeat(*channel_.mode)) return "<span>" + markup(pictures_.scale.words) + "</span>";
         std::string stops;
@@ -130,7 +131,7 @@ private:
                "data-do=\"in\" aria-label=\"zoom in\" title=\"+\">+</button></span>";
     }
 
-    // The script labels its rows with the names of the Frames that have the channel.
+    // The script labels rows with the names of the Frames that have the channel.
     std::string readout() const {
         if (pictures_.values.empty())
             return fmt::format("<p class=\"readout\">{}</p>",
@@ -161,7 +162,7 @@ private:
                rows + "</table></div></details>\n";
     }
 
-    // A rule need not bound the largest error.
+    // Whether there is a finite bound; a rule need not bound the largest error.
     bool hasTolerance() const { return std::isfinite(channel_.tolerance.max); }
 
     std::string because() const {
@@ -190,14 +191,14 @@ private:
         std::vector<std::string> view = withOption(command_, "--debug", name);
         if (view.front() != "compare") return text;
         view.front() = "view";
-        // The folder of the report that draws it again is none of the window's.
-        for (const char* option : {"-o", "--against-device"})  // of a report
+        // The window needs neither an output folder nor a second device.
+        for (const char* option : {"-o", "--against-device"})  // options of a report
             if (const auto out = std::ranges::find(view, option); out != view.end()) view.erase(out, out + 2);
         return text + line("open it in a window", view);
     }
 
     std::string pair() const {
-        // A picture that is embedded and equal on both sides stands in the page once: the script copies it.
+        // An embedded image that is equal on both sides is in the page once: the script copies it.
         const bool once =
             layout_.single_file && layout_.source(pictures_.baseline) == layout_.source(pictures_.test);
         const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
@@ -248,7 +249,7 @@ private:
             channel_.certain_p999 && channel_.shown_error ? "no excess" : "equal", beyond);
     }
 
-    // What the colours of the error map mean, and in which unit.
+    // Meaning and unit of the error map's colours.
     std::string errorTitle() const {
         if (channel_.certain_p999 && channel_.shown_error)
             return "excess: relative error minus the reference's uncertainty and the G-buffer's quantization "
@@ -304,7 +305,7 @@ private:
         return out + "</dl>\n";
     }
 
-    // The surroundings of the worst pixel, enlarged, and its values.
+    // Magnified surroundings of the worst pixel, and its values.
     std::string loupes() const {
         const int x = channel_.stats.worst_x, y = channel_.stats.worst_y;
         if (x < 0) return {};
@@ -327,7 +328,7 @@ private:
                 "<figure>{}<figcaption>{}<br><span class=\"values\">{}</span></figcaption></figure>", glass,
                 caption, text);
         };
-        const bool isDrawn = !pictures_.worst.empty();  // else the errors that are drawn are 0 everywhere
+        const bool isDrawn = !pictures_.worst.empty();  // else the displayed errors are 0 everywhere
         const std::string there =
             fmt::format("worst pixel {}, {}{}", x, y,
                         isDrawn && channel_.shown_error ? ", by " + markup(channel_.shown_error_name) : "");
@@ -336,7 +337,7 @@ private:
                loupe(pictures_.difference, there, fmt::format(" {}", number(largestShown()))) + "</div>\n";
     }
 
-    // A forward-only channel has one picture and no verdict.
+    // A forward-only channel has one image and no verdict.
     std::string single() const {
         const std::string why =
             fmt::format("<p class=\"because\">{}</p>\n", markup(channel_.tolerance.because));

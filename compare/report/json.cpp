@@ -213,7 +213,7 @@ Json truthJson(const Report& report) {
 
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
                      const Trends* since, const JsonArrays& arrays, const JsonSink& out) {
-    // Arrays may be another machine's texts.
+    // Arrays may be text from another machine.
     const JsonSink sink = [&](std::string_view text) { out(shownText(text)); };
     Json times = Json::array();
     for (const DrawnOn& one : devices) {
@@ -229,7 +229,7 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
               {"devices", times},
               {"said_first", report.first_notes}};
     if (!report.against.name.empty()) head["against_device"] = jsonOf(report.against);
-    // Times of several devices are no one's.
+    // With several devices, no total time is meaningful.
     const auto only = [&](double DrawnOn::*ms) {
         return devices.size() == 1 ? Json(devices.front().*ms) : Json(nullptr);
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report on a terminal.
+// Terminal output of a report.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
@@ -33,7 +33,7 @@ TableRow rowOf(const ChannelDiff& channel) {
     return row;
 }
 
-// Beside a lit channel's criterion, how much the encoding explains.
+// How much the encoding explains, after a lit channel's criterion.
 std::string explainedLine(const ChannelDiff& channel) {
     if (!channel.unexplained_pixels || channel.stats.max == 0 || channel.verdict == Verdict::fail) return {};
     std::string line = fmt::format("  {}: explained by the encoding: largest error {}, mean {}",
@@ -62,7 +62,7 @@ std::string frameLine(const Frame& frame) {
                               frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
 }
 
-// Below all tables, each note once with the scenes that it is about.
+// Notes below all tables, each once with its scenes.
 std::string notesText(const Report& report) {
     std::set<std::string> scenes;
     for (const Comparison& comparison : report.comparisons) scenes.insert(report.baseline(comparison).scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two pictures of one path on two devices: their judgement's input beside the channels.
+// Further inputs for comparing one path on two devices, beside the channels.
 #pragma once
 
 #include "compare/render/device_precision.h"
@@ -12,17 +12,17 @@
 namespace diptych {
 
 struct AcrossDevices {
-    std::array<DevicePrecision, 2> devices;  // the baseline's and the test's
-    // By channel of the surface, the range of the texels that may be seen at a pixel (texel_ranges.h).
+    std::array<DevicePrecision, 2> devices;  // of the baseline and of the test
+    // By surface channel, the range of texels that may be visible at a pixel (texel_ranges.h).
     std::map<int, Image> texels;
-    // Texture coordinates of forward+ on both devices: they tell seams, which a deferred Frame does not show.
-    // nullptr: unknown.
+    // Texture coordinates of forward+ on both devices; they reveal seams, which a deferred Frame does not
+    // show. nullptr: unknown.
     std::array<const Image*, 2> texcoords{};
-    // The scene has a surface (or `several`) of a material (-1: any blended one) within `near` metres of a
-    // place from the camera in world axes, m. Empty: unknown, and no two surfaces count as being of one
-    // depth.
+    // Whether the scene has a surface (or `several`) of a material (-1: any blended one) within `near`
+    // metres of a position (world axes, camera as origin, m). Empty: unknown; then no two surfaces count
+    // as having equal depth.
     std::function<bool(int material, const float* place, double near, bool several)> surface_at{};
-    // Lit channels of the test's surfaces as the baseline's device lights them, from their channels.
+    // Lit channels of the test's surfaces, shaded on the baseline's device from their channels.
     std::map<int, Image> relit;
 };
 

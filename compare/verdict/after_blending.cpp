@@ -18,7 +18,7 @@ namespace {
 
 constexpr int litNumber = static_cast<int>(gpu::DEBUG_lit);
 
-// lit before and after something was blended, W x H x 3.
+// lit before and after blending, W x H x 3.
 struct Blending {
     const Image* before = nullptr;
     const Image* after = nullptr;
@@ -30,8 +30,8 @@ Blending blendingOf(const Frame& frame) {
     return {&frame.unblended, &lit->second};
 }
 
-// The same of surfaces that went through the G-buffer's encoding, where it loses something: a pair of both
-// paths is judged by what that does not explain.
+// The same after the G-buffer's encoding if that is lossy: in a pair of both paths, only differences that
+// the encoding does not explain count.
 Blending encodedBlendingOf(const Frame& forward, const Frame& other) {
     const auto lit = forward.through_gbuffer.find(litNumber);
     if (forward.settings.path != Path::forward_plus || other.settings.path != Path::deferred ||

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Differences of lit that appear where something is blended over the opaque picture, and were not there
-// before.
+// Differences of lit that only appear after something is blended over the opaque image.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -13,26 +12,26 @@
 namespace diptych {
 
 struct AfterBlending {
-    std::uint64_t covered = 0;  // pixels that are judged and over which something is blended
-    std::uint64_t before = 0;   // pixels of which lit differs before that
-    std::uint64_t pixels = 0;   // that differ after it and did not, or not as much, before
-    std::uint64_t allowed = 0;  // so many of these may
-    double largest = 0;         // of their differences after it, lit's metric
+    std::uint64_t covered = 0;  // compared pixels with blended surfaces
+    std::uint64_t before = 0;   // pixels of which lit differs before blending
+    std::uint64_t pixels = 0;   // pixels that differ after it and did not, or less, before
+    std::uint64_t allowed = 0;  // permitted number of such pixels
+    double largest = 0;         // their largest difference after it, in lit's metric
     int x = -1, y = -1;         // its pixel
 
     bool passed() const { return pixels <= allowed; }
 };
 
-// Of two paths: blending "over" weights what lies behind by 0 to 1, and what is blended is the same in both,
-// so that no pixel may differ by more than before: on a CPU by not a bit where it did not differ, else by 16
-// ULP of the pixel's largest component more, as both sums are rounded. Of a packed G-buffer forward+ shows
-// what its surfaces are after the encoding, so that what the encoding explains is no difference. Of a path
-// and the reference in mode surface: pixels within lit's tolerance before and beyond it after, of which there
-// may be a thousandth of those that something blended covers, rounded up. Empty where nothing is blended, and
-// for pictures of which it is not known what they were before.
+// Two paths: blending "over" weights the background by 0 to 1 and both blend the same, so no pixel may
+// differ more than before. On a CPU, equal pixels must stay bitwise equal; else 16 ULP of the pixel's
+// largest component are added, because both sums are rounded. With a packed G-buffer, forward+'s image
+// after the encoding is used, so differences that the encoding explains do not count.
+// A path and the reference in mode surface: counts pixels within lit's tolerance before and out of it
+// after. A thousandth of the blended pixels may be, rounded up.
+// Empty if nothing is blended, or if the image before blending is unknown.
 std::optional<AfterBlending> afterBlending(const FramePair& pair);
 
-// "after the transparent draw: 132 pixels of lit differ that did not before it ..."; empty where it passed.
+// "after the transparent draw: 132 pixels of lit differ that did not before it ..."; empty if it passed.
 std::string faultOf(const AfterBlending& found);
 
 }  // namespace diptych

@@ -38,7 +38,7 @@ std::string textOf(const double (&place)[3]) {
     return fmt::format("({}, {}, {})", place[0], place[1], place[2]);
 }
 
-// Every member of the camera by its name, as the user is told it.
+// Members of the camera with their names for the user.
 std::vector<std::pair<const char*, std::string>> namedMembers(const FrameCamera& camera) {
     return {{"camera", camera.name.empty() ? "unnamed" : camera.name},
             {"camera eye", textOf(camera.eye)},
@@ -50,7 +50,7 @@ std::vector<std::pair<const char*, std::string>> namedMembers(const FrameCamera&
             {"camera far, m", fmt::format("{}", camera.far)}};
 }
 
-// Files of old have no camera: it would have one of the two.
+// Old files have no camera; a valid one has one of the two.
 bool isKnown(const FrameCamera& camera) {
     return camera.fov_degrees != 0 || camera.ymag != 0;
 }
@@ -81,7 +81,7 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
         say("camera", "", "known");
     }
     Settings now = frame.settings;
-    // Of what a path is drawn with, the reference depends on these alone.
+    // The reference only depends on these of a path's Settings.
     if (isReferenceFrame(baseline)) now = withReferenceOf(referenceSettings(now), baseline.settings);
     if (const std::string settings = differing(baseline.settings, now); !settings.empty())
         lines.push_back(fmt::format("baseline: different Settings: {}", settings));
@@ -107,8 +107,8 @@ std::string updateBaseline(const fs::path& file, const Frame& frame, const Repor
     const auto failed = [](const fs::path& path, int error) {
         throw std::runtime_error(writingFailed(path, error));
     };
-    // The new one is whole before any name changes. The old one then has both names until the new one takes
-    // its first: at no moment is there none.
+    // The new file is complete before any name changes. The old file then has both names until the new one
+    // takes the first, so one always exists.
     Temporary aside(file.parent_path(), file);
     if (!aside.createFolder()) failed(file, errno);
     const fs::path made = aside.path() / file.filename(), kept = aside.path() / old.filename();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lit may be off by where surfaces are blended, held against the reference in mode surface: it meets
-// those with its own rays and reads their textures by its own filter, while what is opaque is a path's
-// capture.
+// Tolerance of lit at blended surfaces against the reference in mode surface. The reference traces those
+// with its own rays and filters their textures itself; opaque surfaces are a path's capture.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -13,13 +12,13 @@ namespace diptych {
 
 class BlendedPixels {
 public:
-    // `pair` outlives it.
+    // `pair` must outlive it.
     explicit BlendedPixels(const FramePair& pair);
 
     bool any() const { return share_ != nullptr; }
-    // In the channel's own unit; 0 for others than lit. Beside a pixel that something blended covers it is
-    // what the reference's picture changes by within two pixels: the rasterizer's edge, and a mip level that
-    // is a step coarser.
+    // Tolerance in the channel's unit; 0 for channels other than lit. Next to a pixel with a blended
+    // surface, it is the reference's change within two pixels. That covers the rasteriser's edge, and a
+    // mip level one step coarser.
     double allowed(const DebugMode& mode, std::size_t pixel) const;
 
 private:

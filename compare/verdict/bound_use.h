@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a channel uses of a bound that each pixel has.
+// Bound utilization of a channel whose bound differs from pixel to pixel.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -12,13 +12,13 @@
 namespace diptych {
 
 struct BoundUse {
-    double used = 0;            // the largest error divided by its pixel's bound; above 1 is too much
+    double used = 0;            // largest error divided by its pixel's bound; fails above 1
     int x = -1, y = -1;         // its pixel
     std::uint64_t beyond = 0;   // pixels with an error above their bound
     double most = 0, mean = 0;  // of the finite bounds, in the channel's metric
 };
 
-// Of one pixel: its error divided by its bound, 0 where there is no error; and that bound.
+// For one pixel: its error divided by its bound (0 without an error), and the bound.
 struct PixelUse {
     double share = 0, bound = 0;
 };
@@ -26,7 +26,8 @@ inline PixelUse pixelUse(double error, double bound) {
     return {error == 0 ? 0 : error / bound, bound};
 }
 
-// Over the covered pixels of an image `width` pixels wide. `of`: the PixelUse of a pixel, row by row.
+// Over the covered pixels of an image `width` pixels wide. `of`: the PixelUse of a pixel, by row-major
+// index.
 template <class Of>
 BoundUse boundUse(const Coverage& coverage, int width, const Of& of) {
     BoundUse use;

@@ -16,7 +16,7 @@
 namespace diptych {
 namespace {
 
-// The covered pixels whose error is beyond the tolerance.
+// Covered pixels out of tolerance.
 std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
                            const Measurement& measurement) {
     const double most = channel.tolerance.max;
@@ -26,7 +26,7 @@ std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
     return measurement.pixelsAbove(most);
 }
 
-// What the derived tolerance is a limit on.
+// The criterion of the derived tolerance.
 Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const Measurement& measurement) {
     if (const auto& pixels = channel.unexplained_pixels)
         return {.figure = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
@@ -50,7 +50,7 @@ Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const M
             .pixels = pixelsBeyond(channel, pair, measurement)};
 }
 
-// What the criterion finds wrong; empty where it holds.
+// Error message of the criterion; empty if it passes.
 std::string faultOf(const ChannelDiff& channel) {
     const Criterion& c = *channel.criterion;
     const std::string share = percentText(c.share);
@@ -60,9 +60,10 @@ std::string faultOf(const ChannelDiff& channel) {
     if (const auto& use = channel.encoding_use)
         return use->beyond == 0
                    ? std::string()
-                   : fmt::format("the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times "
-                                 "their bound at {},{}",
-                                 counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
+                   : fmt::format(
+                         "the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times "
+                         "their bound at {},{}",
+                         counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
     if (const auto& use = channel.device_use)
         return use->beyond == 0 ? std::string()
                                 : fmt::format(
@@ -91,8 +92,8 @@ std::string faultOf(const ChannelDiff& channel) {
                : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
 }
 
-// Where a channel fails and a NaN or infinity is part of that, it is said before any figure: no mean shows
-// it.
+// If NaN or infinity contributes to a channel's failure, mentions it before any metric, because no mean
+// shows it.
 void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
     const ChannelStats& s = channel.stats;
     if (channel.reason.empty() || s.infinite == 0) return;
@@ -110,8 +111,8 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
     channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
 }
 
-// Shows the errors that are judged where those are not the metric's own, and their largest: what exceeds what
-// the reference leaves open.
+// If the compared errors are not the metric's own, shows them and their largest: the excess over the
+// reference's uncertainty.
 void showExcess(ChannelDiff& channel, const FramePair& pair) {
     const std::optional<std::vector<double>> excess = certainErrors(*channel.mode, pair);
     if (!excess) return;
@@ -130,7 +131,7 @@ void showExcess(ChannelDiff& channel, const FramePair& pair) {
     channel.shown_error_top = channel.tolerance.max;
 }
 
-// The sum of what two runs of each path differ by.
+// Sum of both paths' differences between two runs.
 double noiseOf(const FramePair& pair, int mode) {
     double sum = 0;
     for (const Frame* frame : {&pair.baseline, &pair.test})
@@ -143,7 +144,7 @@ void setShare(Criterion& criterion, const Coverage& coverage) {
     criterion.share = all > 0 ? std::min(1.0, static_cast<double>(criterion.pixels) / all) : 0;
 }
 
-// Finds what two paths, or a path and a reference, may differ by, and how much of it a channel uses.
+// Finds the tolerance between two paths, or a path and a reference, and how much of it a channel uses.
 void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
@@ -162,7 +163,7 @@ void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     if (!channel.footprints) showExcess(channel, pair);
 }
 
-// Judges by the derived tolerance.
+// Compares by the derived tolerance.
 void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     if (isInformative(mode, pair)) {
@@ -179,7 +180,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
         channel.reason = faultOf(channel);
         leadWithNonfinite(channel, pair);
     }
-    // What this program drew must be what it may be at all, whatever it is compared with.
+    // This program's images must be in their valid range, whatever they are compared with.
     for (const Frame* frame : {&pair.baseline, &pair.test}) {
         if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
         const auto ids = frame->channels.find(static_cast<int>(gpu::DEBUG_material_id));
@@ -189,7 +190,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
     }
 }
 
-// Judges by a rule of the user.
+// Compares by a rule of the user.
 void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
     const Decision decision = decide(rule, measurement);
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One channel of two Frames: numbers, tolerance, verdict.
+// One channel of two Frames: metrics, tolerance, verdict.
 #pragma once
 
 #include "compare/metrics/channel.h"
-#include "compare/verdict/criterion.h"
 #include "compare/verdict/bound_use.h"
+#include "compare/verdict/criterion.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
 #include "compare/verdict/rules.h"
@@ -22,7 +22,7 @@
 
 namespace diptych {
 
-// informative: decides nothing, as both sides are lit by other Settings.
+// informative: decides nothing, because the two sides have different lighting Settings.
 enum class Verdict { pass, fail, forward_only, deferred_only, informative };
 // Both Frames have the channel.
 constexpr bool isCompared(Verdict verdict) {
@@ -32,39 +32,39 @@ std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only", "d
 
 struct ChannelDiff {
     const DebugMode* mode = nullptr;
-    ChannelStats stats;          // meaningless where not compared
-    std::optional<double> flip;  // mean; of colours
+    ChannelStats stats;          // meaningless if not compared
+    std::optional<double> flip;  // mean; only for colours
     Tolerance tolerance;
     std::optional<std::uint64_t>
         unexplained_pixels;  // lit channels: pixels whose difference the encoding does not explain
-    std::optional<Footprints> footprints;  // of a reference in mode scene
-    std::optional<BoundUse> encoding_use;  // of a surface channel: of what the G-buffer's bits allow
-    std::optional<BoundUse> device_use;    // of one path on two devices: of what their precision allows
+    std::optional<Footprints> footprints;  // against a reference in mode scene
+    std::optional<BoundUse> encoding_use;  // surface channel: use of the quantization error bound
+    std::optional<BoundUse> device_use;    // one path on two devices: use of their precision bound
     std::optional<double>
-        certain_p999;  // against a sampled reference: the part of p999 that exceeds its uncertainty
+        certain_p999;  // against a sampled reference: the part of p999 beyond its uncertainty
     Verdict verdict = Verdict::pass;
-    std::string reason;   // why it failed; empty otherwise
-    std::string warning;  // the warning of a rule; empty without one
-    // The image that the difference picture shows instead of the metric's errors, its name, and the error at
-    // the end of its colours.
+    std::string reason;   // why it failed; else empty
+    std::string warning;  // warning of a rule; else empty
+    // If set, the difference image shows this instead of the metric's errors: the image, its name, and the
+    // error at the end of its colour map.
     std::shared_ptr<const Image> shown_error;
     std::string shown_error_name;
     double shown_error_top = 1;
-    std::vector<std::pair<std::string, double>> figures;  // all that are defined
-    std::string rule;  // which rule decided, "tolerances.json, rule 3: flip <= 0.02"; empty: the tolerance
-    std::optional<Criterion> criterion;  // what decided; empty where not compared, or a rule bounds nothing
+    std::vector<std::pair<std::string, double>> figures;  // all defined metrics
+    std::string rule;  // deciding rule, "tolerances.json, rule 3: flip <= 0.02"; empty: tolerance
+    std::optional<Criterion> criterion;  // the deciding one; empty if not compared, or a rule has no bound
 };
 
-// The share of its tolerance that a channel uses; infinite where it differs although nothing is granted.
+// Fraction of its tolerance that a channel uses; infinite if it differs without any tolerance.
 double usedShare(const ChannelDiff& channel);
 
-// Whether a channel is of light, and the pair's sides are lit by other Settings: without a rule for it, it is
-// shown and decides nothing.
+// Whether a channel depends on light and the two sides have different lighting Settings. Without a rule,
+// such a channel is shown but decides nothing.
 bool isInformative(const DebugMode& mode, const FramePair& pair);
 Tolerance informativeTolerance(const FramePair& pair);
 
-// The channel of both Frames of the pair, judged by the last of `rules` that names it, or else by the
-// tolerance derived for it. `allowNoise`: on a GPU, what two runs of a path differ by is added to that.
+// Compares the channel of both Frames by the last of `rules` that names it, or else by the derived
+// tolerance. `allowNoise`: on a GPU, adds the difference between two runs of a path to that tolerance.
 ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<const Rule> rules,
                         bool allowNoise);
 

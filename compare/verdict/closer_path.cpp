@@ -45,7 +45,7 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
         for (double& mean : material.mean) mean /= static_cast<double>(material.pixels);
         materials.push_back(material);
     }
-    // Sorted by how much they contribute to the difference of the two means.
+    // Sorted by contribution to the difference of the two means.
     std::ranges::stable_sort(materials, std::greater{}, [](const MaterialError& m) {
         const double weight = std::abs(m.mean[0] - m.mean[1]) * static_cast<double>(m.pixels);
         return std::isnan(weight) ? std::numeric_limits<double>::infinity() : weight;
@@ -65,7 +65,7 @@ double meanUncertainty(const Frame& referenceFrame, const Image& reference, cons
         const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
         sum += double{referenceFrame.uncertainty.pixel(i)[0]} / std::max(largest, error.floor());
     }
-    // Errors of pixels are independent, so the mean of N pixels is known sqrt(N) times better than one pixel.
+    // Errors of pixels are independent, so the mean of N pixels is sqrt(N) times as accurate as one pixel.
     return sum / static_cast<double>(covered.count) / std::sqrt(static_cast<double>(covered.count));
 }
 
@@ -120,7 +120,7 @@ CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
                         const std::vector<std::string>& names) {
     CloserPath closer{reference, paths, {}};
     const std::array<const Frame*, 3> all{&frames[reference], &frames[paths[0]], &frames[paths[1]]};
-    const bool sampled = all[1]->settings.msaa > 1;  // other channels are of one sample, not the pixel's
+    const bool sampled = all[1]->settings.msaa > 1;  // other channels are of one sample, not of the pixel
     for (const int mode : litModes) {
         if (sampled && mode != static_cast<int>(gpu::DEBUG_lit)) continue;
         if (std::ranges::all_of(
@@ -165,7 +165,8 @@ double closerPathTop(const Image& apart) {
     return double{sizes[static_cast<std::size_t>(at)]};
 }
 
-// The report's two colours of paths (page.css, --first and --second) over black, by the root of the distance.
+// The report's two path colours (page.css, --first and --second) over black, by the square root of the
+// difference.
 Image8 closerPathPicture(const Image& apart, double top) {
     constexpr std::array<std::array<double, 3>, 2> color{{{111, 155, 232}, {224, 165, 82}}};
     Image8 picture{apart.width, apart.height, 3, {}};

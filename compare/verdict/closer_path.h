@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two paths and the reference: which is closer to it, where, and by how much.
+// Finds which of two paths has the lower error against the reference, where, and by how much.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -17,7 +17,7 @@
 
 namespace diptych {
 
-// One path's error against the reference, or one path's against the other.
+// Error of one path against the reference, or of one path against the other.
 struct PathError {
     ChannelStats stats;
     double relative_rmse = 0;  // of |t - r| / max(|r|, 1e-3 mean luminance)
@@ -29,32 +29,32 @@ struct MaterialError {
     int id = -1;
     std::string name;
     std::uint64_t pixels = 0;
-    std::array<double, 2> mean{};  // error of each path
+    std::array<double, 2> mean{};  // mean error of each path
 };
 
 struct CloserPathChannel {
     const DebugMode* mode = nullptr;
     std::array<PathError, 2> paths;  // against the reference
-    PathError between;               // the second against the first
+    PathError between;               // second path against the first
     std::array<std::uint64_t, 2> closer_pixels{};
     std::uint64_t even_pixels = 0;  // pixels where both errors are equal
-    // 0 or 1: the path with the smaller mean error; -1: their difference is below the reference's uncertainty
-    // or a thousandth of the smaller error.
+    // 0 or 1: the path with the lower mean error. -1: the difference is below the reference's uncertainty
+    // or a thousandth of the lower error.
     int closer = -1;
-    double by = 1;  // the farther one's mean error over the closer one's; infinite where that is 0
-    // Those with the largest difference of the two errors first, at most eight.
+    double by = 1;  // higher mean error over the lower one; infinite if that is 0
+    // Materials by decreasing contribution to the difference of the two errors, at most eight.
     std::vector<MaterialError> materials;
-    // Pixel by pixel, the first's error less the second's: below 0 the first is closer.
+    // First path's error minus the second's, by pixel; below 0 the first is closer.
     Image apart;
 };
 
 struct CloserPath {
     std::size_t reference = 0;
-    std::array<std::size_t, 2> paths{};       // into Report::frames
-    std::vector<CloserPathChannel> channels;  // litModes, where all three have them
+    std::array<std::size_t, 2> paths{};       // indices in Report::frames
+    std::vector<CloserPathChannel> channels;  // those of litModes that all three have
 };
 
-// `names` of materials by id, may be short.
+// `names`: names of materials by id, may be short.
 CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
                         std::array<std::size_t, 2> paths, const Coverage& coverage,
                         const std::vector<std::string>& names);
@@ -64,9 +64,9 @@ CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
 std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& channel,
                            const std::vector<Frame>& frames);
 
-// Blue where the first path is closer, orange where the second is; the brightness is the difference of their
+// Blue where the first path is closer, orange where the second is. Brightness is the difference of their
 // errors, full at `top`.
 Image8 closerPathPicture(const Image& apart, double top);
-double closerPathTop(const Image& apart);  // the 99th percentile of the values that are not 0
+double closerPathTop(const Image& apart);  // 99th percentile of the non-zero values
 
 }  // namespace diptych

@@ -4,6 +4,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/across_devices.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/one_sided.h"
 #include "compare/verdict/surface_grid.h"
@@ -24,7 +25,7 @@
 namespace diptych {
 namespace {
 
-// The planes that distinguish objects in two Frames.
+// Planes that distinguish objects in two Frames.
 ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     ObjectPlanes objects;
     const auto find = [](const Frame& frame, gpu::uint mode) {
@@ -39,8 +40,8 @@ ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     return objects;
 }
 
-// Whether lit alone means one thing in both: a path's other channels are of the first of its samples, and the
-// reference's of the pixel's middle.
+// Whether only lit is comparable: a path's other channels are of its first sample, the reference's of the
+// pixel's centre.
 bool comparesLitAlone(const Frame& left, const Frame& right) {
     if (isReferenceFrame(left) == isReferenceFrame(right)) return false;
     return (isReferenceFrame(left) ? right : left).settings.msaa > 1;
@@ -80,8 +81,8 @@ void readCounters(const Frame& frame, Comparison& comparison) {
         comparison.failures.push_back(frame.name + ": " + line);
 }
 
-// Reports two runs of one path that differ: on a CPU device that is a race, on a GPU scheduling may cause it.
-// Compute kernels write the same on every device, whatever the scheduling.
+// Reports differences between two runs of one path: on a CPU device a race, on a GPU possibly scheduling.
+// Compute shaders write the same on every device, whatever the scheduling.
 void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& comparison) {
     if (!frame.changed_buffers.empty())
         comparison.failures.push_back(
@@ -99,8 +100,8 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
     }
 }
 
-// Where lit was asked for, whether what is blended makes a difference of its own. A rule that judges lit says
-// itself what it may differ by: then it is noted.
+// If lit was requested, checks whether blending adds a difference. If a rule covers lit, the rule decides
+// and this is only a note.
 void readBlending(const FramePair& pair, std::span<const Rule> rules, Comparison& comparison) {
     const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
     if (!pair.baseline.isRequested(lit.number) || !pair.test.isRequested(lit.number)) return;
@@ -111,7 +112,7 @@ void readBlending(const FramePair& pair, std::span<const Rule> rules, Comparison
     if (!fault.empty()) (ruleFor(rules, lit.name) ? comparison.notes : comparison.failures).push_back(fault);
 }
 
-// Notes what two paths do not share.
+// Notes Settings in which two paths differ.
 void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
     for (const Frame* frame : {&left, &right})
         if (isReferenceFrame(*frame) || frame->origin.external || !frame->origin.file.empty()) return;
@@ -121,24 +122,23 @@ void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
                                                inWords(comparison.differing)));
 }
 
-// The forward+ Frame of this pair's scene and camera that tells what its encoding may do.
+// The forward+ Frame of the pair's scene and camera that shows the effect of the encoding.
 const Frame* explaining(const Report& report, const Frame& left, const Frame& right) {
     if (!isReferenceFrame(left) && !isReferenceFrame(right)) return nullptr;
     Settings wanted = right.settings;
     wanted.path = Path::forward_plus;
     for (const Frame& frame : report.frames) {
-        // Which deferred ignores.
+        // Deferred ignores prepass.
         wanted.prepass = frame.settings.prepass;
         if (frame.settings.path == Path::forward_plus && !frame.through_gbuffer.empty() &&
-            frame.scene == right.scene &&
-            effectiveSettings(frame.settings) == effectiveSettings(wanted))
+            frame.scene == right.scene && effectiveSettings(frame.settings) == effectiveSettings(wanted))
             return &frame;
     }
     return nullptr;
 }
 
-// The surface channels that nobody asked for and that a judged lit channel rests on: where deferred decodes
-// them to within their bits, lit differs by what the bits allow.
+// Surface channels that were not requested but on which a compared lit channel depends. If deferred
+// decodes them within their bounds, lit differs by no more than the bits allow.
 std::vector<int> provingChannels(const Comparison& comparison, const FramePair& pair,
                                  std::span<const Rule> rules) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
@@ -158,7 +158,7 @@ std::vector<int> provingChannels(const Comparison& comparison, const FramePair& 
     return modes;
 }
 
-// Counts pixels that show another surface on the other device, and leaves them out of the comparison.
+// Counts pixels that show another surface on the other device, and excludes them from the comparison.
 void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
     const SurfacePixels surfaces = surfacePixels(pair);
     if (std::string fault = surfaces.fault(); !fault.empty())
@@ -170,10 +170,10 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
     comparison.coverage.count -= surfaces.count();
 }
 
-// Why two pictures that agree say little: nothing is in view, hardly anything, or no light. Empty otherwise.
-// `shown`: the share of the pixels that show a surface, before any were left out by the command line.
+// Why agreement of two images says little: no surface, hardly any, or no light is visible. Else empty.
+// `shown`: fraction of pixels that show a surface, before the command line's exclusions.
 std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
-    // Less, and the background decides every picture and hardly a pixel the verdict; or what is black does.
+    // Below these, background or black pixels decide most of the verdict.
     constexpr double least = 0.01, least_lit = 0.05;
     if (coverage.known && shown == 0) return "both images are empty: no surface is in view";
     if (coverage.known && shown < least)
@@ -189,7 +189,7 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
                            : std::string();
 }
 
-// In mode scene: how many pixels of which channel are judged in which way; empty elsewhere.
+// In mode scene: how many pixels of which channel are compared in which way; else empty.
 std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
     const ChannelDiff *fewest = nullptr, *most = nullptr;
     for (const ChannelDiff& channel : channels) {
@@ -209,8 +209,8 @@ std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
         of(*fewest), of(*most), detailFlip);
 }
 
-// The channels of which a reference in mode scene judges next to no pixel by a bound of its own. Empty where
-// there are none: a verdict that says what it seems to.
+// Channels for which a reference in mode scene gives hardly any pixel a bound of its own. Empty if there
+// are none.
 std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
     std::vector<std::string> words;
     for (const ChannelDiff& channel : channels)
@@ -251,7 +251,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                                              left.name, left.settings.size.width, left.settings.size.height,
                                              right.name, right.settings.size.width,
                                              right.settings.size.height));
-    // A picture of another device may have been rounded differently.
+    // Another device's image may have been rounded differently.
     const bool here = std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
         return frame->origin.file.empty() ||
                (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
@@ -285,8 +285,8 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
             "only lit is compared with the reference: with MSAA, a path's other channels show one sample, "
             "the reference's the pixel centre");
     bool shared = false;
-    std::vector<std::string> lacking_channels;  // of another renderer, which owes us none
-    std::vector<std::string> names;             // of the channels that one side has at least
+    std::vector<std::string> lacking_channels;  // missing in another renderer, which need not have them
+    std::vector<std::string> names;             // of channels that at least one side has
     ChannelDemands demands{options.rules, {}, options.strict};
     for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     for (const Frame* frame : {&left, &right})
@@ -356,13 +356,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                             "compare " + std::string(channel.mode->name));
     });
 
-    // Of those the failing ones are shown.
+    // Shows only those that fail.
     std::erase_if(comparison.channels, [&](const ChannelDiff& channel) {
         return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->number) > 0;
     });
     std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->number; });
 
-    // Two devices blend surfaces that they have sampled and placed each in its own way.
+    // Two devices blend surfaces that each has sampled and placed in its own way.
     if (!options.across) readBlending(pair, options.rules, comparison);
     for (const Frame* frame : {&left, &right}) {
         readCounters(*frame, comparison);

@@ -15,12 +15,12 @@
 namespace diptych {
 namespace {
 
-// A triangle that ends half-way to the next pixel, beyond which nothing changes, changes by twice of what is
-// seen.
+// A triangle that ends halfway to the next pixel, followed by no change, changes twice as much as is
+// visible.
 constexpr double kink = 2;
 
-// The relative distance of the two devices' decoding of sRGB codes, by the least code of them (a factor may
-// have darkened a texel, never brightened it): what was measured, and no more than Vulkan allows, half a code
+// Relative difference of two devices' sRGB decoding, indexed by the smallest possible code (a factor may
+// have darkened a texel, never brightened it). As measured, and at most what Vulkan permits, half a code
 // each.
 std::array<double, 256> decodeShares(const AcrossDevices& across) {
     std::array<double, 256> shares{};
@@ -37,7 +37,7 @@ std::array<double, 256> decodeShares(const AcrossDevices& across) {
     return shares;
 }
 
-// The rounding of 8-bit texels by both devices' filters: as measured, and at most a code each.
+// Rounding of 8-bit texels by both devices' filters: as measured, and at most one code each.
 double filterRounding(const AcrossDevices& across, bool srgb) {
     double sum = 0;
     for (const DevicePrecision& device : across.devices)
@@ -48,15 +48,15 @@ double filterRounding(const AcrossDevices& across, bool srgb) {
     return sum;
 }
 
-// Shares of a light that are not equal within their rounding.
+// Visibilities that differ by more than their rounding.
 bool areApart(const Image& a, std::size_t i, const Image& b, std::size_t j) {
     const float p = *a.pixel(i), q = *b.pixel(j);
     return metrics::distance(p, q) > 2 * shadingRounding || (p == 0) != (q == 0);
 }
 
-// A pixel darker than so many floors of the metric is rounded as one of so many. Integrals over area lights
-// are sums of terms that cancel: in the lobe's tail float32's rounding is that of a tenth of the mean
-// luminance. (Ten floors left two pixels of builtin:areas at 333x187 beyond, by 1.13.)
+// Pixels below this many floors of the metric round like a pixel of this many. Integrals over area lights
+// sum terms that cancel: in the lobe's tail, float32 rounding is that of a tenth of the mean luminance.
+// (With ten floors, two pixels of builtin:areas at 333x187 were out of tolerance, by 1.13.)
 double roundedFloors(const Requirements& needs) {
     return needs.areaLights() > 0 ? 100 : 1;
 }
@@ -81,8 +81,7 @@ double PlaceBound::operator()(std::size_t i) const {
             return std::numeric_limits<double>::infinity();
         return std::max(change(*images_[0], i, seen), change(*images_[1], i, seen));
     }
-    // The smaller of both pictures', so that what is wrong in one of them does not widen what it is held
-    // to.
+    // The smaller change of both images, so that an error in one does not widen its own tolerance.
     const unsigned seen = grid_.surface[i];
     const double changes = std::min(change(*images_[0], i, seen), change(*images_[1], i, seen));
     return std::min(1.0, step_ * double{grid_.steeper[i]}) * changes;
@@ -166,7 +165,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       texels_(imageOf(across_.texels, mode.number)),
       expected_(imageOf(across_.relit, mode.number)),
       shadowed_(pair) {
-    // Diffuse and specular light are rounded by the integrals of the same lights as lit.
+    // Diffuse and specular light round like lit, in integrals over the same lights.
     if (const Image* lit = findChannel(pair.baseline, gpu::DEBUG_lit);
         lit && kind_ == Kind::light && pair.needs.areaLights() > 0) {
         const DebugMode& whole = debugMode(gpu::DEBUG_lit);
@@ -303,7 +302,7 @@ double DeviceBounds::textures(std::size_t i) const {
         const bool radiance = mode_.metric == Metric::relative;
         for (int c = 0; c < mode_.width; ++c) {
             const double value = std::abs(double{baseline_.pixel(i)[c]});
-            std::size_t code = radiance ? 1 : 0;  // which a factor may have brightened
+            std::size_t code = radiance ? 1 : 0;  // a factor may have brightened it
             while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
             most = std::max(most, *texels_->pixel(i) + value * shares_[code]);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far a channel of one path may differ on two devices at each pixel, by the precision that Vulkan
-// promises of both.
+// Largest difference of one path's channel between two devices at each pixel, by the precision that Vulkan
+// guarantees for both.
 #pragma once
 
 #include "compare/verdict/bound_use.h"
@@ -13,9 +13,9 @@
 
 namespace diptych {
 
-// The bound of an interpolated channel, in the channel's unit. A vertex a step of the sub-pixel grid
-// elsewhere moves a place by as much of a pixel, and never as far as the next one. It turns triangles
-// narrower than two pixels as well; there the bound is the change to the next pixels of the material.
+// Bound of an interpolated channel, in the channel's unit. Moving a vertex by one subpixel step moves a
+// position by that fraction of a pixel, never as far as the next pixel. It also turns triangles narrower
+// than two pixels; there the bound is the change to the next pixels of the material.
 class PlaceBound {
 public:
     PlaceBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test);
@@ -30,29 +30,29 @@ private:
     double step_;
 };
 
-// Shadows in both pictures: where a pixel shows another share of a light that casts.
+// Shadows in both images: finds pixels with different visibility of a shadow-casting light.
 class Shadowed {
 public:
     explicit Shadowed(const FramePair& pair);
     bool differs(std::size_t i) const;
-    // The relative difference of light under shares that differs() takes for equal.
+    // Relative difference of light under visibilities that differs() considers equal.
     double relative(std::size_t i) const;
-    // Beside the edge of a shadow in either picture.
+    // Next to a shadow boundary in either image.
     bool isBesideEdge(std::size_t i) const;
 
 private:
     std::vector<std::array<const Image*, 2>> images_;
 };
 
-// The tolerance of each pixel, and the difference that is held to it, both in the channel's metric.
+// Tolerance of each pixel, and the difference compared with it, both in the channel's metric.
 class DeviceBounds {
 public:
     DeviceBounds(const DebugMode& mode, const FramePair& pair);
 
     double operator()(std::size_t i) const;
     double error(std::size_t i) const;
-    // How much further apart lit is than before something was blended over it, beyond its change to the next
-    // pixels: no channel holds edges and textures of blended surfaces.
+    // Increase of lit's difference by blending, minus its change to the next pixels: no channel contains
+    // edges and textures of blended surfaces.
     double blendedApart(std::size_t i) const;
     std::string because() const;
 
@@ -72,18 +72,18 @@ private:
     PixelError error_;
     PlaceBound place_;
     FacetBound facet_;
-    double rounded_as_;  // what is darker is rounded as this, in the channel's unit
+    double rounded_as_;  // rounding of darker pixels equals that at this value, in the channel's unit
     double bits_;
     const Image *texels_, *expected_;
     Shadowed shadowed_;
-    std::array<const Image*, 2> unblended_{};     // of lit, where something may be blended
+    std::array<const Image*, 2> unblended_{};     // of lit, if anything may be blended
     std::array<double, 256> shares_{}, exact_{};  // decodeShares(), exactSrgb()
 };
 
-// How much a channel uses of its tolerance at each covered pixel.
+// Use of the tolerance at each covered pixel.
 BoundUse deviceUse(const DebugMode& mode, const FramePair& pair);
 
-// The largest tolerance of a pixel, with the reason.
+// The largest tolerance of any pixel, with the reason.
 Tolerance deviceTolerance(const DebugMode& mode, const FramePair& pair, const BoundUse& use);
 
 }  // namespace diptych

@@ -13,7 +13,7 @@
 namespace diptych {
 namespace {
 
-// By how much a pixel is outside, and the number that is; 0: inside.
+// How far a pixel is out of range, and its value; 0: inside.
 struct Outside {
     double by = 0, value = 0;
 };

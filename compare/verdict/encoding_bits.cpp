@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/encoding_bits.h"
 
+#include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/material/gbuffer_layout.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace diptych {
 namespace {
 
-// Float32 on the way of a number in [0, 1] through packUnorm and unpackUnorm: a product and a sum (half an
-// ULP of 1 each) and a division (2.5 ULP by Vulkan's rules), doubled for a square root and a square.
+// float32 error of a number in [0, 1] through packUnorm and unpackUnorm: a product and a sum (half an ULP
+// of 1 each) and a division (2.5 ULP in Vulkan), doubled for a square root and a square.
 constexpr double unormSlack = 8 * 0x1p-24;
 constexpr double squareSlack = 2 * unormSlack;
 
@@ -34,19 +37,81 @@ double squareBound(unsigned bits) {
     return 2 * h - h * h + squareSlack;
 }
 
-// The largest component has its top bit set, so half a step is at most 0.5 / 256 of it; 1/512 of that more
-// where rounding moves the exponent. Below 2^-16 the exponent ends and half a step stays 2^-25.
+// The largest component's top bit is set, so half a step is at most 0.5 / 256 of it, plus 1/512 of that if
+// rounding changes the exponent. Below 2^-16 the exponent is at its minimum and half a step stays 2^-25.
 double radianceBound() {
     return 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1)) * (1 + 1.0 / 512);
 }
 
-// Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) - 1).
-// At a face's centre, 1 / sqrt(3) from the origin, that is perpendicular to the direction: an angle of
-// sqrt(6) h sqrt(3) = 3 sqrt(2) h. Float32 adds some 8 roundings of 2^-24 to the coordinates before they are
-// rounded, and 10 to the decoded, normalised vector.
+// Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) -
+// 1). At a face's centre, 1 / sqrt(3) from the origin, that is perpendicular to the direction: an angle of
+// sqrt(6) h sqrt(3) = 3 sqrt(2) h. float32 adds some 8 roundings of 2^-24 to the coordinates before
+// quantization, and 10 to the decoded, normalised vector.
 double octahedralBound(unsigned bits) {
     const double h = 0.5 / static_cast<double>((1u << (bits - 1)) - 1);
     return 180 / std::numbers::pi * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + lengthBound);
+}
+
+double StoredField::largestBound() const {
+    switch (code) {
+        case Code::unorm:
+            return unormBound(bits);
+        case Code::root:
+            return squareBound(bits);
+        case Code::octahedral:
+            return octahedralBound(bits);
+        case Code::radiance:
+            return radianceBound();
+    }
+    return 0;
+}
+
+std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs) {
+    using enum StoredField::Code;
+    if (encoding == GBufferEncoding::full) return {};
+    const bool compact = encoding == GBufferEncoding::compact;
+    const GBufferLayout layout = gbufferLayout(encoding, needs);
+    constexpr unsigned mantissa = gpu::EMISSION_MANTISSA_BITS;
+    switch (static_cast<gpu::uint>(mode)) {
+        case gpu::DEBUG_albedo:
+            return StoredField{root, gpu::ALBEDO_BITS};
+        case gpu::DEBUG_normals:
+            return StoredField{octahedral, compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
+        case gpu::DEBUG_geometric_normal:
+            return StoredField{octahedral,
+                               compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
+        case gpu::DEBUG_metallic:
+            return StoredField{unorm, compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS};
+        case gpu::DEBUG_roughness:
+            return StoredField{unorm, compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS};
+        case gpu::DEBUG_occlusion:
+            return StoredField{unorm, gpu::OCCLUSION_BITS};
+        case gpu::DEBUG_emission:
+            if (!needs.emission || layout.wide_emission) return {};
+            return StoredField{radiance, mantissa};
+        case gpu::DEBUG_lightmap:
+            if (!needs.lightmap || layout.wide_lightmap) return {};
+            return StoredField{radiance, mantissa};
+        case gpu::DEBUG_dielectric_f0:
+            if (!needs.dielectric_specular) return {};
+            return StoredField{root, gpu::SPECULAR_BITS};
+        case gpu::DEBUG_dielectric_f90:
+            if (!needs.dielectric_specular) return {};
+            return StoredField{unorm, gpu::SPECULAR_BITS};
+        default:
+            return {};
+    }
+}
+
+std::span<const int> lightingFields() {
+    static constexpr std::array fields{
+        static_cast<int>(gpu::DEBUG_albedo),         static_cast<int>(gpu::DEBUG_normals),
+        static_cast<int>(gpu::DEBUG_metallic),       static_cast<int>(gpu::DEBUG_roughness),
+        static_cast<int>(gpu::DEBUG_emission),       static_cast<int>(gpu::DEBUG_occlusion),
+        static_cast<int>(gpu::DEBUG_position),       static_cast<int>(gpu::DEBUG_geometric_normal),
+        static_cast<int>(gpu::DEBUG_dielectric_f90), static_cast<int>(gpu::DEBUG_lightmap),
+        static_cast<int>(gpu::DEBUG_dielectric_f0),  static_cast<int>(gpu::DEBUG_lightmapped)};
+    return fields;
 }
 
 }  // namespace diptych

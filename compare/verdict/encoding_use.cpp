@@ -3,108 +3,76 @@
 
 #include "compare/metrics/pixel.h"
 #include "compare/verdict/encoding_bits.h"
-#include "shared/contract/gbuffer.h"
-#include "shared/material/gbuffer_layout.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 namespace {
 
-constexpr std::array fields{
-    static_cast<int>(gpu::DEBUG_albedo),           static_cast<int>(gpu::DEBUG_normals),
-    static_cast<int>(gpu::DEBUG_metallic),         static_cast<int>(gpu::DEBUG_roughness),
-    static_cast<int>(gpu::DEBUG_emission),         static_cast<int>(gpu::DEBUG_occlusion),
-    static_cast<int>(gpu::DEBUG_position),         static_cast<int>(gpu::DEBUG_geometric_normal),
-    static_cast<int>(gpu::DEBUG_dielectric_f90),   static_cast<int>(gpu::DEBUG_lightmap),
-    static_cast<int>(gpu::DEBUG_dielectric_f0),    static_cast<int>(gpu::DEBUG_lightmapped)};
-
-using FieldBound = std::function<PixelUse(const float* read, const float* own)>;
-
-// Of a field in [0, 1] whose components are bounded each by its own value. 0 and 1 have codes of their own.
+// Of components in [0, 1], each bounded by its own value. 0 and 1 have codes of their own.
 template <class Bound>
-FieldBound unitField(int components, double slack, const Bound& bound) {
-    return [=](const float* read, const float* own) {
-        PixelUse used;
-        for (int c = 0; c < components; ++c) {
-            const double x = own[c], most = (x <= 0 || x >= 1 ? 0 : bound(x)) + slack;
-            const PixelUse here = pixelUse(metrics::distance(read[c], own[c]), most);
-            used = {std::max(used.share, here.share), std::max(used.bound, most)};
-        }
-        return used;
-    };
-}
-FieldBound unormField(unsigned bits, double slack) {
-    return unitField(1, slack, [bits](double) { return unormBound(bits); });
-}
-FieldBound rootField(unsigned bits, double slack) {
-    return unitField(3, slack, [bits](double x) { return squareBound(x, bits); });
-}
-
-// Of a direction: an angle, degrees.
-FieldBound directionField(unsigned bits, double slack) {
-    return [most = octahedralBound(bits) + slack](const float* read, const float* own) {
-        const bool finite = metrics::finite(read, 3) && metrics::finite(own, 3);
-        return pixelUse(finite ? metrics::angle(read, own) : metrics::distance(read, own, 3), most);
-    };
-}
-
-// Of radiance in 9.9.9.e5, bounded by its largest component.
-FieldBound radianceField(double slack) {
-    return [slack](const float* read, const float* own) {
-        const double size = metrics::largestFinite(own, 3);
-        const double most = size > 0 ? std::max(size * radianceBound(), leastRadianceBound) + size * slack : 0;
-        return PixelUse{pixelUse(metrics::distance(read, own, 3), most).share, size > 0 ? most / size : 0};
-    };
-}
-
-FieldBound boundOf(const DebugMode& mode, GBufferEncoding encoding, const Requirements& needs, double slack) {
-    const bool compact = encoding == GBufferEncoding::compact;
-    const GBufferLayout layout = gbufferLayout(encoding, needs);
-    switch (static_cast<gpu::uint>(mode.number)) {
-        case gpu::DEBUG_albedo:
-            return rootField(gpu::ALBEDO_BITS, slack);
-        case gpu::DEBUG_normals:
-            return directionField(compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS, slack);
-        case gpu::DEBUG_geometric_normal:
-            return directionField(
-                compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS, slack);
-        case gpu::DEBUG_metallic:
-            return unormField(compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS, slack);
-        case gpu::DEBUG_roughness:
-            return unormField(compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS, slack);
-        case gpu::DEBUG_occlusion:
-            return unormField(gpu::OCCLUSION_BITS, slack);
-        case gpu::DEBUG_emission:
-            return needs.emission && !layout.wide_emission ? radianceField(slack) : FieldBound();
-        case gpu::DEBUG_lightmap:
-            return needs.lightmap && !layout.wide_lightmap ? radianceField(slack) : FieldBound();
-        case gpu::DEBUG_dielectric_f90:
-            return needs.dielectric_specular ? unormField(gpu::SPECULAR_BITS, slack) : FieldBound();
-        case gpu::DEBUG_dielectric_f0:
-            return needs.dielectric_specular ? rootField(gpu::SPECULAR_BITS, slack) : FieldBound();
-        default:
-            return {};
+PixelUse componentsUse(const float* read, const float* own, int components, const Bound& bound) {
+    PixelUse use;
+    for (int c = 0; c < components; ++c) {
+        const double x = own[c];
+        const PixelUse here = pixelUse(metrics::distance(read[c], own[c]), bound(x, x <= 0 || x >= 1));
+        use = {std::max(use.share, here.share), std::max(use.bound, here.bound)};
     }
+    return use;
+}
+
+PixelUse useOf(const StoredField& field, const float* read, const float* own, int components, double slack) {
+    switch (field.code) {
+        case StoredField::Code::unorm:
+            return componentsUse(read, own, components, [&](double, bool end) {
+                return (end ? 0 : unormBound(field.bits)) + slack;
+            });
+        case StoredField::Code::root:
+            return componentsUse(read, own, components, [&](double x, bool end) {
+                return (end ? 0 : squareBound(x, field.bits)) + slack;
+            });
+        case StoredField::Code::octahedral: {
+            const bool finite = metrics::finite(read, components) && metrics::finite(own, components);
+            return pixelUse(finite ? metrics::angle(read, own) : metrics::distance(read, own, components),
+                            octahedralBound(field.bits) + slack);
+        }
+        case StoredField::Code::radiance: {
+            // Of the largest component.
+            const double size = metrics::largestFinite(own, components);
+            const double bound =
+                size > 0 ? std::max(size * radianceBound(), leastRadianceBound) + size * slack : 0;
+            return {pixelUse(metrics::distance(read, own, components), bound).share,
+                    size > 0 ? bound / size : 0};
+        }
+    }
+    return {};
 }
 
 }  // namespace
 
-std::span<const int> lightingFields() {
-    return fields;
-}
-
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
-    if (!deferred || !forward || deferred->settings.gbuffer == GBufferEncoding::full) return {};
-    const FieldBound bound = boundOf(mode, deferred->settings.gbuffer, pair.needs, slack);
-    if (!bound) return {};
-    const Image &read = deferred->channels.at(mode.number), &own = forward->channels.at(mode.number);
-    return boundUse(pair.coverage, own.width,
-                    [&](std::size_t i) { return bound(read.pixel(i), own.pixel(i)); });
+    if (!deferred || !forward) return {};
+    const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
+    if (!field) return {};
+    // Of every sample that both have, by pixel: deferred's and forward+'s.
+    std::vector<std::pair<const Image*, const Image*>> samples{
+        {&deferred->channels.at(mode.number), &forward->channels.at(mode.number)}};
+    const auto read = deferred->further_samples.find(mode.number),
+               own = forward->further_samples.find(mode.number);
+    if (read != deferred->further_samples.end() && own != forward->further_samples.end())
+        for (std::size_t s = 0; s < std::min(read->second.size(), own->second.size()); ++s)
+            samples.emplace_back(&read->second[s], &own->second[s]);
+    return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
+        PixelUse worst;
+        for (const auto& [a, b] : samples) {
+            const PixelUse here = useOf(*field, a->pixel(i), b->pixel(i), mode.width, slack);
+            worst = {std::max(worst.share, here.share), std::max(worst.bound, here.bound)};
+        }
+        return worst;
+    });
 }
 
 }  // namespace diptych

@@ -21,8 +21,8 @@ bool isAll(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit) || isOfEnvironment(mode.number);
 }
 
-// How much wider samples make the lobe, as a share of its solid angle: each stands for its own part of it.
-// And how far off the number of a pixel's samples leaves it.
+// Widening of the lobe by sampling, as a fraction of its solid angle, because each sample represents a
+// part of it; and the error due to the number of samples per pixel.
 double spreadOf(const Settings& settings) {
     return 4 * std::numbers::pi * std::exp2(2 * double{settings.ibl_bias}) / settings.ibl_samples;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path that approximates an environment's light may differ by from the reference, which integrates it.
+// Permitted error of a path that approximates an environment's light, which the reference integrates.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -10,26 +10,26 @@
 
 namespace diptych {
 
-// Of what the specular lobe sends of the environment: linear interpolation between widths half an octave
-// apart is off by 6 % where one point gives all light (its peak goes with the width's square), between nodes
-// by 1.6 %.
+// As a fraction of environment light reflected by the specular lobe. Linear interpolation between widths
+// half an octave apart is off by 6 % if one point emits all light, because its peak is proportional to the
+// squared width. Interpolation between nodes is off by 1.6 %.
 inline constexpr double filteredShare = 0.08;
-// Of the same: what samples at every pixel are off by, times the root of their number. 64 were off by 14 % at
-// one pixel in a thousand under a city's sun, by 21 % under a lamp of 5 degrees, 400 times as bright as the
-// sky.
+// As the same fraction, times the root of the number of samples: the error of sampling at every pixel. 64
+// samples were off by 14 % at one pixel in a thousand under a city's sun, and by 21 % under a lamp of 5
+// degrees, 400 times as bright as the sky.
 inline constexpr double sampledShare = 2;
 
 class EnvironmentCost {
 public:
-    // `pair` outlives it.
+    // `pair` must outlive it.
     explicit EnvironmentCost(const FramePair& pair);
 
-    // Whether the reference says what approximations cost, and the other is a path.
+    // Whether the reference has errors of the approximations, and the other side is a path.
     bool any() const { return costs_ != nullptr; }
-    // By how much a channel may be off at the pixel, in its own unit; 0 of channels that the environment does
-    // not light.
+    // Permitted error of a channel at the pixel, in its unit; 0 for channels that the environment does not
+    // light.
     double allowed(const DebugMode& mode, std::size_t pixel) const;
-    // For whom it is granted, of this channel.
+    // Reason of the tolerance for this channel.
     std::string because(const DebugMode& mode) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Why lit of a comparison differs, as a report shows it. compare/explain finds it.
+// Why lit of a comparison differs, as shown in a report. compare/explain computes it.
 #pragma once
 
 #include "shared/image/png.h"
@@ -12,10 +12,9 @@ namespace diptych {
 
 struct Explained {
     std::string words;          // one line for a terminal
-    std::string json;           // the text of an object
-    std::optional<Image8> map;  // which cause counts most at each pixel
-    // A part of the page that names every cause; `map`: where the page finds that picture, empty where none
-    // is kept.
+    std::string json;           // a JSON object
+    std::optional<Image8> map;  // the largest cause at each pixel
+    // HTML that names every cause; `map`: path of that image for the page, empty if it is not stored.
     std::function<std::string(const std::string& map)> html;
 };
 

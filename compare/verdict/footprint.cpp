@@ -21,17 +21,17 @@
 namespace diptych {
 namespace {
 
-// The rasterizer snaps corners to 1/256 of a pixel, so that a pixel shows what is up to 1/128 of the way to a
-// neighbour.
+// The rasteriser snaps vertices to 1/256 of a pixel, so that a pixel may show a point 1/128 of the way to
+// a neighbour.
 constexpr double snap = 1.0 / 128;
 
-// Mip levels of 8 bits are rounded to codes, and made of levels that were.
+// 8-bit mip levels are rounded to codes and computed from rounded levels.
 constexpr double mipCode = 1.0 / 255;
 
-// By how much two surfaces of one light may differ, of 1 or of a radian.
+// Tolerance of equal surface values, as a fraction of 1 or of a radian.
 constexpr double sameSurface = 1e-5;
 
-// Channels of where a surface is; nothing is filtered in them.
+// Channels of a surface's position, which are not filtered.
 bool isGeometry(const DebugMode& mode) {
     switch (static_cast<gpu::uint>(mode.number)) {
         case gpu::DEBUG_depth:
@@ -44,12 +44,12 @@ bool isGeometry(const DebugMode& mode) {
     }
 }
 
-// Channels of what a surface is made of, whose light may differ where they do.
+// Channels of a surface's material; where they differ, its light may.
 bool isSurface(const DebugMode& mode) {
     return mode.maker == MadeBy::both && !isLit(mode.number) && !isGeometry(mode);
 }
 
-// How far the value changes within so many pixels around (x, y).
+// Largest change of the value within `radius` pixels of (x, y).
 double rangeAt(const DebugMode& mode, const Image& image, int x, int y, int radius = 1) {
     const float* const here = image.pixel(indexOf(image, x, y));
     double range = 0;
@@ -84,7 +84,7 @@ public:
                 if (!pair_.coverage.covered[i]) continue;
                 const double error = error_(test_.pixel(i), baseline_.pixel(i));
                 const double bound = isInside(x, y) ? boundAt(x, y) : -1;
-                // A number against none is a fault wherever it is.
+                // A number against NaN is always an error.
                 if (bound < 0 && std::isfinite(error)) {
                     detailed[i] = 1;
                     continue;
@@ -103,7 +103,7 @@ public:
             }
         result.smooth = used.size();
         if (!used.empty()) {
-            // Where holes are cut by a filtered alpha, whole pixels of them may show what is behind.
+            // Filtered alpha masks may show the background at whole pixels of a hole's edge.
             const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
             const auto rank =
                 static_cast<std::size_t>(std::ceil(most * static_cast<double>(used.size()))) - 1;
@@ -119,8 +119,8 @@ public:
     }
 
 private:
-    // Whether each picture shows one material, or the background, all around. Not that it is the same: where
-    // it is another, that is a fault.
+    // Whether each image shows a single material, or the background, all around. The two materials need
+    // not be equal: a difference is an error.
     bool isInside(int x, int y) const {
         const Image *a = findChannel(pair_.baseline, gpu::DEBUG_material_id),
                     *b = findChannel(pair_.test, gpu::DEBUG_material_id);
@@ -134,8 +134,9 @@ private:
         return inside;
     }
 
-    // Whether both pictures show one surface, so that what its light differs by is not its textures'. Only a
-    // file leaves channels out: what neither picture has tells nothing, what one of them lacks may differ.
+    // Whether both images show the same surface, so that textures do not explain a difference of light.
+    // Channels are only missing in Frames from files: one missing in both is ignored, one missing in one
+    // may differ.
     bool isSameSurface(std::size_t i) const {
         for (const DebugMode& mode : debugModes()) {
             if (!isSurface(mode)) continue;
@@ -147,14 +148,14 @@ private:
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
             const double same = (mode.domain == Domain::unit ? degreesPerRadian : size) * sameSurface +
                                 (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
-            // Colours may be off by what the device decodes, which colours() grants light.
+            // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded = mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) : 0;
             if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same + decoded)) return false;
         }
         return true;
     }
 
-    // What the device's decoding and filtering of 8-bit texels may change, in the channel's unit.
+    // Permitted effect of the device's decoding and filtering of 8-bit texels, in the channel's unit.
     double texels(const DebugMode& mode, const float* value) const {
         if (!pair_.texels) return 0;
         const double code = pair_.texels->linear_filter.rounding + mipCode;
@@ -174,7 +175,7 @@ private:
             case gpu::DEBUG_specular: {
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
-                // F0 is scaled by the specular texture, and is albedo's mix by metallic.
+                // The specular texture scales F0, and metallic mixes it with albedo.
                 return most + (mode.number == static_cast<int>(gpu::DEBUG_albedo) ? 0 : code);
             }
             case gpu::DEBUG_emission:
@@ -185,8 +186,7 @@ private:
         }
     }
 
-    // What light of `size` may be off by where the device's colours are: all of it is multiplied by one of
-    // them.
+    // Permitted error of light of `size` by the device's colours: all of it is multiplied by one of them.
     double colours(std::size_t i, double size) const {
         if (!isLit(mode_.number) || !pair_.texels) return 0;
         double share = 0;
@@ -199,15 +199,15 @@ private:
         return share * size;
     }
 
-    // The largest share by which the device's value of a code is off, of codes from `first` on: a factor may
-    // have darkened the texel, never brightened it.
+    // Largest relative decoding error over codes from `first` on: a factor may have darkened the texel,
+    // never brightened it.
     double srgbShare(std::size_t first) const {
         double most = 0;
         for (std::size_t code = std::max<std::size_t>(first, 1); code < 256; ++code)
             most = std::max(most, pair_.texels->srgbError(code) / exactSrgb(code));
         return most;
     }
-    // Of a decoded colour; a code more for mip levels.
+    // Bound of a decoded colour; includes one more code for mip levels.
     double srgbBound(double value) const {
         std::size_t code = 0;
         while (code < 254 && exactSrgb(code + 1) <= value) ++code;
@@ -215,37 +215,37 @@ private:
                pair_.texels->srgb_filter.rounding;
     }
 
-    // The largest error of a smooth pixel, in the channel's metric; negative where it is not smooth.
+    // Largest permitted error of a smooth pixel, in the channel's metric; negative if it is not smooth.
     double boundAt(int x, int y) const {
         if (mode_.kind == ChannelKind::id) return 0;
         const std::size_t i = indexOf(baseline_, x, y);
-        // The reference's alone: what is judged must not widen what it is held to.
+        // Only the reference's range: the tested image must not widen its own tolerance.
         const bool first = isReferenceFrame(pair_.baseline);
         const double range = rangeAt(mode_, first ? baseline_ : test_, x, y);
         const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
         const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
-        // A fiftieth of what the channel can hold; of a direction two degrees.
+        // A fiftieth of the channel's range; two degrees for directions.
         const double smooth = mode_.domain == Domain::unit ? 2 : 0.02 * unit;
         if (!(std::max(range, rangeAt(mode_, first ? test_ : baseline_, x, y)) <= smooth)) return -1;
         if (isLit(mode_.number) && !isSameSurface(i)) return -1;
         const double rounding =
             mode_.domain == Domain::unit ? shadingRounding * degreesPerRadian : shadingRounding * unit;
-        // A device's mip level may be a step coarser than the pixel, which sees two pixels far; no further
-        // than an even slope of what is still smooth, for beside an edge nothing else is.
+        // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
+        // of what is still smooth, because only an edge exceeds that.
         const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
         return (filtered + rounding + texels(mode_, baseline_.pixel(i)) + colours(i, size)) / unit +
                encoding(i, unit) + (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
     }
 
-    // To what a sampled reference knows light, with 99.9 % confidence.
+    // Uncertainty of a sampled reference at 99.9 % confidence.
     double uncertainty(std::size_t i) const {
         const Image& known =
             isReferenceFrame(pair_.baseline) ? pair_.baseline.uncertainty : pair_.test.uncertainty;
         return isLit(mode_.number) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
     }
 
-    // What a packed encoding allows, of light what it changes, in the channel's metric.
+    // Quantization error bound, or for light the encoding's effect, in the channel's metric.
     double encoding(std::size_t i, double unit) const {
         if (!isLit(mode_.number)) return encodingBound(mode_, pair_);
         const Frame* const shown = encodingShownBy(mode_, pair_);
@@ -255,7 +255,7 @@ private:
                      : 0;
     }
 
-    // FLIP of the pixels with detail.
+    // FLIP over the pixels with detail.
     void judgeDetail(const std::vector<std::uint8_t>& detailed, std::uint64_t count,
                      Footprints& result) const {
         result.detailed = count;
@@ -265,7 +265,8 @@ private:
         result.flip = ldrFlip(pictureOf(baseline_, scale), pictureOf(test_, scale), options).mean;
     }
 
-    // Which maps the mean of the baseline's detail to 0.18 (Reinhard et al. 2002); 1 where it is black.
+    // Exposure that maps the mean of the baseline's detail to 0.18 (Reinhard et al. 2002); 1 if it is
+    // black.
     double exposure(const std::vector<std::uint8_t>& detailed) const {
         double sum = 0, count = 0;
         for (std::size_t i = 0; i < baseline_.pixels(); ++i)
@@ -276,8 +277,8 @@ private:
         return sum > 0 ? 0.18 * count / sum : 1;
     }
 
-    // The channel as a picture of display values: radiance, where there is a `scale`, by Reinhard's curve and
-    // a display's, all else as its numbers are.
+    // The channel as a displayable image: radiance, if `scale` is not 0, by Reinhard's curve and a
+    // display's gamma; other values unchanged.
     Image pictureOf(const Image& image, double scale) const {
         Image picture(image.width, image.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i)

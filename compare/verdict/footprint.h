@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A path against the reference's own materials, textures and camera (mode scene). What the two filter
-// differently (a mip level here, the mean over the pixel there) is no fault of either, but it can only show
-// where a picture changes from pixel to pixel. So a pixel whose surroundings are smooth in both pictures is
-// held to a bound each, and the others are judged together, as the eye sees them.
+// Compares a path with the reference's own materials, textures and camera (mode scene). Different filters
+// (a mip level against the mean over the pixel) are no error of either. They only matter where an image
+// changes from pixel to pixel. So pixels with smooth surroundings in both images each have a bound, and
+// the others are compared together by FLIP.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -15,35 +15,35 @@
 
 namespace diptych {
 
-// Mean FLIP that pixels with detail may have. Two sound filters (trilinear, and the mean over the pixel's
-// footprint) come to 0.25 at most in scenes made to alias, 0.03 to 0.13 in others; another texture, or one
-// that lies elsewhere, comes to 0.4 and more (MEASURED.md).
+// Largest mean FLIP of pixels with detail. Two valid filters (trilinear, and the mean over the pixel's
+// footprint) reach at most 0.25 in scenes made to alias, 0.03 to 0.13 in others. A different or shifted
+// texture reaches 0.4 and more (MEASURED.md).
 inline constexpr double detailFlip = 0.3;
 
 struct Footprints {
-    std::uint64_t smooth = 0;    // pixels held to a bound of their own
-    std::uint64_t beyond = 0;    // of these, beyond it
-    double used = 0;             // the error over that bound, at 99.9 % of the smooth pixels
-    int x = -1, y = -1;          // the smooth pixel that uses most
-    double most = 0;             // the largest bound, in the channel's metric
-    std::uint64_t detailed = 0;  // pixels judged by FLIP
-    double flip = 0;             // its mean over them
-    std::uint64_t edges = 0;     // pixels that neither judges: of channels that are no picture
+    std::uint64_t smooth = 0;    // pixels with a bound of their own
+    std::uint64_t beyond = 0;    // smooth pixels out of tolerance
+    double used = 0;             // error over the bound, at 99.9 % of the smooth pixels
+    int x = -1, y = -1;          // smooth pixel with the highest use
+    double most = 0;             // largest bound, in the channel's metric
+    std::uint64_t detailed = 0;  // pixels compared by FLIP
+    double flip = 0;             // mean FLIP of these
+    std::uint64_t edges = 0;     // pixels not compared, of channels that are no image
 
-    double closeShare() const;  // of all pixels, those held to a bound of their own; 1 where there are none
+    double closeShare() const;  // fraction of pixels with a bound of their own; 1 without pixels
 };
 
-// A verdict of fewer pixels held to bounds of their own is one of FLIP alone, which 0.3 of light passes.
+// If fewer pixels have bounds of their own, FLIP alone decides, and passes even 0.3 of the light.
 inline constexpr double leastCloseShare = 0.01;
 
-// The channels by which footprints() knows one surface in two pictures: both need all of them, whichever are
+// Channels by which footprints() identifies a surface in two images. Both need all of them, whichever are
 // compared.
 std::vector<int> footprintChannels();
 
-// What they are held to, for people: the largest bound, and why.
+// Their tolerance for people: the largest bound, and its reason.
 Tolerance footprintTolerance(const Footprints& footprints);
 
-// How a channel is judged against a reference in mode scene; empty for other pairs.
+// Result of a channel against a reference in mode scene; empty for other pairs.
 std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair);
 
 }  // namespace diptych

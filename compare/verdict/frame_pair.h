@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What two Frames are judged with.
+// Two Frames and everything needed to compare them.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -14,32 +14,31 @@ namespace diptych {
 struct AcrossDevices;  // across_devices.h
 class SurfaceGrid;     // surface_grid.h
 
-// Two Frames of one scene and camera, the device they were drawn on, and what the scene needs.
+// Two Frames of one scene and camera, the device that rendered them, and the scene's requirements.
 struct FramePair {
     const Frame& baseline;
     const Frame& test;
     const Requirements& needs;
     const Coverage& coverage;
-    bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU is granted gpuUlps
-    // In a comparison with the reference: the Frame of forward+ of the same view and Settings that has
-    // through_gbuffer; or nullptr.
+    bool cpu = true;  // a CPU device rounds alike in every pipeline; a GPU has gpuUlps
+    // Comparison with the reference: the Frame of forward+ with through_gbuffer, for the same view and
+    // Settings; or nullptr.
     const Frame* explaining = nullptr;
 
-    // Against a reference in mode scene: what the device makes of texels of 8 bits, where the scene has
-    // textures.
+    // Against a reference in mode scene: the device's 8-bit texel sampling, if the scene has textures.
     const TextureSampling* texels = nullptr;
 
-    // One path on two devices, with its neighbours; else nullptr.
+    // One path on two devices, and its neighbours; else nullptr.
     const AcrossDevices* across = nullptr;
     const SurfaceGrid* grid = nullptr;
 
-    // As CompareOptions::light_differs; empty: both are lit alike.
+    // As CompareOptions::light_differs; empty: equal lighting.
     std::string_view light_differs = {};
 
     const Frame* of(Path path) const;  // nullptr: neither, or both
 };
 
-// Whether one of the two is of the reference and the other one of a path.
+// Whether one side is the reference and the other a path.
 bool isPathAgainstReference(const FramePair& pair);
 
 }  // namespace diptych

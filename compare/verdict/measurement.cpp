@@ -15,7 +15,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-// A figure and the function that gets its value.
+// A metric and the function that returns its value.
 struct Row {
     Figure figure;
     Value (*value)(const Measurement&);
@@ -136,8 +136,8 @@ const StandardMetrics& Measurement::plain() const {
     return *plain_;
 }
 
-// FLIP's filters read neighbouring pixels. Uncovered pixels become NaN in both pictures, so that they do not
-// influence covered ones beside them.
+// FLIP's filters read neighbouring pixels. Uncovered pixels become NaN in both images, so that they do not
+// affect covered ones.
 Image Measurement::withHoles(const PictureRows& picture) const {
     Image holed(picture.width, picture.height, picture.components);
     for (int y = 0; y < picture.height; ++y) picture.copy(&holed.at(0, y), 0, y, picture.width);
@@ -187,8 +187,8 @@ double Measurement::shareOf(std::uint64_t pixels) const {
 
 namespace {
 
-// Counts the pixels of the bound that decided: those beyond it, or, of a figure of the whole channel, those
-// that differ.
+// Counts the pixels of the deciding bound: those out of tolerance, or for a metric of the whole channel,
+// those that differ.
 void countPixels(Criterion& criterion, const Measurement& measurement) {
     if (criterion.above) {
         criterion.pixels = measurement.pixelsAbove(*criterion.above);

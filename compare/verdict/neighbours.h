@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels around a pixel, and how far apart two pixels are in a channel's own unit.
+// Neighbouring pixels, and the difference of two pixels in a channel's unit.
 #pragma once
 
 #include "compare/metrics/pixel.h"
@@ -16,7 +16,7 @@ namespace diptych {
 
 inline constexpr double degreesPerRadian = 180 / std::numbers::pi;
 
-// nullptr: the Frame has no such channel.
+// nullptr: the Frame lacks the channel.
 inline const Image* findChannel(const Frame& frame, gpu::uint mode) {
     const auto found = frame.channels.find(static_cast<int>(mode));
     return found == frame.channels.end() ? nullptr : &found->second;
@@ -26,7 +26,7 @@ inline std::size_t indexOf(const Image& image, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
 }
 
-// Visits the pixels around (x, y), itself left out.
+// Visits the pixels around (x, y), without itself.
 template <class Visit>
 void around(const Image& image, int x, int y, const Visit& visit, int radius = 1) {
     for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
@@ -34,13 +34,14 @@ void around(const Image& image, int x, int y, const Visit& visit, int radius = 1
             if (u != x || v != y) visit(u, v);
 }
 
-// The distance of two values in what a range is measured in: degrees of unit vectors, else the largest
-// component's difference.
+// Difference of two values in the unit of ranges: degrees for unit vectors, else the largest component
+// difference.
 inline double apart(const DebugMode& mode, const float* a, const float* b) {
     return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
 }
 
-// Tells whether neighbours show the same surface, by material, place and normal; without these all do.
+// Whether neighbours show the same surface, by material, position and normal; without these channels all
+// do.
 class SurfaceAround {
 public:
     explicit SurfaceAround(const Frame& frame)
@@ -51,7 +52,7 @@ public:
     bool sameMaterial(std::size_t i, std::size_t j) const {
         return !ids_ || *ids_->pixel(i) == *ids_->pixel(j);
     }
-    // The neighbour `j` lies within 30 degrees of the plane of pixel `i`.
+    // Whether neighbour `j` lies within 30 degrees of the plane of pixel `i`.
     bool same(std::size_t i, std::size_t j) const {
         if (!sameMaterial(i, j)) return false;
         if (!positions_ || !normals_) return true;
@@ -64,7 +65,7 @@ public:
         }
         return across * across <= 0.25 * length;
     }
-    // The angle between their triangles, degrees.
+    // Angle between their triangles' normals, degrees.
     double turned(std::size_t i, std::size_t j) const {
         return normals_ ? metrics::angle(normals_->pixel(i), normals_->pixel(j)) : 0;
     }

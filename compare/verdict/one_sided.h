@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a verdict makes of a channel that only one of two pictures has.
+// Verdict on a channel that only one of two images has.
 #pragma once
 
 #include "compare/files/layers.h"
@@ -11,14 +11,14 @@
 
 namespace diptych {
 
-// Who demands that both sides have a channel.
+// Demands for a channel on both sides.
 struct ChannelDemands {
     std::span<const Rule> rules{};     // each demands the channels that it names
     std::vector<std::string> names{};  // --channels: these
     bool all = false;                  // --strict: every channel
 };
 
-// Adds a line to `failures` where somebody demands the channel on both sides, else to `notes`.
+// Adds a line to `failures` if the channel is demanded on both sides, else to `notes`.
 void judgeOneSided(const OneSidedChannel& channel, const ChannelDemands& demands,
                    std::vector<std::string>& failures, std::vector<std::string>& notes);
 

@@ -4,6 +4,7 @@
 #include "compare/render/channel_shading.h"
 #include "compare/render/reference_frame.h"
 #include "compare/run/command_text.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/neighbours.h"
@@ -26,8 +27,8 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
     render.through_gbuffer = true;
     render.twice = twice;
     render.environment_errors = true;
-    // Channels that nobody asked for: which tells the background, and that is outside every mean; and by
-    // which light is judged.
+    // Additional channels: material_id excludes the background from every mean; others decide how light is
+    // compared.
     std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
     if (traced) helpers = footprintChannels();
     if (across) {
@@ -36,11 +37,11 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
         helpers.push_back(static_cast<int>(gpu::DEBUG_texcoords));
         helpers.push_back(static_cast<int>(gpu::DEBUG_lightmapped));
     }
-    // How far the shadow filter reaches at a pixel follows from these.
+    // The shadow filter's radius at a pixel depends on these.
     if (across)
         for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
             helpers.push_back(static_cast<int>(mode));
-    // Light is judged by the fields that it is made of (lightingFields()).
+    // Light is compared by the fields from which it is computed (lightingFields()).
     const auto packed = [](const Settings& of) {
         return of.path == Path::deferred && of.gbuffer != GBufferEncoding::full;
     };
@@ -50,6 +51,7 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
         std::ranges::copy_if(lightingFields(), std::back_inserter(helpers), [&](int mode) {
             return shadows || mode != static_cast<int>(gpu::DEBUG_geometric_normal);
         });
+    render.every_sample.assign(lightingFields().begin(), lightingFields().end());
     if (shadows)
         for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
             helpers.push_back(static_cast<int>(mode));
@@ -162,8 +164,8 @@ Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirement
 
 namespace {
 
-// An earlier Frame of forward+ has no images drawn through the G-buffer. Those of today's forward+ stand in
-// for them, but only in channels where forward+ still draws the same picture; in other channels no difference
+// An earlier Frame of forward+ has no images through the G-buffer. The new forward+ Frame's images replace
+// them, but only in channels where forward+ still renders the same image. In other channels no difference
 // is explained.
 void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
     if (baseline.settings.path != Path::forward_plus) return;

@@ -34,7 +34,7 @@ void decode(PictureLayer& layer) {
             StoredPicture{{}, std::move(layer.coded), static_cast<int>(layer.channels.size())}.takeImage();
 }
 
-// The place of a layer's alpha, behind its colours; none where it has no alpha or nothing else.
+// Index of a layer's alpha, after its colours; empty without alpha or without colours.
 std::optional<std::size_t> alphaOf(const PictureLayer& layer) {
     const auto found = std::ranges::find(layer.channels, "A");
     if (found == layer.channels.end() || layer.channels.size() == 1) return {};
@@ -74,7 +74,7 @@ void makeLinear(PictureFile& file) {
 
 // ---- reading ----
 
-// Bytes a pixel that comparing takes at its peak, but for the encoded files.
+// Peak memory of comparing, bytes per pixel, without the encoded files.
 double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const PictureDiffOptions& options) {
     const bool kept = eight == EightBits::kept;
     constexpr double color = 3 * sizeof(float), coverage = 1, error = sizeof(float);
@@ -84,8 +84,8 @@ double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const Pictu
         pictures += kept ? decoded : std::max(decoded, color);  // grey becomes a colour
         largest = std::max(largest, decoded);
     }
-    // A layer that is split into channels is copied. Each colour keeps FLIP's errors.
-    constexpr double alpha = sizeof(float);  // of a picture without
+    // Splitting a layer into channels copies it. FLIP's errors are kept for each colour.
+    constexpr double alpha = sizeof(float);  // for an image without alpha
     const double split = alpha + (kept ? largest : std::max(largest, color));
     const double flip = error * (kept ? 1 : std::ceil(largest / color));
     const double holes = options.selection.any() ? 2 * color : 0;
@@ -97,7 +97,7 @@ struct PicturePair {
     PictureFile reference, test;
 };
 
-// Refuses by name what this process has no memory for, before it is decoded.
+// Throws before decoding if this process has too little memory.
 PicturePair readPair(const std::string& reference, const std::string& test,
                      const PictureDiffOptions& options) {
     const std::string* const names[2] = {&reference, &test};
@@ -123,7 +123,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
         return a.width * a.height < b.width * b.height;
     });
     const auto pixels = static_cast<double>(larger.width * larger.height);
-    // SSIM has 252 rows of floats in each thread, all else together some 20.
+    // SSIM has 252 rows of floats per thread, everything else some 20.
     const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
     checkMemory(fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height),
                 static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options) + rows),
@@ -166,7 +166,7 @@ void bringTogether(PictureFile& a, PictureFile& b, bool strict, PictureDiff& dif
         const auto& others = (file == &a ? b : a).notes.not_applied;
         for (const std::string& line : file->notes.lines)
             diff.notes.push_back(fmt::format("{}: {}", name, line));
-        // What both say alike changes nothing between them.
+        // A line that both files have makes no difference between them.
         for (const std::string& line : file->notes.not_applied)
             (strict && std::ranges::count(others, line) == 0 ? diff.failures : diff.notes)
                 .push_back(fmt::format("{}: {}", name, line));
@@ -194,8 +194,8 @@ ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
 constexpr const char* commandLine = "command line";
 constexpr const char* byDefault = "default of diff";
 
-// The command line's rule for a channel that no rule names. A channel without the figure (only colours have a
-// FLIP) is judged by its largest error, unless --metric was given: then it is not judged.
+// The command line's rule for a channel that no rule names. If its metric is undefined (only colours have
+// FLIP), the largest error decides; with --metric, the channel is not compared.
 Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
@@ -221,7 +221,7 @@ void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
     channel.decision = decide(channel.rule, *channel.measurement);
 }
 
-// A colour that fails at pixels alone that both pictures hide behind an alpha of 0.
+// Handles a colour that only fails at pixels with an alpha of 0 in both images.
 void sayHidden(const PictureDiff& diff, PictureChannelDiff& color) {
     if (color.pair.kind != ChannelKind::color || color.decision.level == Level::pass) return;
     const std::string name = color.pair.name == "lit" ? "A" : color.pair.name + ".A";
@@ -252,7 +252,7 @@ void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
     channel.worst_y = at / errors.width;
 }
 
-// Notes on what no figure shows: a NaN in both pictures, a figure that is not defined.
+// Notes on what no metric shows: a NaN in both images, an undefined metric.
 void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
     std::vector<std::string> without;
     for (const auto& channel : diff.channels) {
@@ -269,8 +269,8 @@ void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
                         options.metric_given ? "not judged" : "judged by the largest error"));
 }
 
-// `names`: of both files' channels. A rule that names none of them by its whole name judges nothing, which
-// whoever wrote it does not expect; a pattern may well match nothing.
+// `names`: channels of both files. A rule that names no channel by its whole name fails, because its
+// author expects a match; a pattern may match nothing.
 void judgeIdleRules(PictureDiff& diff, std::span<const Rule> rules, const std::vector<std::string>& names) {
     for (const Rule* rule : idleRules(rules, names))
         (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));

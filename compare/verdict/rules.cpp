@@ -40,7 +40,7 @@ Condition bound(const std::string& figure, const Json& value) {
     return {Condition::Kind::bound, {figure, 0}, limit, {}};
 }
 
-// { "above": error, "share": of the pixels }
+// { "above": error, "share": fraction of the pixels }
 Condition share(const Json& value) {
     if (!value.is_object() || value.size() != 2 || !value.contains("above") || !value.contains("share"))
         fail("failing must be { \"above\": ERROR, \"share\": 0 to 1 }");
@@ -54,7 +54,7 @@ class ConditionReader {
 public:
     explicit ConditionReader(const Presets& presets) : presets_(presets) {}
 
-    // A condition from all members of the object except `others`; all must hold.
+    // A condition from all members of the object except `others`; all must pass.
     Condition read(const Json& object, const std::set<std::string>& others = {}) {
         if (!object.is_object())
             fail(fmt::format("{} is not an object of limits", oneLine(object.dump(), 60)));
@@ -66,7 +66,7 @@ public:
 
 private:
     const Presets& presets_;
-    std::vector<std::string> open_;  // presets that are being read
+    std::vector<std::string> open_;  // presets being read
 
     Condition member(const std::string& key, const Json& value) {
         if (key == "all" || key == "any") return group(key, value);
@@ -126,7 +126,7 @@ std::vector<Rule> readDocument(const Json& document, const std::string& name) {
         if (!document["presets"].is_object()) fail("presets: is not an object");
         presets = document["presets"].get<Presets>();
     }
-    for (const auto& [key, value] : presets)  // also those that no rule uses
+    for (const auto& [key, value] : presets)  // also unused ones
         named("preset " + oneLine(key), [&] { return ConditionReader(presets).read(Json{{"preset", key}}); });
     const auto list = document.find("rules");
     if (list == document.end() || !list->is_array()) fail("has no array \"rules\"");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tolerances as data: the rules of a tolerance file and what they decide about measured figures. Modelled on
-// Filament's renderdiff presets.
+// Tolerances as data: the rules of a tolerance file and their decisions on metrics. Modelled on Filament's
+// renderdiff presets.
 #pragma once
 
 #include "compare/verdict/criterion.h"
@@ -16,57 +16,56 @@
 
 namespace diptych {
 
-// One number that a comparison of two images of a channel yields, and that a rule may bound.
+// A metric of two images of a channel, which a rule may bound.
 struct Figure {
     std::string_view name;
-    bool more_is_better;       // psnr, ssim: a bound is the least that passes
+    bool more_is_better;       // psnr, ssim: a bound is the smallest value that passes
     std::string_view meaning;  // formula, unit and source, one line
 };
 std::span<const Figure> figures();
-const Figure* findFigure(std::string_view name);  // nullptr where there is none
+const Figure* findFigure(std::string_view name);  // nullptr if unknown
 
 inline constexpr const char* FAILING = "failing";
 
-// A figure, or the share of pixels, 0 to 1, whose error in the channel's metric is above `above`.
+// A metric, or the fraction of pixels, 0 to 1, whose error in the channel's metric exceeds `above`.
 struct Quantity {
-    std::string figure;  // FAILING for the share
+    std::string figure;  // FAILING for the fraction
     double above = 0;
 };
-// Returns the measured value of a quantity; empty where it is not defined for the channel (flip of an id).
+// Returns the measured value of a quantity; empty if it is undefined for the channel (flip of an id).
 using Measured = std::function<std::optional<double>(const Quantity&)>;
 
-// A bound on one quantity, or several conditions of which all or any must hold.
+// A bound on one quantity, or several conditions of which all or any must pass.
 struct Condition {
     enum class Kind { bound, all, any };
     Kind kind = Kind::all;
     Quantity quantity;
-    double limit = 0;  // at most, or at least where more is better
+    double limit = 0;  // upper limit; lower limit if more is better
     std::vector<Condition> parts;
 };
-// Why the condition does not hold, e.g. "max 0.005 exceeds 0.0037"; empty if it holds. A quantity that is NaN
-// or not defined never holds.
+// Why the condition fails, e.g. "max 0.005 exceeds 0.0037"; empty if it passes. A quantity that is NaN or
+// undefined never passes.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
-// The bound that decides: of several that must all hold the one that uses most of its limit, of alternatives
-// the one that uses least. Empty where nothing is bounded or the figure is not defined. Its pixels are not
-// counted here.
+// The deciding bound: the one with the highest use if all must pass, with the lowest use among
+// alternatives. Empty if nothing is bounded or the metric is undefined. Does not count its pixels.
 std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured);
 
-// Whether any part of the condition bounds the figure.
+// Whether any part of the condition bounds the metric.
 bool boundsFigure(const Condition& condition, std::string_view figure);
-// The least upper bound on the figure that holds in every case; empty if there is none.
+// The smallest upper bound on the metric that always applies; empty if there is none.
 std::optional<double> boundOn(const Condition& condition, std::string_view figure);
 
 // "max <= 0.0037 and (flip <= 0.02 or psnr >= 40)"
 std::string conditionText(const Condition& condition);
 
 struct Rule {
-    std::string channel = "*";      // a name, or with * and ? several
-    std::string scene = "*";        // likewise, as the command line names it; of compare
-    Condition fail;                 // what must hold, or the channel fails
-    std::optional<Condition> warn;  // what must hold, or there is a warning
+    std::string channel = "*";      // a name, or a pattern with * and ?
+    std::string scene = "*";        // the same for the scene's name on the command line; for compare
+    Condition fail;                 // the channel fails unless this passes
+    std::optional<Condition> warn;  // a warning unless this passes
     std::string because;
-    std::string origin;  // "tolerances.json, rule 3"; printed with what it decided
+    std::string origin;  // "tolerances.json, rule 3"; printed with its decision
 };
 
 enum class Level { pass, warn, fail };
@@ -75,32 +74,32 @@ std::string_view nameOf(Level level);
 struct Decision {
     Level level = Level::pass;
     const Rule* rule = nullptr;
-    std::string reason;                    // of a warning or failure; empty otherwise
-    std::optional<Criterion> criterion{};  // the bound that decided, if the rule has one
+    std::string reason;                    // of a warning or failure; else empty
+    std::optional<Criterion> criterion{};  // the deciding bound, if the rule has one
 };
 Decision decide(const Rule& rule, const Measured& measured);
 
 // The last rule whose pattern the channel matches, as in a list of exceptions; nullptr: none.
 const Rule* ruleFor(std::span<const Rule> rules, std::string_view channel);
 
-// Those that are about the scene.
+// Rules whose pattern matches the scene.
 std::vector<Rule> rulesOfScene(std::span<const Rule> rules, std::string_view scene);
 
-// Whether the rule is about channels that it names, and not about all ("*").
+// Whether the rule names channels and does not apply to all ("*").
 bool namesChannels(const Rule& rule);
 
-// Whether the rule's channel is a pattern (* and ?) and not one name.
+// Whether the rule's channel is a pattern (* and ?) rather than one name.
 bool isPattern(const Rule& rule);
 
-// The rules that match none of the channels, and the line that says so of one, with the name that was meant.
+// Rules that match none of the channels; and the message about one of them, which suggests a similar name.
 std::vector<const Rule*> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
 std::string idleText(const Rule& rule, const std::vector<std::string>& channels);
 
-// Throws std::runtime_error, one line, over a rule for one channel by a name that is none of the known.
+// Throws std::runtime_error, one line, if a rule names a single channel that is not known.
 void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known);
 
-// A tolerance file, as tolerances.schema.json describes it. Every rule names its reason. Throws
-// std::runtime_error, one line: "FILE: rule 2: no such figure maxx; there are ...".
+// Reads a tolerance file (tolerances.schema.json). Every rule has a reason. Throws std::runtime_error, one
+// line: "FILE: rule 2: no such figure maxx; there are ...".
 std::vector<Rule> readRules(const std::filesystem::path& file);
 std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name);
 

@@ -13,8 +13,8 @@
 namespace diptych {
 namespace {
 
-// Neighbours whose depths are further apart than this share of the nearer one are of two objects: a floor
-// seen at 5 degrees changes by less from pixel to pixel at any usual size.
+// Neighbours whose depths differ by more than this fraction of the nearer one belong to two objects. A
+// floor seen at 5 degrees changes less between pixels at any usual size.
 constexpr float depthStep = 0.05f;
 
 std::size_t countOf(const std::vector<std::uint8_t>& covered) {
@@ -100,7 +100,8 @@ std::vector<std::uint8_t> grown(const std::vector<std::uint8_t>& marked, int wid
 
 void applyEdges(Coverage& coverage, int width, int height, int radius, const ObjectPlanes& objects,
                 std::vector<std::string>& notes) {
-    // What both have is best, since an object may lie elsewhere in each; else what one has serves for both.
+    // Prefers planes of both images, because an object may move between them; else uses the one that
+    // exists.
     const bool both_ids = objects.ids[0] && objects.ids[1];
     const bool both_depths = objects.depth[0] && objects.depth[1];
     const bool ids = both_ids || (!both_depths && (objects.ids[0] || objects.ids[1]));

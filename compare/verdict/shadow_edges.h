@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path that filters shadow maps may show near the edges of shadows, held against the reference.
+// Tolerance of a path that filters shadow maps near shadow boundaries, against the reference.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -11,31 +11,31 @@ namespace diptych {
 
 class ShadowEdges {
 public:
-    // `pair` outlives it.
+    // `pair` must outlive it.
     explicit ShadowEdges(const FramePair& pair);
 
-    // Whether the reference has edges and the path filters.
+    // Whether the reference has shadow boundaries and the path filters shadow maps.
     bool any() const { return sun_ || local_ != nullptr; }
-    // Of the sun's shadow, where hasSun(): how far the path's filter reaches at the pixel, and how far the
-    // pixel is from an edge, m across the light.
+    // For the directional light, if hasSun(): the path's filter radius at the pixel, and the pixel's
+    // distance from a shadow boundary, m, perpendicular to the light.
     bool hasSun() const { return sun_; }
     const ShadowReach& reach(std::size_t pixel) const;
     double distance(std::size_t pixel) const { return double{reference_->shadow_edge.pixel(pixel)[0]}; }
-    // Whether an edge of the sun's shadow, or of those of points and spots, lies within the reach of the
-    // path's filter at the pixel.
+    // Whether a shadow boundary of the directional light, or of point and spot lights, lies within the
+    // path's filter radius at the pixel.
     bool isNear(std::size_t pixel) const { return sun_ && distance(pixel) <= reach(pixel).reach; }
     bool isNearLocal(std::size_t pixel) const;
-    // By how much a channel may be off at the pixel, in its own unit: within the filter's reach as much as
-    // the light adds, of its visibility everything; 0 elsewhere, and for channels that no light changes.
+    // Permitted error of a channel at the pixel, in its unit. Within the filter radius: all that the light
+    // adds, or all of its visibility. Elsewhere, and for channels without light: 0.
     double allowed(const DebugMode& mode, std::size_t pixel) const;
 
 private:
     const Frame* reference_ = nullptr;
     const Frame* path_ = nullptr;
-    bool sun_ = false;                                   // both have its shadow
+    bool sun_ = false;                                   // both have the directional light's shadow
     const Image* depth_ = nullptr;                       // of the path
     const Image *level_ = nullptr, *coarser_ = nullptr;  // of its clipmap
-    const Image* local_ = nullptr;  // Frame::local_shadow_edge, where points or spots cast
+    const Image* local_ = nullptr;  // Frame::local_shadow_edge, if point or spot lights cast shadows
 };
 
 }  // namespace diptych

@@ -16,18 +16,18 @@ namespace {
 
 constexpr double roundoff = 0x1p-24;  // of one float32 operation
 
-// Operations between a vertex and a value that is interpolated at a pixel: transform, division, plane
-// equation, perspective.
+// Operations between a vertex and an interpolated value at a pixel: transform, division, plane equation,
+// perspective.
 constexpr double interpolatingOperations = 32;
-// Vulkan grants a division 2.5 ULP and a product or sum half of one.
+// Vulkan permits 2.5 ULP for a division and half an ULP for a product or sum.
 constexpr double ulpsOfOperation = 2.5;
 
-// The four differences of places a pixel apart, of which a triangle's normal is the cross product, have some
+// A triangle's normal is the cross product of differences of positions one pixel apart, four with some
 // seven operations each.
 constexpr double operationsOfFacet = 28;
 
-// By how much steeper the pixel's own triangle is than what its neighbours show of it: of triangles that are
-// smaller than a pixel, and at outlines. At least 1.
+// How much steeper the pixel's own triangle is than its neighbours show, for triangles smaller than a
+// pixel and at outlines. At least 1.
 class Steepness {
 public:
     explicit Steepness(const Frame& frame)
@@ -43,7 +43,7 @@ public:
         up_ = cross(right_, forward_);
     }
 
-    // The change of depth to the next pixel on the triangle's plane, m, and `step` of a pixel beyond it.
+    // Change of depth to the next pixel on the triangle's plane and `step` of a pixel beyond it, m.
     double slope(std::size_t i, double step) const {
         if (!depth_ || !position_ || !normal_ || *depth_->pixel(i) <= 0) return 0;
         const float *n = normal_->pixel(i), *p = position_->pixel(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface that is seen around each pixel in two pictures of one path on two devices.
+// Visible surfaces around each pixel in two images of one path on two devices.
 #pragma once
 
 #include "compare/verdict/across_devices.h"
@@ -11,13 +11,13 @@
 
 namespace diptych {
 
-// The sum of both devices' steps of a grid of `bits`.
+// Sum of both devices' steps of a grid of `bits`.
 double stepOf(const AcrossDevices& across, unsigned DevicePrecision::*bits);
 
-// The relative error of a value that both devices interpolate.
+// Relative error of a value that both devices interpolate.
 double relativeRounding();
 
-// Pixels of a radian at the pixel's depth.
+// Pixels per radian at the pixel's depth.
 double pixelsPerRadian(const Frame& frame, std::size_t i);
 
 // Calls visit(pixel, bit) for the pixels around one.
@@ -30,11 +30,11 @@ void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
         visit(indexOf(image, u, v), 1u << (place > 4 ? place - 1 : place));
     });
 }
-// Bits of the neighbours across and down.
+// Bits of the neighbours across (left, right) and down (above, below).
 inline constexpr unsigned across_bits = 1u << 3 | 1u << 4, down_bits = 1u << 1 | 1u << 6;
 
-// The largest angle between the normals of one triangle, degrees: its places are rounded as parts of their
-// distance, and both pictures pack it.
+// Largest angle between normals of one triangle, degrees: positions round relative to their distance, and
+// both images pack the normal.
 class FacetBound {
 public:
     explicit FacetBound(const FramePair& pair);
@@ -45,16 +45,16 @@ private:
     double packed_;
 };
 
-// The neighbours of each pixel in both pictures, found once for all channels of a pair.
+// Neighbours of each pixel in both images, found once for all channels of a pair.
 class SurfaceGrid {
 public:
     explicit SurfaceGrid(const FramePair& pair);
 
-    // Neighbours by bit: those that show the same surface, and the same material.
+    // Neighbour bits: those that show the same surface, and the same material.
     std::vector<std::uint8_t> surface, material;
-    // Neither side of the pixel shows its triangle, so that what changes on that is seen nowhere.
+    // 1 if along one axis no neighbour shows the pixel's triangle, so that no change across it is visible.
     std::vector<std::uint8_t> narrow;
-    // By how much the pixel's triangle is steeper than what its neighbours show of it; at least 1.
+    // How much steeper the pixel's triangle is than its neighbours show; at least 1.
     std::vector<float> steeper;
 };
 

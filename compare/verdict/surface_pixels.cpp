@@ -17,13 +17,13 @@
 namespace diptych {
 namespace {
 
-// A vertex a step of the sub-pixel grid elsewhere moves an edge by as much, and this share of the pixels that
-// the edge crosses changes sides. A pixel beside an edge lies between two edges of a triangle; one whose
-// triangle is narrower than two pixels lies between twice as many.
+// Moving a vertex by one subpixel step moves an edge by as much, and this fraction of the pixels on the
+// edge changes sides. A pixel beside an edge lies between two edges of a triangle; if its triangle is
+// narrower than two pixels, between twice as many.
 constexpr double edgesOfPixel = 2;
-constexpr std::uint64_t fewPixels = 8;  // chance decides of so few
+constexpr std::uint64_t fewPixels = 8;  // chance decides about so few
 
-// A pixel beside another surface, or beside another triangle's plane.
+// Whether a pixel is beside another surface or another triangle's plane.
 bool isBesideEdge(const SurfaceAround& frame, const Image& ids, const Image* normals, std::size_t i,
                   double facet) {
     bool found = false;
@@ -34,7 +34,7 @@ bool isBesideEdge(const SurfaceAround& frame, const Image& ids, const Image* nor
     return found;
 }
 
-// Texture coordinates that jump beside a pixel: they change to one side far more than to the other.
+// Whether texture coordinates jump beside a pixel: they change far more to one side than to the other.
 bool isBesideSeam(const Image& uv, std::size_t i) {
     constexpr double even = 4;
     const auto width = static_cast<std::size_t>(uv.width);
@@ -48,7 +48,7 @@ bool isBesideSeam(const Image& uv, std::size_t i) {
     return false;
 }
 
-// Counts pixels that differ, and tells where they must not.
+// Counts pixels that differ, and records where they must not.
 void count(SurfacePixels::Differing& of, std::size_t i, int width, bool differs, bool edge) {
     of.edges += edge;
     of.count += differs;
@@ -93,7 +93,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         pair.across->relit.contains(gpu::DEBUG_lit))
         light.emplace(debugMode(gpu::DEBUG_lit), pair);
     const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
-    // How far from a place the other surface of its depth may lie, m.
+    // How far from a position another surface of equal depth may lie, m.
     const auto tieReach = [&](std::size_t i) {
         return *z->pixel(i) * (step / pixelsPerRadian(pair.baseline, i) + relativeRounding());
     };
@@ -132,8 +132,8 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         }
         count(found.triangles, i, a->width, other, edge);
         narrow += edge && pair.grid->narrow[i] != 0;
-        // Light that is further apart beside a shadow's edge lies in another shadow, too, at the other's
-        // place.
+        // A larger difference of light beside a shadow boundary also means another shadow, at the other
+        // image's position.
         const bool beside = shadowed.isBesideEdge(i),
                    shade = !other &&
                            (shadowed.differs(i) || (beside && light && !(light->error(i) <= (*light)(i))));
@@ -141,7 +141,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         found.others[i] = other || shade ? 1 : 0;
     }
     found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
-    // Each of a filter's texels across an edge may show another triangle.
+    // Each texel of a filter across an edge may show another triangle.
     const double texels = pair.baseline.settings.shadow_kernel + 1;
     found.shadows.most = mostOf(edgesOfPixel * step * texels, found.shadows.edges);
     return found;

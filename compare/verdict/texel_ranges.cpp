@@ -22,20 +22,20 @@
 namespace diptych {
 namespace {
 
-// Vulkan 1.3, 16.5.7: a device may take a derivative's length anywhere from its largest component to sqrt(2)
-// times the sum of its components: half a level below the exact one and a level above it.
+// Vulkan 1.3, 16.5.7: a device may take a derivative's length anywhere from its largest component to
+// sqrt(2) times the sum of its components: half a level below the exact one and a level above it.
 constexpr double levelBelow = 0.5, levelAbove = 1;
-// A linear filter mixes texels whose middles are less than one away, so that these on each side may be seen,
-// also from half a texel beside: more than the steps by which two devices place a vertex.
+// A linear filter mixes texels whose centres are less than one texel away. So this many on each side may
+// be visible, even from half a texel beside, more than the steps by which two devices place a vertex.
 constexpr int texelsSeen = 1;
 
-// A texel's components in a channel: `factor` x the component's range.
+// Contribution of a texel's components to a channel: `factor` times the component's range.
 struct Use {
     gpu::uint mode;
     std::array<double, 4> factor;  // of each component
 };
 
-// A unit vector 2 t - 1 of three components, in degrees.
+// Degrees per unit of a unit vector 2 t - 1 of three components.
 constexpr double turned = 2 * 1.7320508 * degreesPerRadian;
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
@@ -76,12 +76,12 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
     }
 }
 
-// By how many texels of level 0 a place moves to the next pixel.
+// Range of the distance from a position to the next pixel, texels of level 0.
 struct PixelTexels {
     double least = 0, most = 0;
 };
 
-// A texture's mip levels, of which texels are read in linear light.
+// A texture's mip levels; texels are read in linear light.
 class Levels {
 public:
     Levels(const TextureImage& image, bool srgb, const Sampler& sampler)
@@ -98,7 +98,7 @@ public:
         }
     }
 
-    // The range of each component among the texels that may be seen at a place.
+    // Range of each component among the texels that may be visible at a position.
     std::array<double, 4> rangeAt(const glm::dvec2& uv, const PixelTexels& texels) const {
         const auto levelOf = [&](double level) {
             return static_cast<std::size_t>(
@@ -168,9 +168,9 @@ private:
     std::array<double, 256> linear_{}, color_{};
 };
 
-// How far a slot's texture coordinates move to the next pixel, in texels of level 0: the larger of across and
-// down, each by the side that moves them least and by the one that does most. Nothing where neither side
-// shows the same surface.
+// Distance to the next pixel in a slot's texture coordinates, texels of level 0: the larger of across and
+// down, by the side with the smallest and by the one with the largest change. Empty if neither side shows
+// the same surface.
 std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& surface,
                                          const TextureSlot& slot, const TextureImage& image, int x, int y) {
     const std::size_t here = indexOf(uv, x, y);
@@ -243,7 +243,8 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
                     const glm::dvec2 place(slot.u.x * at.x + slot.u.y * at.y + slot.u.z,
                                            slot.v.x * at.x + slot.v.y * at.y + slot.v.z);
                     range = levels.rangeAt(place, *texels);
-                    // Magnified: two weights' steps, and what a vertex moves the place by.
+                    // Magnified: two steps of the weights, and the movement of the position by a vertex
+                    // step.
                     if (texture.sampler.magnify_linear && std::log2(texels->most) + levelAbove < 0)
                         for (double& component : range)
                             component *= std::min(1.0, 2 * (weighed + placed * texels->most));

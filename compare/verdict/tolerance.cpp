@@ -10,7 +10,6 @@
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
-#include "shared/material/gbuffer_layout.h"
 
 #include <fmt/format.h>
 
@@ -24,20 +23,7 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-struct Bits {
-    unsigned normal, roughness, metallic;
-};
-Bits bitsOf(GBufferEncoding encoding) {
-    if (encoding == GBufferEncoding::compact)
-        return {gpu::COMPACT_NORMAL_BITS, gpu::COMPACT_ROUGHNESS_BITS, gpu::COMPACT_METALLIC_BITS};
-    return {gpu::STANDARD_NORMAL_BITS, gpu::STANDARD_ROUGHNESS_BITS, gpu::STANDARD_METALLIC_BITS};
-}
-
-Tolerance unormTolerance(unsigned bits) {
-    return {unormBound(bits), fmt::format("half a step of {} bits, 0.5 / {}", bits, (1u << bits) - 1)};
-}
-
-// Of radiance in 9.9.9.e5: emission and lightmaps.
+// Tolerance of radiance in 9.9.9.e5: emission and lightmaps.
 Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
@@ -48,34 +34,41 @@ Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
                 : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
 }
 
-Tolerance emissionTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
-    if (!pair.needs.emission) return {0, "nothing in the scene emits"};
-    if (gbufferLayout(encoding, pair.needs).wide_emission)
-        return {0, "float32: the scene's emission exceeds the range of 9.9.9.e5"};
-    return radianceTolerance(mode, pair);
+Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
+    const unsigned bits = field.bits, codes = (1u << bits) - 1;
+    switch (field.code) {
+        case StoredField::Code::unorm:
+            return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
+        case StoredField::Code::root:
+            return {
+                field.largestBound(),
+                fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits, codes)};
+        case StoredField::Code::octahedral:
+            return {field.largestBound(),
+                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
+                                bits)};
+        case StoredField::Code::radiance:
+            return radianceTolerance(mode, pair);
+    }
+    return {};
 }
 
-Tolerance lightmapTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
-    if (!pair.needs.lightmap) return {0, "nothing in the scene has a lightmap"};
-    if (gbufferLayout(encoding, pair.needs).wide_lightmap)
-        return {0, "float32: the scene's lightmaps exceed the range of 9.9.9.e5"};
-    return radianceTolerance(mode, pair);
-}
-
-// mix(dielectric F0, albedo, metallic): the worse of the two ends, plus metallic's step times their distance.
-Tolerance specularTolerance(const FramePair& pair, const Bits& bits) {
-    const double albedo = squareBound(gpu::ALBEDO_BITS), metallic = unormBound(bits.metallic);
-    const bool stored = pair.needs.dielectric_specular;
-    const double ends = stored ? std::max(albedo, squareBound(gpu::SPECULAR_BITS)) : albedo;
-    const double apart = stored ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
+// mix(dielectric F0, albedo, metallic): the larger bound of the two ends, plus metallic's step times their
+// distance.
+Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
+    const auto bound = [&](gpu::uint mode) {
+        const auto field = storedField(static_cast<int>(mode), encoding, pair.needs);
+        return field ? field->largestBound() : 0;
+    };
+    const double metallic = bound(gpu::DEBUG_metallic), f0 = bound(gpu::DEBUG_dielectric_f0);
+    const double ends = std::max(bound(gpu::DEBUG_albedo), f0);
+    const double apart = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
     return {ends + metallic * apart,
-            fmt::format(
-                "mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step of {} bits, {:.3g})",
-                stored ? " and F0" : "", ends, bits.metallic, metallic)};
+            fmt::format("mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step, {:.3g})",
+                        f0 > 0 ? " and F0" : "", ends, metallic)};
 }
 
-// The image that forward+ shades from surfaces that went through the same encoding; nullptr if it was not
-// drawn.
+// The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
@@ -90,8 +83,8 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
     const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
     const bool first = pair.baseline.settings.path == Path::forward_plus;
-    const ChannelStats moved = channelStats(mode.metric, mode.kind, first ? own : *through,
-                                            first ? *through : own, pair.coverage);
+    const ChannelStats moved =
+        channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
     return {moved.max,
             fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
                         "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
@@ -103,35 +96,21 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (encoding == GBufferEncoding::full) return {0, "the full G-buffer stores float32 exactly"};
     if (isLit(mode.number)) return litTolerance(mode, pair);
-    const Bits bits = bitsOf(encoding);
+    if (const auto field = storedField(mode.number, encoding, pair.needs))
+        return storedTolerance(*field, mode, pair);
     switch (mode.number) {
-        case gpu::DEBUG_albedo:
-            return {squareBound(gpu::ALBEDO_BITS),
-                    "square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255"};
-        case gpu::DEBUG_normals:
-            return {octahedralBound(bits.normal),
-                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
-                                bits.normal)};
-        case gpu::DEBUG_metallic:
-            return unormTolerance(bits.metallic);
-        case gpu::DEBUG_roughness:
-            return unormTolerance(bits.roughness);
-        case gpu::DEBUG_occlusion:
-            return unormTolerance(gpu::OCCLUSION_BITS);
-        case gpu::DEBUG_emission:
-            return emissionTolerance(mode, pair, encoding);
-        case gpu::DEBUG_lightmap:
-            return lightmapTolerance(mode, pair, encoding);
         case gpu::DEBUG_specular:
-            return specularTolerance(pair, bits);
+            return specularTolerance(pair, encoding);
+        case gpu::DEBUG_emission:
+            return {0, pair.needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
+                                           : "nothing in the scene emits"};
+        case gpu::DEBUG_lightmap:
+            return {0, pair.needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
+                                           : "nothing in the scene has a lightmap"};
         case gpu::DEBUG_dielectric_f90:
-            if (!pair.needs.dielectric_specular)
-                return {0, "every dielectric has F90 = 1: nothing is stored"};
-            return unormTolerance(gpu::SPECULAR_BITS);
+            return {0, "every dielectric has F90 = 1: nothing is stored"};
         case gpu::DEBUG_dielectric_f0:
-            if (!pair.needs.dielectric_specular)
-                return {0, "every dielectric has F0 = 0.04: nothing is stored"};
-            return {squareBound(gpu::SPECULAR_BITS), "square root in 8 bits"};
+            return {0, "every dielectric has F0 = 0.04: nothing is stored"};
         case gpu::DEBUG_material_id:
             return {0, "the index is stored exactly"};
         case gpu::DEBUG_lightmapped:
@@ -146,10 +125,6 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_lit_haze:
         case gpu::DEBUG_transmittance:
             return {0, "the same function of pixel and depth in both paths"};
-        case gpu::DEBUG_geometric_normal:
-            return {octahedralBound(encoding == GBufferEncoding::compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS
-                                                                         : gpu::STANDARD_NORMAL_BITS),
-                    "octahedral: half a step in both coordinates at a face's centre, degrees"};
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_cascade:
         case gpu::DEBUG_page_residency:
@@ -159,12 +134,13 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
     return {0, "no loss of precision is known here"};
 }
 
-// Of the light that haze scatters, times the number of steps: what a march was off by, at most 0.03, in
-// builtin:deep through three times the earth's air, with 8, 32 and 128 steps; the error falls faster.
+// Times the number of steps, as a fraction of the light that haze scatters: the measured error of ray
+// marching. At most 0.03, in builtin:deep through three times the earth's air, with 8, 32 and 128 steps;
+// the error falls faster than that.
 constexpr double marchShare = 0.1;
 
-// By how much steps through haze may move a channel at the pixel, W/(sr m^2). Where the reference's own
-// lit_haze is not at hand, lit, which is no less, stands for it.
+// Permitted error of a channel at the pixel by ray-marching haze, W/(sr m^2). Uses lit, which is no less,
+// if the reference's lit_haze is missing.
 double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
@@ -178,7 +154,7 @@ double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pi
            metrics::largestFinite(image.pixel(pixel), image.components);
 }
 
-// A path compared with the reference may differ by what its encoding and its float32 arithmetic lose.
+// Tolerance of a path against the reference: the losses of its encoding and of float32.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
@@ -203,7 +179,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         if (!reference.uncertainty.empty())
             result.because += "; plus the reference's uncertainty at each pixel, at 99.9 % confidence";
     } else {
-        // Surfaces that are forward+'s own capture.
+        // Surfaces come from forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
                         : Tolerance{0, "float32, nothing is packed"};
         if (mode.number == static_cast<int>(gpu::DEBUG_transmittance))
@@ -235,7 +211,8 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
+    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full)
+        return nullptr;
     if (reference.through_gbuffer.contains(mode.number)) return &reference;
     const Frame* const forward = pair.explaining;
     return forward && forward->settings.gbuffer == path.settings.gbuffer &&
@@ -327,7 +304,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
-        // The encoding's change of the light, taken out of the path's pixel.
+        // Removes the encoding's effect on light from the path's pixel.
         std::array<float, 3> moved{};
         const float* q = test.pixel(i);
         if (encoded) {
@@ -339,7 +316,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             }
         }
         const double e = !encoded ? error(q, p) : first ? error(moved.data(), p) : error(q, moved.data());
-        // What is infinite, as a NaN against a number is, stays so whatever the reference knows.
+        // An infinite error (NaN against a number) stays infinite, whatever the uncertainty.
         errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));
     }
     return errors;

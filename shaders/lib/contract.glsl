@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Everything the two languages share, the features as specialization constants, and what a frame reads.
+// Everything that C++ and GLSL share, and the features as specialization constants.
 #ifndef CONTRACT_GLSL
 #define CONTRACT_GLSL
 
 #extension GL_EXT_demote_to_helper_invocation : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "shaders/lib/arithmetic.glsl"
+#include "shaders/lib/math/arithmetic.glsl"
 #include "shared/contract/area_light.h"
 #include "shared/contract/bindings.h"
 #include "shared/contract/clipmap.h"

@@ -4,8 +4,8 @@
 
 // Environment and infinite haze of pixels without geometry.
 #define FLAT_VIEW
-#include "shaders/lib/haze.glsl"
-#include "shaders/lib/sky.glsl"
+#include "shaders/lib/environment/haze.glsl"
+#include "shaders/lib/environment/sky.glsl"
 
 layout(location = 0) out vec4 out_lit;
 

@@ -2,4 +2,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/bench_lights.glsl"
+#include "shaders/lib/lights/bench_lights.glsl"

@@ -3,4 +3,4 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define BENCH_UNIFORM
-#include "shaders/lib/bench_lights.glsl"
+#include "shaders/lib/lights/bench_lights.glsl"

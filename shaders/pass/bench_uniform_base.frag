@@ -5,4 +5,4 @@
 
 #define BENCH_UNIFORM
 #define BENCH_UNIFORM_BASE
-#include "shaders/lib/bench_lights.glsl"
+#include "shaders/lib/lights/bench_lights.glsl"

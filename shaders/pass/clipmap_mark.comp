@@ -4,10 +4,10 @@
 
 // One thread per pixel: marks the page of the sun's clipmap that the pixel's surface samples. With MSAA it
 // marks the pages of all samples, each as if shaded at its location.
-#include "shaders/lib/clipmap.glsl"
-#include "shaders/lib/position.glsl"
-#include "shaders/lib/reversed_depth.glsl"
-#include "shaders/lib/samples.glsl"
+#include "shaders/lib/shadows/clipmap.glsl"
+#include "shaders/lib/geometry/position.glsl"
+#include "shaders/lib/geometry/reversed_depth.glsl"
+#include "shaders/lib/samples/samples.glsl"
 
 layout(local_size_x = CLIPMAP_MARK_SIDE, local_size_y = CLIPMAP_MARK_SIDE) in;
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2D depth;

@@ -4,7 +4,7 @@
 
 // Composites a pixel's fragment list near to far, then the mean of the overflowed fragments as one layer
 // behind it. Writes radiance, and in alpha the transmittance of all layers.
-#include "shaders/lib/fragment_list.glsl"
+#include "shaders/lib/blending/fragment_list.glsl"
 
 layout(location = 0) out vec4 out_lit;
 

@@ -8,7 +8,7 @@
 // indirect draw. It first tests meshlets against the view, one thread each, then the triangles of several
 // meshlets at a time, one thread each. The offset of a visible triangle is the number of set bits before
 // its own.
-#include "shaders/lib/culling.glsl"
+#include "shaders/lib/geometry/culling.glsl"
 
 layout(local_size_x = CULLING_THREADS) in;
 layout(push_constant, scalar) uniform CullingBlock { CullingConstants constants; };

@@ -4,8 +4,8 @@
 
 // Output attachments: 1 to 8 images of channels.
 #define FLAT_VIEW
-#include "shaders/lib/capture.glsl"
-#include "shaders/lib/deferred.glsl"
+#include "shaders/lib/surface/capture.glsl"
+#include "shaders/lib/surface/deferred.glsl"
 
 void main() {
     float z;

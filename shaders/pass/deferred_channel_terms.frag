@@ -4,9 +4,9 @@
 
 // Terms whose sum is the lit of deferred_channels.frag, one per attachment, before blending.
 #define FLAT_VIEW
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/stored_depth.glsl"
-#include "shaders/lib/surface_channels.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/geometry/stored_depth.glsl"
+#include "shaders/lib/surface/surface_channels.glsl"
 
 layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;

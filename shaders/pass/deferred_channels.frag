@@ -4,9 +4,9 @@
 
 // Shades float32 channels of any renderer as deferred_shade.frag shades a G-buffer.
 #define FLAT_VIEW
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/stored_depth.glsl"
-#include "shaders/lib/surface_channels.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/geometry/stored_depth.glsl"
+#include "shaders/lib/surface/surface_channels.glsl"
 
 layout(location = 0) out vec4 out_lit;
 

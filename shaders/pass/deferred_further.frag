@@ -5,10 +5,10 @@
 // Shades the groups that deferred_groups_list.frag has listed, one per fragment, and stores their samples.
 // A fragment's own position only selects the list entry; it is not at the shaded pixel.
 #define FLAT_VIEW
-#include "shaders/lib/further_groups.glsl"
-#include "shaders/lib/gbuffer_read.glsl"
-#include "shaders/lib/sample_groups.glsl"
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/samples/further_groups.glsl"
+#include "shaders/lib/surface/gbuffer_read.glsl"
+#include "shaders/lib/samples/sample_groups.glsl"
+#include "shaders/lib/shading/shade.glsl"
 
 layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly uniform image2DMS lit_samples;
 

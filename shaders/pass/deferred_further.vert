@@ -4,8 +4,8 @@
 
 // Two triangles that cover the rows of listed sample groups in draw constants.group.
 #define FLAT_VIEW
-#include "shaders/lib/further_groups.glsl"
-#include "shaders/lib/view.glsl"
+#include "shaders/lib/samples/further_groups.glsl"
+#include "shaders/lib/geometry/view.glsl"
 
 void main() {
     bool right = gl_VertexIndex == 1 || gl_VertexIndex >= 4;

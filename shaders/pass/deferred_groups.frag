@@ -5,7 +5,7 @@
 // Determines a pixel's sample groups and writes them as the depth of all its samples
 // (lib/sample_groups.glsl).
 #define FLAT_VIEW
-#include "shaders/lib/sample_pairs.glsl"
+#include "shaders/lib/samples/sample_pairs.glsl"
 
 void main() {
     uint count;

@@ -5,8 +5,8 @@
 // As deferred_groups.frag, and lists each pixel's secondary sample groups. Their order in the list varies
 // from run to run; the shaded values do not depend on it.
 #define FLAT_VIEW
-#include "shaders/lib/further_groups.glsl"
-#include "shaders/lib/sample_pairs.glsl"
+#include "shaders/lib/samples/further_groups.glsl"
+#include "shaders/lib/samples/sample_pairs.glsl"
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);

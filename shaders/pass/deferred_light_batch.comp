@@ -4,8 +4,8 @@
 
 // As deferred_light_batch.frag; stores nothing at pixels without geometry.
 #define TEXEL_VIEW
-#include "shaders/lib/deferred_lighting.glsl"
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/shading/deferred_lighting.glsl"
+#include "shaders/lib/shading/shade.glsl"
 
 layout(set = SET_GBUFFER, binding = BINDING_SPECULAR_TARGET, rgba32f)
 writeonly uniform image2D specular_target;

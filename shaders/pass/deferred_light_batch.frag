@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define FLAT_VIEW
-#include "shaders/lib/deferred_lighting.glsl"
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/shading/deferred_lighting.glsl"
+#include "shaders/lib/shading/shade.glsl"
 
 layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;

@@ -4,10 +4,10 @@
 
 // The full-screen triangle of deferred lighting.
 #define FLAT_VIEW
-#include "shaders/lib/draw.glsl"
-#include "shaders/lib/full_screen.glsl"
-#include "shaders/lib/samples.glsl"
-#include "shaders/lib/view.glsl"
+#include "shaders/lib/geometry/draw.glsl"
+#include "shaders/lib/geometry/full_screen.glsl"
+#include "shaders/lib/samples/samples.glsl"
+#include "shaders/lib/geometry/view.glsl"
 
 void main() {
     gl_Position = fullScreenCorner(gl_VertexIndex);

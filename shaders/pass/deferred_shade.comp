@@ -5,8 +5,8 @@
 // As deferred_shade.frag. Stores every pixel, 0 without geometry. With MSAA it stores only the samples of
 // the dispatch's sample group.
 #define TEXEL_VIEW
-#include "shaders/lib/deferred_lighting.glsl"
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/shading/deferred_lighting.glsl"
+#include "shaders/lib/shading/shade.glsl"
 
 void main() {
     if (!isInPicture()) return;

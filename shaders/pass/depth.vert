@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/vertex.glsl"
+#include "shaders/lib/geometry/vertex.glsl"
 
 void main() {
     vec3 at = position;

@@ -3,6 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Depth of an alpha-masked material; discards holes.
-#include "shaders/lib/material.glsl"
+#include "shaders/lib/surface/material.glsl"
 
 void main() { cutOut(baseColor()); }

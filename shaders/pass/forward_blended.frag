@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Blended over the attachment in draw order.
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/blended.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/blending/blended.glsl"
 
 layout(location = 0) out vec4 out_lit;
 

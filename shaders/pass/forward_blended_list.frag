@@ -3,10 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Stores the fragment at its key's index in the pixel's list, or adds it to the overflow sums.
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/blended.glsl"
-#include "shaders/lib/fragment_list.glsl"
-#include "shaders/lib/optical_depth.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/blending/blended.glsl"
+#include "shaders/lib/blending/fragment_list.glsl"
+#include "shaders/lib/blending/optical_depth.glsl"
 
 layout(early_fragment_tests) in;
 

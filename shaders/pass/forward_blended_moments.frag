@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Sums of radiance and opacity, each layer weighted by the transmittance of the layers in front.
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/blended.glsl"
-#include "shaders/lib/transparency_moments.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/blending/blended.glsl"
+#include "shaders/lib/blending/transparency_moments.glsl"
 
 layout(location = 0) out vec4 out_sums;
 

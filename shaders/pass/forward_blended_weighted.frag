@@ -4,9 +4,9 @@
 
 // Weighted blended order-independent transparency (McGuire and Bavoil 2013): sums of radiance and opacity,
 // with larger weights for nearer layers.
-#include "shaders/lib/shade.glsl"
-#include "shaders/lib/blended.glsl"
-#include "shaders/lib/optical_depth.glsl"
+#include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/blending/blended.glsl"
+#include "shaders/lib/blending/optical_depth.glsl"
 
 layout(location = 0) out vec4 out_sums;
 layout(location = 1) out float out_optical_depth;

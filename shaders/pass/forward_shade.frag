@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/forward.glsl"
-#include "shaders/lib/shade.glsl"
+#include "shaders/lib/surface/forward.glsl"
+#include "shaders/lib/shading/shade.glsl"
 
 layout(location = 0) out vec4 out_lit;
 

@@ -2,6 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/full_screen.glsl"
+#include "shaders/lib/geometry/full_screen.glsl"
 
 void main() { gl_Position = fullScreenCorner(gl_VertexIndex); }

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/gbuffer.glsl"
-#include "shaders/lib/material.glsl"
+#include "shaders/lib/surface/gbuffer.glsl"
+#include "shaders/lib/surface/material.glsl"
 
 // A frame has only the attachments that its scene needs; their locations are contiguous.
 layout(location = 0) out uvec4 out_albedo;

@@ -4,7 +4,7 @@
 
 // LIGHT_THREADS threads per light share the slices and rows of tiles that the light's bounding sphere may
 // reach. They mark the light as a candidate of each slice and of each tile.
-#include "shaders/lib/light_walk.glsl"
+#include "shaders/lib/lights/light_walk.glsl"
 
 layout(local_size_x = 64) in;
 

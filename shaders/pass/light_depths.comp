@@ -6,10 +6,10 @@
 // Smallest and largest view depth in each tile, over all samples of its pixels; the smallest is the larger
 // one in a tile without geometry. With lights_in_front also the range of blended surfaces: from the viewer
 // on, and unbounded if a pixel shows the background. One workgroup per tile, one thread per four pixels.
-#include "shaders/lib/light_kernel.glsl"
-#include "shaders/lib/position.glsl"
-#include "shaders/lib/reversed_depth.glsl"
-#include "shaders/lib/samples.glsl"
+#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/geometry/position.glsl"
+#include "shaders/lib/geometry/reversed_depth.glsl"
+#include "shaders/lib/samples/samples.glsl"
 
 layout(local_size_x = LIGHT_TILE / 2, local_size_y = LIGHT_TILE / 2) in;
 

@@ -5,7 +5,7 @@
 // One thread per tile, 32 lights and range of slices. Tests lights that are candidates of both the tile
 // and a slice against their froxel (after Drobot 2017, "Improved Culling for Tiled and Clustered
 // Rendering").
-#include "shaders/lib/light_walk.glsl"
+#include "shaders/lib/lights/light_walk.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -4,7 +4,7 @@
 
 // LIGHT_THREADS threads per light share the rows of tiles that its bounding sphere covers in each slice,
 // and mark the tiles of a row that the light reaches.
-#include "shaders/lib/light_walk.glsl"
+#include "shaders/lib/lights/light_walk.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Deforms the vertices of an instance into the buffers that draws read, one thread per vertex.
-#include "shaders/lib/posing_thread.glsl"
+#include "shaders/lib/geometry/posing_thread.glsl"
 
 void main() {
     PosedInstance i = instanceOfDispatch();

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Writes the morphed inputs of tangents, for an instance with recomputed tangents; one thread per vertex.
-#include "shaders/lib/posing_thread.glsl"
+#include "shaders/lib/geometry/posing_thread.glsl"
 
 void main() {
     PosedInstance i = instanceOfDispatch();

@@ -6,8 +6,8 @@
 // Revisited", 2008, section 3): the angle-weighted mean, over a group's corners, of the derivative of
 // position by s in the plane of the vertex normal. Groups are those of the rest pose. One thread per
 // group.
-#include "shaders/lib/angles.glsl"
-#include "shaders/lib/posing_thread.glsl"
+#include "shaders/lib/math/angles.glsl"
+#include "shaders/lib/geometry/posing_thread.glsl"
 
 vec3 inPlaneOf(vec3 normal, vec3 v) { return unitVector(v - normal * dot(normal, v)); }
 

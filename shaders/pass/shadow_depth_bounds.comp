@@ -5,8 +5,8 @@
 
 // Smallest and largest reversed depth of an image's geometry, over all samples of all pixels. One thread
 // reads two columns of DEPTH_BOUNDS_ROWS rows.
-#include "shaders/lib/reversed_depth.glsl"
-#include "shaders/lib/samples.glsl"
+#include "shaders/lib/geometry/reversed_depth.glsl"
+#include "shaders/lib/samples/samples.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;
 layout(set = SET_DEPTH_BOUNDS, binding = BINDING_BOUNDED_DEPTH) uniform sampler2D depth;

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Converts a layer of depth to moments, one thread per texel.
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 
 layout(local_size_x = MOMENT_THREADS) in;
 layout(push_constant, scalar) uniform MomentBlock { MomentConstants constants; };

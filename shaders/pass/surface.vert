@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/inputs.glsl"
-#include "shaders/lib/material_factors.glsl"
-#include "shaders/lib/object_lights.glsl"
-#include "shaders/lib/vertex.glsl"
+#include "shaders/lib/geometry/inputs.glsl"
+#include "shaders/lib/surface/material_factors.glsl"
+#include "shaders/lib/lights/object_lights.glsl"
+#include "shaders/lib/geometry/vertex.glsl"
 
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;

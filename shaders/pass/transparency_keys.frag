@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Finds the nearest fragments of each pixel.
-#include "shaders/lib/fragment_list.glsl"
-#include "shaders/lib/opacity.glsl"
+#include "shaders/lib/blending/fragment_list.glsl"
+#include "shaders/lib/blending/opacity.glsl"
 
 layout(early_fragment_tests) in;
 

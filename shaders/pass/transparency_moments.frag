@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Sums of optical depth, and of optical depth times powers of depth.
-#include "shaders/lib/opacity.glsl"
-#include "shaders/lib/transparency_moments.glsl"
+#include "shaders/lib/blending/opacity.glsl"
+#include "shaders/lib/blending/transparency_moments.glsl"
 
 layout(location = 0) out float out_optical_depth;
 layout(location = 1) out vec4 out_moments;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Build tool: embed_spirv OUT.cpp NAMESPACE FILE.spv...
-// Writes shaderModules() of NAMESPACE: every module by its name without ".spv", in the order of their names
-// with '_' for '.', as the enumeration of shaders has them. An assembler takes the files in as they are;
-// other object formats than ELF get their words, which a compiler takes ten times as long to read.
+// Writes shaderModules() of NAMESPACE: every module by its file name without ".spv", sorted with '_' for
+// '.', in the order of the shader enumeration. For ELF, an assembler includes the files as they are. Other
+// object formats get the words as source, which takes ten times as long to compile.
 #include "shaders/tool/spirv_words.h"
 
 #include <algorithm>

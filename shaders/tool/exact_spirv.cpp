@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Build tool: exact_spirv FILE.spv
-// Decorates every floating-point operation of a module with NoContraction, in place. In GLSL that is
-// `precise`, which would have to stand at every variable, does not reach through a function call, and is
-// never written for dot() by glslangValidator 12.
+// Decorates every floating-point operation of a module with NoContraction, in place. The GLSL equivalent,
+// `precise`, is needed at every variable and does not extend into called functions. glslangValidator 12
+// never emits it for dot().
 #include "shaders/tool/spirv_words.h"
 
 #include <cstdio>
@@ -14,8 +14,7 @@ constexpr std::uint32_t opDecorate = 71, noContraction = 42;
 // Types and constants, the first section after the decorations.
 constexpr std::uint32_t opTypeFirst = 19, opConstantLast = 52;
 
-// OpFNegate, OpFAdd, OpFSub, OpFMul, OpFDiv, OpFRem, OpFMod, and products of vectors and matrices up to
-// OpDot.
+// OpFNegate, OpFAdd, OpFSub, OpFMul, OpFDiv, OpFRem, OpFMod, and vector and matrix products up to OpDot.
 bool isOperation(std::uint32_t op) {
     return op == 127 || op == 129 || op == 131 || op == 133 || op == 136 || (op >= 140 && op <= 148);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Build tool: layout_checks OUT.cpp layout.comp.spv
-// Writes, from the module's reflection, static_asserts that C++ lays out each struct of shared/contract as
-// GLSL does and numbers every feature alike.
+// Writes static_asserts, from the module's reflection, that C++ and GLSL agree on the layout of each
+// struct of shared/contract and on the number of every feature.
 #include "shaders/tool/spirv_words.h"
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A SPIR-V module as the specification's section 2.3 describes it: a header of five words, then instructions
-// whose first word is length << 16 | opcode.
+// SPIR-V module, by section 2.3 of the specification: a header of five words, then instructions whose
+// first word is length << 16 | opcode.
 #pragma once
 
 #include <cstdint>

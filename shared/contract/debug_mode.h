@@ -2,8 +2,7 @@
 // Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
 // ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
 //
-// To add a channel: a row here and in CAPTURES, a line in shaders/lib/debug.glsl, a line in
-// compare/reference/reference.cpp.
+// tests/architecture/README.md lists the files to change for a new channel.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
 #define DIPTYCH_CONTRACT_DEBUG_MODE_H
 

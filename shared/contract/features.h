@@ -99,7 +99,7 @@
     X(51, sample_edges,               pass,    PASS_LIGHTING)                                               \
     /* the resolve weights a pixel's samples by a tone curve */                                             \
     X(52, tonemapped_resolve,         frame,   PASS_SAMPLES)                                                \
-    /* SPECULAR_AA_* of material.h; two parameters of shaders/lib/specular_aa.glsl, float32 bits */         \
+    /* SPECULAR_AA_* of material.h; two parameters of shaders/lib/surface/specular_aa.glsl, float32 bits */         \
     X(53, specular_aa,                frame,   PASSES_SURFACE)                                              \
     X(54, specular_aa_variance,       amount,  PASSES_SURFACE)                                              \
     X(55, specular_aa_limit,          amount,  PASSES_SURFACE)                                              \

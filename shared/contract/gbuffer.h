@@ -20,7 +20,7 @@
 // emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
 // float if radiance exceeds the range of 9.9.9.e5.
 // lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
-// shaders/lib/gbuffer.glsl distinguishes them from black.
+// shaders/lib/surface/gbuffer.glsl distinguishes them from black.
 // specular exists if a material has KHR_materials_specular, _ior or _unlit.
 // With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
 // pixel: the mean location of the samples that its triangle covers, and the depth there.

@@ -9,6 +9,7 @@
 CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, MAX_SAMPLES, 8);
+CONTRACT_CONST(uint, SAMPLE_IMAGES, 4);  // that a pass reads one sample of
 
 // Two 4-bit coordinates per sample, x in the lower bits; the first sample is in the lowest byte.
 CONTRACT_CONST(uint, SAMPLE_PLACES_4, 0xeaa26e26u);
@@ -29,7 +30,7 @@ CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // as EDGES_EXACT; one group if every 
                                           // whole pixel
 
 // Sample groups are stored as a depth. The mantissa stores the group of each sample
-// (shaders/lib/sample_groups.glsl); the exponent is GROUP_EXPONENT plus the number of groups, so the depth
+// (shaders/lib/samples/sample_groups.glsl); the exponent is GROUP_EXPONENT plus the number of groups, so the depth
 // stays below 1. Group k of a pixel is shaded by a draw at the depth of exponent GROUP_EXPONENT + k + 1,
 // which passes the depth test if the pixel has more than k groups.
 CONTRACT_CONST(uint, GROUP_EXPONENT, 118);

@@ -12,7 +12,7 @@
     X(9,  BLENDED_DEPTHS, image, "R32F: sums of optical depth")                                             \
     X(10, BLENDED_MOMENTS, image, "RGBA32F: sums of optical depth times the first four powers of depth")    \
     X(11, BLENDED_SUMS, image, "RGBA32F: sums of weighted radiance, and of weighted opacity")               \
-    X(12, FRAGMENT_KEYS, storage_buffer, "uint64[]: keys, sums, counters: shaders/lib/fragment_list.glsl")  \
+    X(12, FRAGMENT_KEYS, storage_buffer, "uint64[]: keys, sums, counters: shaders/lib/blending/fragment_list.glsl")  \
     X(13, FRAGMENTS, storage_buffer, "vec4[layers][pixels]: radiance times opacity, W/(sr m^2), opacity")
 // clang-format on
 

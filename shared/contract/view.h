@@ -71,7 +71,7 @@ CONTRACT_END
 CONTRACT_BEGIN
 CONTRACT_CONST(uint, PACKED_VIEW_TEXELS, 5);
 
-// Storage of the scene's depth; shaders/lib/reversed_depth.glsl reads it.
+// Storage of the scene's depth; shaders/lib/geometry/reversed_depth.glsl reads it.
 CONTRACT_CONST(uint, DEPTH_REVERSED, 0);  // unchanged
 CONTRACT_CONST(uint, DEPTH_STANDARD, 1);  // 1 - z; the far end is 1 - STANDARD_DEPTH_FIRST
 CONTRACT_CONST(uint, DEPTH_STEPS_24, 2);  // in steps of 1 / (2^24 - 1); the first step is the far end

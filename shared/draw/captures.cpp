@@ -46,7 +46,7 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
     for (const auto& [mode, place] : capture_places) {
         if (std::ranges::find(modes, mode) == modes.end()) continue;
         const gpu::uint bit = 1u << place.image;
-        // Images that go into one pass together: one, or at the first that light changes all of these.
+        // Number of images that must go into one pass: one, or all lit images at the first of them.
         const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
         const std::size_t together =
             place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, most) : 1;
@@ -63,7 +63,8 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
 }
 
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
-                                            ImageRef lit, VkSampleCountFlagBits samples) {
+                                            ImageRef lit, VkSampleCountFlagBits samples,
+                                            std::span<const int> every_sample) {
     std::vector<CapturedImage> images;
     std::size_t next = 0;
     for (gpu::uint i = 0; i < gpu::CAPTURE_IMAGES; ++i) {
@@ -91,9 +92,11 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
             if (of == i) background.float32[component] = -1;
             pass.color(image, Load::clear, background);
         }
-        for (const int mode : modes)
+        for (const int mode : modes) {
             images.push_back(
                 {mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
+            images.back().every_sample = std::ranges::count(every_sample, mode) > 0;
+        }
     }
     return images;
 }

@@ -12,44 +12,48 @@
 
 namespace diptych {
 
-// Where a channel stands in the images that captures draw (CAPTURES of contract/debug_mode.h).
+// Position of a channel in the images of captures (CAPTURES of contract/debug_mode.h).
 struct PlaceInCaptures {
-    gpu::uint image = 0, component = 0;  // its first component
+    gpu::uint image = 0, component = 0;  // of its first component
 };
 PlaceInCaptures placeInCaptures(int mode);  // throws std::out_of_range
 
-// A capture pass: up to CAPTURE_ATTACHMENTS images, in the order of CAPTURES, with all that is asked for of
-// them. What no light changes is in passes of its own, unless all that light changes fits in beside it.
+// A capture pass: up to CAPTURE_ATTACHMENTS images, in the order of CAPTURES, with all requested channels
+// in them. Channels that do not depend on light have passes of their own, unless all lit channels fit in
+// beside them.
 struct CaptureGroup {
-    gpu::uint images = 0;           // a bit each: FEATURE_captures
-    std::vector<VkFormat> formats;  // of each image: four float32; of lit's the frame's own
+    gpu::uint images = 0;           // bit mask: FEATURE_captures
+    std::vector<VkFormat> formats;  // by image: RGBA32F; for lit the frame's own
     std::vector<int> modes;         // debug modes, by image
 };
-// `lit`: the format of lit, over which something may be blended. `most`: images of a group.
+// `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit,
                                         std::size_t most = gpu::CAPTURE_ATTACHMENTS);
 
-// Groups share their images' memory: each is run, and read back, before the next one runs.
+// Groups share the memory of their images: each is run and read back before the next one runs.
 struct CapturedImage {
     int mode = 0;
-    ImageRef image;                         // which other channels may share
-    int component = 0;                      // its first one there
-    std::size_t pass = 0;                   // the number of its group's
-    bool through_gbuffer = false;  // forward+: shaded from the surface that the G-buffer would give back
-    bool before_blending = false;  // lit before something is blended over it
+    ImageRef image;                // other channels may share it
+    int component = 0;             // its first component in the image
+    std::size_t pass = 0;          // index of its group's pass
+    bool through_gbuffer = false;  // forward+: shaded from the surface after the G-buffer's encoding
+    bool every_sample = false;     // MSAA: capture every sample
+    int sample = 0;                // MSAA: index
+    bool before_blending = false;  // lit before blending
 };
 
-// The channels to capture. `through_gbuffer`, forward+ only: lit channels of surfaces that went through the
-// G-buffer's encoding, which deferred has to show.
+// Channels to capture. `every_sample`: those of `modes` that need all samples of MSAA. `through_gbuffer`,
+// forward+ only: lit channels of surfaces after the G-buffer's encoding, which deferred must equal.
 struct CaptureRequest {
-    std::vector<int> modes, through_gbuffer;
+    std::vector<int> modes, every_sample, through_gbuffer;
 };
 
-// Adds the group's images to the list's last pass, cleared to what the background holds (0; material_id -1).
-// `lit`: the image that its lit goes on from, if there is one. `samples`: of each. Returns a row for each
-// channel, those of an image one after the other.
+// Adds the group's images to the list's last pass, cleared to the background (0; material_id -1). `lit`:
+// existing image that lit continues from, if any. `samples`: per pixel. `every_sample`: as in
+// CaptureRequest. Returns an entry for each channel, grouped by image.
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit = {},
-                                            VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
+                                            VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT,
+                                            std::span<const int> every_sample = {});
 
 }  // namespace diptych

@@ -80,8 +80,8 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_orthographic, view.camera.orthographic)
         .set(gpu::FEATURE_half_shading, settings.shading_precision == ShadingPrecision::fp16)
         .set(gpu::FEATURE_base_by_component, settings.base_layer == BaseLayer::component)
-        .set(gpu::FEATURE_smooth_cones, settings.spot_cone == SpotFalloff::smoothstep)
-        .set(gpu::FEATURE_squared_window, settings.range_window == RangeWindow::squared);
+        .set(gpu::FEATURE_smooth_cones, lights.falloff.smooth_cones)
+        .set(gpu::FEATURE_squared_window, lights.falloff.squared_window);
     addSpecularAa(variant, settings);
     gbuffer.specialise(variant);
     return variant;

@@ -2,6 +2,7 @@
 #include "shared/draw/resolve.h"
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/samples.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 // A full-screen pass that reads `sources` at the first bindings of SET_GBUFFER and writes as many targets.
 void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, const char* name,
-                const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets) {
+                const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets, int sample = 0) {
     Pass& pass = passes.draw(name);
     std::vector<VkFormat> formats;
     for (const ImageRef target : targets) {
@@ -35,7 +36,8 @@ void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, co
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES));
-    variant.set(gpu::FEATURE_captures, (1u << sources.size()) - 1);
+    variant.set(gpu::FEATURE_captures, ((1u << sources.size()) - 1) | static_cast<gpu::uint>(sample)
+                                                                          << gpu::SAMPLE_IMAGES);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
         .vertex = Shader::full_screen_vert,
         .fragment = fragment,
@@ -89,19 +91,16 @@ std::size_t mostCaptured(const FrameInputs& inputs) {
     return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::CAPTURE_ATTACHMENTS : gpu::CAPTURE_ATTACHMENTS / 2;
 }
 
-void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<CapturedImage> images) {
+void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<CapturedImage>& images,
+                       std::size_t first) {
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return;
-    const auto lit = std::ranges::stable_partition(
-        images, [](const CapturedImage& image) { return image.mode != static_cast<int>(gpu::DEBUG_lit); });
-    // Samples of the background have no shaded_samples value.
-    const std::span<CapturedImage> channels = images.first(images.size() - lit.size());
-    const auto counts = std::ranges::stable_partition(channels, [](const CapturedImage& image) {
-        return image.mode != static_cast<int>(gpu::DEBUG_shaded_samples);
-    });
-    const auto read = [&](std::span<CapturedImage> some, Shader fragment, const char* name) {
-        if (some.empty()) return;
+    const std::vector<CapturedImage> group(images.begin() + static_cast<std::ptrdiff_t>(first), images.end());
+    images.resize(first);
+    // One sample of each channel, or what the shader makes of all.
+    const auto read = [&](const auto& isRead, Shader fragment, const std::string& name, int sample = 0) {
         std::vector<ImageRef> sources, targets;
-        for (CapturedImage& image : some) {
+        for (CapturedImage image : group) {
+            if (!isRead(image)) continue;
             if (sources.empty() || sources.back().index != image.image.index) {
                 sources.push_back(image.image);
                 targets.push_back(passes.image({.name = name,
@@ -111,14 +110,30 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<Ca
             }
             image.image = targets.back();
             image.pass = passes.size();
+            image.sample = sample;
+            images.push_back(image);
         }
-        addReading(passes, inputs, fragment, name, sources, targets);
+        if (!sources.empty()) addReading(passes, inputs, fragment, name.c_str(), sources, targets, sample);
     };
-    read(channels.first(channels.size() - counts.size()), Shader::sample_first_frag, "first samples");
-    read(std::span(counts.begin(), counts.end()), Shader::sample_most_frag, "most of samples");
-    for (CapturedImage& image : lit) {
+    const auto isLit = [](const CapturedImage& image) {
+        return image.mode == static_cast<int>(gpu::DEBUG_lit);
+    };
+    // A background's samples have no count.
+    const auto isCount = [](const CapturedImage& image) {
+        return image.mode == static_cast<int>(gpu::DEBUG_shaded_samples);
+    };
+    for (int sample = 0; sample < static_cast<int>(inputs.samples); ++sample)
+        read(
+            [&](const CapturedImage& image) {
+                return !isLit(image) && !isCount(image) && (sample == 0 || image.every_sample);
+            },
+            Shader::sample_one_frag, fmt::format("sample {}", sample), sample);
+    read(isCount, Shader::sample_most_frag, "most of samples");
+    for (CapturedImage image : group) {
+        if (!isLit(image)) continue;
         image.image = addResolve(passes, inputs, image.image, Life::transient);
         image.pass = passes.size() - 1;
+        images.push_back(image);
     }
 }
 

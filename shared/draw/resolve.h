@@ -21,8 +21,10 @@ ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, L
 // Number of channels that one capture pass writes; fewer with MSAA, to limit memory.
 std::size_t mostCaptured(const FrameInputs& inputs);
 
-// Replaces a group's `images` by single-sample images, as pass lists read back. Takes the first sample of
-// each channel, the largest sample of shaded_samples, and resolves lit. Does nothing without MSAA.
-void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::span<CapturedImage> images);
+// Puts images of one sample in the place of a group's, which are images[first] and all after it, as lists of
+// passes read them back: of every channel the first sample, of channels with every_sample the others too, of
+// shaded_samples the most of any, and lit resolved. Does nothing without MSAA.
+void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<CapturedImage>& images,
+                       std::size_t first);
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Directional albedo: integrals of the BRDF of shaders/lib/brdf.glsl over uniform light.
-// shaders/lib/ambient.glsl reads a table of them.
+// Directional albedo: integrals of the BRDF of shaders/lib/shading/brdf.glsl over uniform light.
+// shaders/lib/shading/ambient.glsl reads a table of them.
 #pragma once
 
 #include <glm/vec2.hpp>

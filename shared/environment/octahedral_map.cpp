@@ -137,7 +137,7 @@ NodeMap atNodes(const OctahedralMap& map, int side) {
     return nodes;
 }
 
-// Same interpolation as mapRadiance() of shaders/lib/environment.glsl.
+// Same interpolation as mapRadiance() of shaders/lib/environment/environment.glsl.
 glm::vec3 NodeMap::interpolated(glm::vec2 place) const {
     const float cells = static_cast<float>(side - 1);
     const glm::vec2 at = (place * 0.5f + 0.5f) * cells;

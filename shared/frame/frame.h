@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The result of one renderer, or of a picture file: anything that makes a Frame can be compared.
+// The result of one renderer, or an image file. Anything that makes a Frame can be compared.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -15,12 +15,12 @@
 
 namespace diptych {
 
-// Time of the whole frame in one piece, from culling to linear lit, in milliseconds.
+// Time of the whole frame, from culling to linear lit, in milliseconds.
 struct FrameTime {
     double median = 0, min = 0, max = 0;
     int runs = 0;
-    // What the host does for each frame and `median` does not hold, ms: recording its commands (the median),
-    // and choosing the lights of every object (--assign per_object; once, when the frame was prepared).
+    // Host time of each frame that `median` excludes, ms: recording commands (median), and choosing the
+    // lights of every object (--assign per_object; once, when the frame was prepared).
     double record = 0, object_lists = 0;
 };
 
@@ -32,18 +32,18 @@ struct PassTime {
 struct FrameBytes {
     std::uint64_t images = 0, buffers = 0;  // device memory of the path and the scene
     std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth; all samples
-    std::uint64_t picture_images = 0;       // of `images`: those of the picture's size, light's too
+    std::uint64_t picture_images = 0;       // part of `images`: full-size images, including light
 };
 
 // Pages of --shadows clipmap: requested = resident + fallback.
 struct ShadowPages {
-    std::uint64_t requested = 0;  // by the picture
-    std::uint64_t resident = 0;   // of these, in the pool
-    std::uint64_t fallback = 0;   // of these, served by a coarser level
-    std::uint64_t drawn = 0;      // before the first frame; the others were there already
+    std::uint64_t requested = 0;  // by the image
+    std::uint64_t resident = 0;   // of `requested`: in the pool
+    std::uint64_t fallback = 0;   // of `requested`: served by a coarser level
+    std::uint64_t drawn = 0;      // before the first frame; the others were already there
 };
 
-// Fragments of blended surfaces that --transparency list put in no order, and the pixels that have some.
+// Blended fragments that --transparency list did not sort, and pixels with such fragments.
 struct UnsortedFragments {
     std::uint64_t fragments = 0, pixels = 0;
 };
@@ -51,52 +51,52 @@ struct UnsortedFragments {
 struct FrameCounters {
     std::uint64_t nonfinite_pixels = 0;  // in lit
     std::uint64_t overflowed_lists = 0;
-    std::uint64_t lights = 0;  // every light, the sun too
+    std::uint64_t lights = 0;  // all lights, including directional ones
     ShadowPages shadow_pages;
     UnsortedFragments unsorted;
-    // Where the lit of the capture differs from that of the timed pipeline.
+    // Pixels where lit of the capture differs from that of the timed pipeline.
     std::uint64_t unreproduced_pixels = 0;
     double energy_cut =
-        0;  // share of the flux of lights without a range that settings.light_cutoff takes away
+        0;  // fraction of the flux of lights without a range that settings.light_cutoff removes
 };
 
-// Differences between two runs of the same path. On a CPU device there must be none; any is a race.
+// Differences between two runs of the same path. On a CPU device any difference is a race.
 struct ChannelNoise {
-    std::uint64_t pixels = 0;  // not bit-identical
-    double max = 0;            // in the channel's metric, over all pixels, the background too
+    std::uint64_t pixels = 0;  // not bitwise identical
+    double max = 0;            // in the channel's metric, over all pixels including the background
 };
 
 // Origin of a Frame that was read from a file; unknown fields are empty.
 struct FrameOrigin {
-    std::string file;  // empty: drawn by this program run
+    std::string file;  // empty: rendered by this run
     std::string device, driver, commit;
-    std::vector<std::string> left_out = {};     // the file's channels that are none of ours
-    std::vector<std::string> not_applied = {};  // what the file says of its colours or pixels, FileNotes
-    // Drawn now, by a program that is not ours: `file` is the one that names it, and what it is granted
-    // stands here, in words.
+    std::vector<std::string> left_out = {};     // the file's channels that Diptych does not have
+    std::vector<std::string> not_applied = {};  // what the file says of its colours or pixels (FileNotes)
+    // Rendered now by an external renderer. `file` names it; `granted` describes its input corrections.
     bool external = false;
     std::vector<std::string> granted = {};
 };
 
-// The device that a Frame was drawn on, as reports name it.
+// The device that rendered a Frame, as reports name it.
 struct ReportDevice {
     std::string name, driver, type;
-    // All pipelines round alike there (DeviceProfile::bit_exact, of a device that may be elsewhere).
+    // Whether all pipelines round alike (DeviceProfile::bit_exact, for a device that may be on another
+    // machine).
     bool bitExact() const { return type == "cpu"; }
 };
 
-// The camera of the picture, in world space, metres; for the report and for other renderers.
+// The camera of the image, in world space, metres; for the report and for other renderers.
 struct FrameCamera {
     std::string name;
     double eye[3] = {0, 0, 0}, target[3] = {0, 0, -1}, up[3] = {0, 1, 0};
     double fov_degrees = 0;    // vertical; 0: orthographic
     double ymag = 0;           // orthographic: half the height, m
     double near = 0, far = 0;  // far: infinity for a camera without far plane
-    std::string choice{};  // of a default view: what was chosen and how much it shows, in words; else empty
+    std::string choice{};      // default view only: the chosen view and how much it shows; else empty
 };
 
-// How far from the edge of a shadow, across the light, a path's filter may show anything between light and
-// shadow: from its middle to a corner and one texel, m, up to a view depth, m.
+// Distance from a shadow boundary, perpendicular to the light, within which a path's filter may show
+// partial shadow. From the filter's centre to a corner plus one texel, m; valid up to a view depth, m.
 struct ShadowReach {
     double depth = 0, reach = 0;
     double texel = 0;  // m
@@ -104,78 +104,80 @@ struct ShadowReach {
 
 struct Frame {
     std::string name;   // "deferred"
-    std::string scene;  // as the user wrote it
+    std::string scene;  // as the user gave it
     FrameOrigin origin;
     Settings settings;
     FrameCamera camera;
     std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
-    // By channel, the pixels (row by row from the top left) that were NaN or infinite when they were drawn
-    // and have been repaired since: NaN is 0, infinity the largest float32. Pictures mark them.
+    // By channel, the indices of pixels (row-major from the top left) that were NaN or infinite and have
+    // been repaired: NaN is 0, infinity the largest float32. Images mark them.
     std::map<int, std::vector<std::uint32_t>> repaired;
-    // Of `channels`, those that were requested, which are compared and written; the others are helpers
-    // (exposure, background). Empty: all.
+    // Requested channels, which are compared and written; other `channels` are helpers (exposure,
+    // background). Empty: all.
     std::vector<int> requested;
     bool isRequested(int mode) const { return requested.empty() || std::ranges::count(requested, mode) > 0; }
     // litModes shaded from the surfaces that deferred decodes from a G-buffer of settings.gbuffer: by
-    // forward+, which has to equal deferred, and by the reference in mode surface. Empty elsewhere.
+    // forward+, which must equal deferred, and by the reference in mode surface. Else empty.
     std::map<int, Image> through_gbuffer;
-    // Of a path or the reference in whose view something may be blended: lit before that, W x H x 3; and
-    // forward+ only, the same of through_gbuffer. Else empty.
+    // With MSAA, if RenderOptions::every_sample asks for it: the samples of a channel after the first.
+    std::map<int, std::vector<Image>> further_samples;
+    // If something may be blended in the view: lit before blending, W x H x 3; for forward+ also of
+    // through_gbuffer. Else empty.
     Image unblended, unblended_through_gbuffer;
-    std::array<float, 3> background{};  // colour of background pixels in pictures, W/(sr m^2)
-    std::map<int, ChannelNoise> noise;  // of the channels that were drawn twice
-    // Names of the buffers in which compute kernels left other bytes when the frame was drawn again.
+    std::array<float, 3> background{};  // colour of background pixels in images, W/(sr m^2)
+    std::map<int, ChannelNoise> noise;  // of the channels rendered twice
+    // Buffers in which a second run of the compute shaders left other bytes.
     std::vector<std::string> changed_buffers;
-    // Of the reference, if something was sampled: half the 95 % confidence interval of lit, W x H x 1, W/(sr
-    // m^2); and the same relative to lit (as lit's metric is), at 99.9 % of the covered pixels.
+    // Reference with sampling: half the 95 % confidence interval of lit, W x H x 1, W/(sr m^2); and
+    // relative to lit (as lit's metric), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
-    // Of the reference where a sun casts, W x H x 3: the distance of each pixel from the edge of its shadow,
-    // across the light, m, 0 where a part of its disc is seen; what the surface would reflect of the sun
-    // unshadowed, the largest component, W/(sr m^2); and what would arrive, the luminance, W/m^2.
+    // Reference with a shadow-casting directional light, W x H x 3. First, the pixel's distance from the
+    // shadow boundary, perpendicular to the light, m; 0 in the penumbra. Second, reflected light without
+    // the shadow, largest component, W/(sr m^2). Third, incident light without it, luminance, W/m^2.
     Image shadow_edge;
-    // Of the reference where points or spots cast, W x H x 2: the distance of each pixel from the nearest
-    // edge of their shadows, across their rays, a share of the distance from the light; and what the surface
-    // would reflect of them unshadowed, the largest component, W/(sr m^2).
+    // Reference with shadow-casting point or spot lights, W x H x 2. First, the pixel's distance from the
+    // nearest shadow boundary, perpendicular to the rays, relative to the distance from the light. Second,
+    // reflected light without shadows, largest component, W/(sr m^2).
     Image local_shadow_edge;
-    // Of the reference where surfaces are blended, W x H x 1: the share of each pixel that they hide of what
-    // lies behind them.
+    // Reference with blended surfaces, W x H x 1: the fraction of each pixel's background that they hide.
     Image blended;
-    // Of a reference that was asked for it, where an environment shines, W x H x 9, W/(sr m^2), the largest
-    // components: what approximations of it are off by in lit_diffuse, by IblDiffuse; likewise in
-    // lit_specular with --ibl split; with --ibl sampled what maps cannot hold; with either how far a lobe of
-    // twice the solid angle is from the surface's; and what the specular lobe sends.
+    // Reference with an environment, if requested, W x H x 9, W/(sr m^2), largest components. Errors of
+    // approximations: in lit_diffuse, by IblDiffuse; in lit_specular with --ibl split, by IblDiffuse; with
+    // --ibl sampled, what maps cannot represent. Then, for both, the difference of a lobe with twice the
+    // solid angle; and the light that the specular lobe reflects.
     Image environment_costs;
-    // Likewise: the light of the environment and of ambient light that geometry would hide, which lit has.
+    // Reference, if requested: environment and ambient light in lit that geometry would occlude.
     struct HiddenLight {
-        double mean = 0;    // a share of all of it, over the pixels that show a surface
-        double p99 = 0;     // the 99th percentile of the pixels' own shares
-        double pixels = 0;  // the share of the pixels that would lose more than a tenth
+        double mean = 0;    // fraction of all of it, over pixels that show a surface
+        double p99 = 0;     // 99th percentile of the fractions by pixel
+        double pixels = 0;  // fraction of pixels that would lose more than a tenth
     };
     std::optional<HiddenLight> hidden_light;
-    // Of a path whose points or spots cast: how far its filter reaches, in the same measure; else 0.
+    // Path with shadow-casting point or spot lights: its filter radius in the unit of local_shadow_edge;
+    // else 0.
     double local_shadow_reach = 0;
-    // Of a path that filters shadow maps, by view depth in ascending order; empty where it has none.
+    // Path that filters shadow maps: by ascending view depth; else empty.
     std::vector<ShadowReach> shadow_reach;
-    // The same of --shadows clipmap by the level that serves, cascade + page_residency, at all depths.
+    // --shadows clipmap: by resident level (cascade + page_residency), at all depths.
     std::vector<ShadowReach> shadow_level_reach;
     FrameTime time;
     std::vector<PassTime> passes;
-    double made_in_ms = 0;  // wall clock of all drawing, timing, capturing and reading back for this Frame
+    double made_in_ms = 0;  // wall clock of rendering, timing, capturing and reading back this Frame
     FrameBytes bytes;
     FrameCounters counters;
-    std::vector<std::string> notes;  // what users must know: what was drawn otherwise than requested
+    std::vector<std::string> notes;  // what users must know: deviations from the request
 };
 
-// letGo() of all pictures of one channel, and of every channel.
+// letGo() for all images of one channel, or of every channel.
 void letGo(const Frame& frame, int mode);
 void letGo(const Frame& frame);
 
-// Whether it is a Frame of this program's reference: drawn now, or read from a file that this program wrote.
-// A file of another renderer is not.
+// Whether it is a Frame of this program's reference, rendered now or read from a file that this program
+// wrote. Files of other renderers are not.
 bool isReferenceFrame(const Frame& frame);
 
-// The note of such a Frame that tells its relative_uncertainty to users.
+// Note that tells users the relative_uncertainty of such a Frame.
 std::string uncertaintyNote(double relative);
 
 }  // namespace diptych

@@ -95,13 +95,12 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, st
 }
 
 // Fraction of a light's largest intensity in a direction, 0 to 1.
-double shape(const Light& light, const glm::dvec3& direction) {
+double shape(const Light& light, const glm::dvec3& direction, const LightFalloff& falloff) {
     const double c = glm::dot(direction, light.direction);
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(static_cast<double>(light.outer_cone));
         const double inner = std::cos(static_cast<double>(light.inner_cone));
-        const double x = std::clamp((c - outer) / std::max(inner - outer, 0.001), 0.0, 1.0);
-        return x * x;
+        return falloff.cone((c - outer) / std::max(inner - outer, 0.001));
     }
     if (light.kind == LightKind::rect || light.kind == LightKind::disc)
         return light.two_sided ? std::abs(c) : std::max(c, 0.0);
@@ -121,7 +120,8 @@ std::vector<Light> withCutoff(std::vector<Light> lights, double cutoff) {
     return lights;
 }
 
-double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> lights, double cutoff) {
+double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> lights, double cutoff,
+                 const LightFalloff& falloff) {
     if (!(cutoff > 0) || std::ranges::none_of(lights, endless)) return 0;
     double all = 0, kept = 0;
     for (const SurfacePoint& point : surfacePoints(scene, pose, 4096))
@@ -131,11 +131,11 @@ double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> li
             const double d2 =
                 std::max(glm::dot(to, to), static_cast<double>(gpu::MIN_LIGHT_DISTANCE_SQUARED));
             const glm::dvec3 direction = to / std::sqrt(d2);
-            const double flux = luminousIntensity(light) * shape(light, -direction) *
+            const double flux = luminousIntensity(light) * shape(light, -direction, falloff) *
                                 std::abs(glm::dot(point.normal, direction)) / d2 * point.area;
-            const double range = cutoffRange(light, cutoff), x = d2 / (range * range);
+            const double range = cutoffRange(light, cutoff);
             all += flux;
-            kept += flux * std::max(1 - x * x, 0.0);
+            kept += flux * falloff.window(d2 / (range * range));
         }
     return all > 0 ? 1 - kept / all : 0;
 }

@@ -2,6 +2,7 @@
 // Gives infinite lights a range, so that not every light list contains them.
 #pragma once
 
+#include "shared/light/falloff.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/pose.h"
 
@@ -22,6 +23,7 @@ std::vector<Light> withCutoff(std::vector<Light> lights, double cutoff);
 // its window and beyond the range. Both sides of a surface receive light. Estimated at 4,096 fixed points
 // distributed over the triangles by area; the relative standard error is a few hundredths. 0 if no light
 // is infinite.
-double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> lights, double cutoff);
+double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> lights, double cutoff,
+                 const LightFalloff& falloff);
 
 }  // namespace diptych

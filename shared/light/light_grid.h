@@ -30,7 +30,7 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, c
 std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
                            std::span<const gpu::LightBound> bounds);
 
-// Cell of a pixel at a view depth, m; as cellOf() of shaders/lib/light_grid.glsl.
+// Cell of a pixel at a view depth, m; as cellOf() of shaders/lib/lights/light_grid.glsl.
 gpu::uint cellOf(const gpu::LightGrid& grid, int x, int y, float depth);
 
 // View depths of slice `s`, m, extended by more than float32 rounding; the last ends at MAX_BOUND_RADIUS.

@@ -3,6 +3,7 @@
 
 #include "shared/contract/area_light.h"
 #include "shared/contract/light.h"
+#include "shared/light/falloff.h"
 #include "shared/scene/model/scene.h"
 
 #include <optional>
@@ -22,6 +23,7 @@ struct GpuLights {
     // --assign per_object: directional light that is always shaded per pixel: the brightest that is not
     // marked not_important. If the sun casts shadows, it is this one.
     std::optional<std::size_t> base;
+    LightFalloff falloff;      // of all local lights, in shaders and on the host
     bool environment = false;  // the scene has an environment as well
     glm::vec3 ambient{0};      // W/(sr m^2), uniform
     std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;

@@ -19,14 +19,12 @@ namespace {
 
 constexpr std::size_t vertexLights = 4;
 
-double window(const gpu::Light& light, double distance) {
-    const double x = distance * distance * double{light.inverse_range_squared};
-    return x < 1 ? 1 - x * x : 0;
+double windowAt(const LightFalloff& falloff, const gpu::Light& light, double distance) {
+    return falloff.window(distance * distance * double{light.inverse_range_squared});
 }
 
-double coneAt(const gpu::SpotCone& cone, double cosine) {
-    const double c = std::clamp(double{cone.offset} + cosine * double{cone.scale}, 0.0, 1.0);
-    return c * c;
+double coneAt(const LightFalloff& falloff, const gpu::SpotCone& cone, double cosine) {
+    return falloff.cone(double{cone.offset} + cosine * double{cone.scale});
 }
 
 const gpu::SpotCone* coneOf(const GpuLights& lights, std::size_t i) {
@@ -114,7 +112,7 @@ double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& o
     const glm::dvec3 to_centre = box.centre - glm::dvec3(light.position);
     const glm::dvec3 outside = glm::max(glm::abs(to_centre) - box.half, glm::dvec3(0));
     const double nearest = glm::length(outside), radius = glm::length(box.half);
-    const double reach = window(light, nearest * (1 - 1e-5));
+    const double reach = windowAt(lights.falloff, light, nearest * (1 - 1e-5));
     if (!(reach > 0)) return 0;
     double shone = strength * reach / (nearest * nearest + radius * radius / 4 + 1e-20);
     if (const gpu::AreaLight* area = areaOf(lights, i)) {
@@ -123,7 +121,8 @@ double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& o
         shone = strength * reach * shownArea(lights, i, {}).most / square;
     }
     if (const gpu::SpotCone* cone = coneOf(lights, i))
-        shone *= coneAt(*cone, nearestCosine(glm::dvec3(cone->direction), to_centre, radius) + 1e-5);
+        shone *= coneAt(lights.falloff, *cone,
+                        nearestCosine(glm::dvec3(cone->direction), to_centre, radius) + 1e-5);
     return shone;
 }
 
@@ -191,10 +190,10 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size
     const glm::dvec3 l = distance > 0 ? to_light / distance : glm::dvec3(0);
     const gpu::AreaLight* area = areaOf(lights, i);
     const double soft = std::max(distance, area ? std::max(radius, double{area->extent}) : radius);
-    double shone = window(light, distance) / (soft * soft);
+    double shone = windowAt(lights.falloff, light, distance) / (soft * soft);
     if (area) shone *= shownArea(lights, i, -l).there;
     if (const gpu::SpotCone* cone = coneOf(lights, i))
-        shone *= coneAt(*cone, -glm::dot(l, glm::dvec3(cone->direction)));
+        shone *= coneAt(lights.falloff, *cone, -glm::dot(l, glm::dvec3(cone->direction)));
     if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
 }
 

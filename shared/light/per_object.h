@@ -20,8 +20,9 @@ struct ObjectPlace {
 };
 
 // Brightness of light `i` at an object: luminance (Rec.709) of its irradiance, W/m^2, with window and cone
-// at the nearest point of the box. Distances are softened by half the box's radius, so that a light inside
-// the box does not outrank all others. 0 only if no point of the box receives light.
+// (GpuLights::falloff) at the nearest point of the box: upper bounds over it. Distances are softened by half
+// the box's radius, so that a light inside the box does not outrank all others. 0 only if no point of the box
+// receives light.
 double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object);
 
 // Fraction of a light in the better of two groups. 0 at the brightness `threshold` of the brightest light

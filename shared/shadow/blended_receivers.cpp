@@ -81,7 +81,7 @@ private:
 
     double sideOf(std::size_t level) const { return clipmap_.levels[level].area.texel * clipmap_.grid.page; }
 
-    // As in shaders/lib/clipmap.glsl.
+    // As in shaders/lib/shadows/clipmap.glsl.
     std::size_t levelAt(double distance) const {
         const double octaves = std::ceil(std::log2(std::max(distance, 0.0) / clipmap_.levels[0].area.end));
         return static_cast<std::size_t>(

@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto boundsTypes = bindingTypes({DEPTH_BOUNDS_BINDINGS(DIPTYCH_BINDING_ROW)});
 
-// As in shaders/lib/position.glsl, so that the bounds are values of the channel depth.
+// As in shaders/lib/geometry/position.glsl, so that the bounds are values of the channel depth.
 double viewDepth(const gpu::View& view, gpu::uint bits) {
     const auto z = std::bit_cast<float>(bits);
     const float numerator = view.depth_numerator.x + view.depth_numerator.y * z,

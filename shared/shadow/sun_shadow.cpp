@@ -232,8 +232,8 @@ void SunShadow::fitToDepth(const FrameInputs& inputs, Uploader& uploader, const 
     const DepthVariation varies = depthVariation(inputs, uploader, pose, view, texel, steps);
     notes_.push_back(fmt::format(
         "--shadow-fit depth: cascades cover the visible depths, {:.6g} to {:.6g} m; if the camera moves "
-        "right by {} steps of a texel ({:.3g} m), these and the shadow texels vary by {:.2g} % and {:.2g} % "
-        "(standard deviation)",
+        "right in {} steps of a texel ({:.3g} m), these vary by {:.2g} % and {:.2g} % (standard deviation), "
+        "and the shadow texels vary with them",
         request_.shown->near, request_.shown->far, steps, texel, 100 * varies.near, 100 * varies.far));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Buffers of the nearest blended fragments of each pixel (shaders/lib/fragment_list.glsl).
+// Buffers of the nearest blended fragments of each pixel (shaders/lib/blending/fragment_list.glsl).
 #pragma once
 
 #include "shared/contract/transparency.h"

@@ -203,16 +203,18 @@ void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth,
 
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                            std::vector<CapturedImage>& images) {
-    const auto first = std::ranges::find(images, passes.size() - 1, &CapturedImage::pass);
-    const auto lit =
-        std::ranges::find(first, images.end(), static_cast<int>(gpu::DEBUG_lit), &CapturedImage::mode);
+    const auto first = std::ranges::find(images, passes.size() - 1, &CapturedImage::pass) - images.begin();
+    const auto findLit = [&] {
+        return std::ranges::find(images.begin() + first, images.end(), static_cast<int>(gpu::DEBUG_lit),
+                                 &CapturedImage::mode);
+    };
+    const auto lit = findLit();
     const bool shown = lit != images.end();
     const ImageRef drawn = shown ? lit->image : ImageRef{};
-    addCaptureResolve(passes, inputs, std::span(first, images.end()));
+    addCaptureResolve(passes, inputs, images, static_cast<std::size_t>(first));
     if (!shown || inputs.draws.blended().empty()) return;
     addTransparent(passes, inputs, depth, drawn);
-    const auto opaque =
-        std::ranges::find(first, images.end(), static_cast<int>(gpu::DEBUG_lit), &CapturedImage::mode);
+    const auto opaque = findLit();
     CapturedImage blended = *opaque;
     blended.image = addResolve(passes, inputs, drawn, Life::transient);
     blended.pass = passes.size() - 1;

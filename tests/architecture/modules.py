@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the modules of this repository: folders as boxes, includes as arrows, read from the code itself.
+"""Draws the modules of this repository from the code: folders as boxes, includes as arrows.
 
     modules.py              writes modules.svg beside this script
-    modules.py --check      prints what is wrong and exits 1: modules that include each other in a circle, or a
-                            modules.svg that is not what the code gives
+    modules.py --check      prints errors and exits 1: a cycle of includes, or a modules.svg that does not match
+                            the code
 
-A module stands one row above the highest one that it includes from, so every arrow points down; arrows that follow
-from others are left out (transitive reduction). Tests are not drawn.
+A module is one row above the highest module that it includes, so every arrow points down. Implied arrows are
+omitted (transitive reduction). Tests are not drawn.
 """
 import pathlib
 import re
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SVG = pathlib.Path(__file__).with_name("modules.svg")
 TOPS = ("shared", "forward_plus", "deferred", "shaders", "compare")
 ENDINGS = {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"}
-PARTS = {"shared/light/fit": "shared/light"}  # of a larger module, as compare/X/page is of compare/X
+PARTS = {"shared/light/fit": "shared/light"}  # parts of a larger module, as compare/X/page is of compare/X
 
 BOX_WIDTH, BOX_HEIGHT, GAP_X, GAP_Y, MARGIN = 132, 34, 14, 46, 20
 
@@ -28,7 +28,7 @@ def module_of(path):
 
 
 def read_uses(root):
-    """module -> the modules that its files include from"""
+    """module -> the modules that its files include"""
     files = {}
     for top in TOPS:
         for path in (root / top).rglob("*"):
@@ -48,7 +48,7 @@ def read_uses(root):
 
 
 def find_circle(uses):
-    """The modules of one circle in order; empty where there is none."""
+    """The modules of one cycle in order; empty if there is none."""
     done, path = set(), []
 
     def visit(module):
@@ -86,7 +86,7 @@ def rows_of(uses):
 
 
 def reduced(uses):
-    """Without the arrows that follow from others."""
+    """The transitive reduction: without implied arrows."""
     reach = {}
 
     def reached(module):
@@ -105,7 +105,7 @@ def draw(uses):
     rows = [sorted(m for m in row if row[m] == r) for r in range(height)]
     users = {m: [u for u in arrows if m in arrows[u]] for m in row}
     place = {m: float(i) for members in rows for i, m in enumerate(members)}
-    for _ in range(12):  # each row in the order of the mean place of its neighbours, bottom up and top down
+    for _ in range(12):  # sort each row by the mean position of its neighbours, bottom up and top down
         for neighbours, order in ((arrows, range(1, height)), (users, range(height - 2, -1, -1))):
             for r in order:
                 def mean(m):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What --cull on saves:  bench_culling [-n RUNS] [-s WxH] [-m SAMPLES] SCENE...
-// Frames of both paths without it, with what the host chooses and with what a kernel chooses into indirect
-// draws, in turn, by the clock and in CPU time of the process, which other programs disturb less; and how
-// long it takes to cut a scene's primitives into clusters.
+// Savings of --cull on: bench_culling [-n RUNS] [-s WxH] [-m SAMPLES] SCENE...
+// Renders frames of both paths, interleaved: without culling, culled by the CPU, and culled by a compute
+// shader into indirect draws. Reports wall-clock time and the process's CPU time, which other programs
+// disturb less; and the time to split a scene's primitives into meshlets.
 #include "shared/draw/culling.h"
 #include "compare/render/prepared_frames.h"
 #include "compare/render/renderer.h"
@@ -33,8 +33,8 @@ double cpuMs() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// Of the threads that are not named so: lavapipe draws by those named llvmpipe-0, llvmpipe-1, ..., and one
-// other runs commands, shades vertices and sets triangles up.
+// CPU time of all threads but those with this name prefix. lavapipe rasterizes in threads llvmpipe-0,
+// llvmpipe-1, ...; one other thread executes commands, shades vertices and sets up triangles.
 double cpuMsBeside(const std::string& name) {
     double ms = 0;
     for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -77,7 +77,7 @@ struct Measured {
     std::vector<double> wall, cpu, front;  // ms
 };
 
-// How many times as long as the first, medians of pairs.
+// Ratios to the first, medians of pairs.
 void printRatios(const Measured& first, const Measured& other) {
     const auto medianOf = [](const std::vector<double>& a, const std::vector<double>& b) {
         std::vector<double> ratios;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// diff beside other programs:  bench_diff [-n RUNS]
-// Two float32 EXRs of 1920x1080, RGB, ZIP, a smooth scene under noise; each program in turn, RUNS times, from
-// a warm file cache. Wall clock and processor time: medians and spread; memory: the largest resident size of
-// all runs, over one picture's as float32. Programs that are not installed are left out with a word.
+// diff compared with other programs: bench_diff [-n RUNS]
+// Two float32 EXRs of 1920x1080, RGB, ZIP, a smooth scene with noise. Interleaves RUNS runs of each
+// program, with a warm file cache. Wall-clock and processor time: medians and spread. Memory: the largest
+// resident size of all runs, in float32 images. Reports programs that are not installed, and skips them.
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
 
@@ -56,7 +56,7 @@ void writeInputs(const fs::path& folder) {
 struct Program {
     std::string name, command;
     std::vector<double> wall{}, processor{};
-    double memory = 0;  // pictures
+    double memory = 0;  // in images
 
     void run() {
         const auto start = std::chrono::steady_clock::now();
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
         for (int i = 0; i <= runs; ++i)
             for (Program& program : programs) {
                 program.run();
-                if (i == 0) program.wall.clear(), program.processor.clear();  // to warm up
+                if (i == 0) program.wall.clear(), program.processor.clear();  // warm-up
             }
         fmt::print("{:28} {:>24} {:>24} {:>9}\n", "", "wall ms", "processor ms", "pictures");
         for (const Program& program : programs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each step from an environment to reflected light costs: bench_environment_errors [SAMPLES [BIAS]]
-// FILE... prints a table each, in percent; also of the two environments that need no file.
+// Error of each step from an environment to reflected light: bench_environment_errors [SAMPLES [BIAS]]
+// FILE...
+// Prints one table per environment, in percent, also for the two procedural ones.
 #include "tests/bench/environment_errors.h"
 
 #include "shared/scene/image/environment.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What each step from an environment to what a surface sends of it costs by itself, in double: sums over all
-// directions of the picture, with the reference's BRDF and integrals, against the maps and the table as
-// shaders/lib/environment.glsl reads them.
+// Error of each step from an environment to reflected radiance, in double: integrals over all directions
+// of the image, with the reference's BRDF, compared with the maps and the table as
+// shaders/lib/environment/environment.glsl reads them.
 #pragma once
 
 #include "compare/reference/ambient.h"
@@ -26,7 +26,7 @@
 
 namespace diptych::environment_errors {
 
-// ---- environments that are always there ------------------------------------------------------------
+// ---- procedural environments -----------------------------------------------------------------------
 
 template <class Radiance>
 Environment paintedBy(int height, const Radiance& radiance) {
@@ -40,7 +40,7 @@ Environment paintedBy(int height, const Radiance& radiance) {
     return sky;
 }
 
-// Blue above, bright at the horizon and about a hazy sun, dim below; W/(sr m^2).
+// Blue above, bright at the horizon and around a hazy sun, dim below; W/(sr m^2).
 inline glm::dvec3 smoothRadiance(const glm::dvec3& d) {
     const double above = 1 / (1 + std::exp(-12 * d.y)), low = std::exp(-4 * std::abs(d.y));
     const double glow = std::exp(6 * (glm::dot(d, glm::normalize(glm::dvec3(0.5, 0.6, -0.4))) - 1));
@@ -50,7 +50,7 @@ inline glm::dvec3 smoothRadiance(const glm::dvec3& d) {
 inline Environment smoothSky(int height) {
     return paintedBy(height, smoothRadiance);
 }
-// The same with a lamp of 5 degrees across, whose edge is as wide as a pixel.
+// The same with a light of 5 degrees diameter, whose edge is one pixel wide.
 inline Environment lampSky(int height) {
     const glm::dvec3 lamp = glm::normalize(glm::dvec3(-0.6, 0.5, 0.3));
     const double radius = 2.5 * std::numbers::pi / 180, edge = std::numbers::pi / height;
@@ -60,7 +60,7 @@ inline Environment lampSky(int height) {
     });
 }
 
-// ---- sums over all directions ----------------------------------------------------------------------
+// ---- integrals over all directions -----------------------------------------------------------------
 
 class AllDirections {
 public:
@@ -79,9 +79,8 @@ public:
             }
     }
 
-    // The integral of radiance times `kernel` of a direction, about `middle`, within which distance (of unit
-    // vectors) of it the kernel changes over `scale`, and further out over half of what it is away, times
-    // scale / widest. Pixels are divided there.
+    // Integral of radiance times `kernel`. The kernel changes over scale / widest * max(widest, half the
+    // distance from `middle`), in distances of unit vectors; pixels are subdivided accordingly.
     struct Place {
         glm::dvec3 middle;
         double scale, widest;
@@ -137,9 +136,9 @@ private:
     std::vector<Pixel> pixels_;
 };
 
-// ---- what the shaders read -------------------------------------------------------------------------
+// ---- values that the shaders read ------------------------------------------------------------------
 
-// As levelRadiance() and specularLevel() of shaders/lib/environment.glsl.
+// As levelRadiance() and specularLevel() of shaders/lib/environment/environment.glsl.
 inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, const glm::dvec3& direction) {
     const double first = std::log2(double{gpu::ENVIRONMENT_FIRST_ALPHA}),
                  least = 2 * std::log2(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}), octaves = std::log2(alpha);
@@ -153,7 +152,7 @@ inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, co
     return fine + (coarse - fine) * (level - lower);
 }
 
-// As specularAlbedo() of shaders/lib/ambient.glsl, where F = 1.
+// As specularAlbedo() of shaders/lib/shading/ambient.glsl, where F = 1.
 inline double tabledAlbedo(double alpha, double n_dot_v) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();
@@ -172,19 +171,18 @@ inline double tabledAlbedo(double alpha, double n_dot_v) {
 
 // ---- errors ------------------------------------------------------------------------------------------
 
-// Root mean squares over surfaces, as shares of the mean of what they send; each step against the one before
-// with everything else exact, `all` of them together against the integral, and the largest share by which a
-// filtered value is off from its own.
+// RMS over surfaces, relative to the mean reflected radiance. Each step is compared with the step before,
+// everything else exact; `all` compares all steps with the integral. `worst_filtered`: largest relative
+// error of a prefiltered value.
 struct SpecularErrors {
     double split = 0, prefilter = 0, table = 0, all = 0, mean = 0, worst_filtered = 0;
     double steps() const { return prefilter + table; }
 };
 
-// Of a sphere's visible points as many are between each two of these n.v's middles.
+// Midpoints of n.v intervals, each with the same number of a sphere's visible points.
 inline const std::vector<double> sphereAngles{0.935, 0.791, 0.612, 0.354};
 
-// White metals of this roughness, seen at this n.v, that mirror each of `count` even directions in turn to
-// the viewer.
+// White metals of this roughness and n.v. Their mirror directions are `count` uniform directions.
 inline SpecularErrors specularErrors(const AllDirections& sky, const EnvironmentMaps& maps, double roughness,
                                      const std::vector<double>& n_dot_v, std::size_t count,
                                      std::vector<SpecularErrors>* by_angle = nullptr) {
@@ -209,7 +207,7 @@ inline SpecularErrors specularErrors(const AllDirections& sky, const Environment
         const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count),
                      turn = 2.399963229728653 * static_cast<double>(i), across = std::sqrt(1 - y * y);
         const dvec3 r(across * std::cos(turn), y, across * std::sin(turn));
-        // GGX times n.l, where the viewer, the normal and r are one: n.h^2 = (1 + n.l) / 2.
+        // Integral of GGX times n.l for viewer = normal = r: n.h^2 = (1 + n.l) / 2.
         double weights = 0;
         constexpr int points = 20000;  // of n.h's distribution
         for (int k = 0; k < points; ++k) {
@@ -268,7 +266,7 @@ inline SpecularErrors specularErrors(const AllDirections& sky, const Environment
     return reduced(0, n_dot_v.size());
 }
 
-// Of irradiance: root mean squares as shares of its mean, and the largest differences as shares of its peak.
+// Irradiance: RMS relative to its mean, and the largest differences relative to its peak.
 struct IrradianceErrors {
     struct Error {
         double rms = 0, worst = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What it takes to read a picture:  bench_images [-n RUNS] [FILE...]
-// Without files: 1920 x 1080 RGB(A) of a smooth scene with noise, written first, one of each kind that is
-// read. Every file is read RUNS times, the files in turn, from a warm file cache; medians and spread.
+// Time to read an image: bench_images [-n RUNS] [FILE...]
+// Without files: writes 1920 x 1080 RGB(A) of a smooth scene with noise, one in each readable format.
+// Interleaves RUNS reads of every file, with a warm file cache; medians and spread.
 #include "shared/image/exr.h"
 #include "shared/image/pfm.h"
 #include "shared/image/picture_file.h"
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Gradients under noise of 1 %, as a path tracer's: the low bits of a float are not compressible.
+// Gradients with noise of 1 %, like a path tracer's: the low bits of a float are not compressible.
 Image scene(int components) {
     Image image(1920, 1080, components);
     std::minstd_rand random(1);
@@ -87,7 +87,7 @@ int main(int count, char** arguments) try {
     }
     if (files.empty()) files = writeScenes(fs::temp_directory_path() / "diptych-bench-images");
     std::vector<std::vector<double>> times(files.size());
-    for (const std::string& file : files) readMs(file);  // into the file cache; threads are made
+    for (const std::string& file : files) readMs(file);  // warms the file cache and starts threads
     for (std::size_t run = 0; run < runs; ++run)
         for (std::size_t i = 0; i < files.size(); ++i) times[i].push_back(readMs(files[i]));
     fmt::print("{} runs, ms: median (smallest to largest)\n", runs);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What it takes from a file to something that can be drawn:  bench_load [-n RUNS] SCENE...
-// Every scene is loaded RUNS times, the scenes in turn; medians and spread. `memory` is the largest resident
-// size that the scene's first load added to the process, beside the size of what was loaded.
+// Time from a file to a renderable scene: bench_load [-n RUNS] SCENE...
+// Interleaves RUNS loads of every scene; medians and spread. `memory`: resident size that the scene's
+// first load added to the process, and the size of the loaded data.
 #include "shared/scene/load.h"
 #include "shared/draw/geometry.h"
 #include "shared/material/materials.h"
@@ -50,7 +50,7 @@ std::size_t decodedBytes(const Scene& scene) {
 }
 
 struct Load {
-    double read_ms = 0, upload_ms = 0;  // parse, decode, tangents; mip chains and what the device gets
+    double read_ms = 0, upload_ms = 0;  // read: parse, decode, tangents; upload: mip chains and device data
     std::size_t bytes = 0;
 };
 
@@ -75,7 +75,7 @@ long residentKib() {
     return usage.ru_maxrss;
 }
 
-// In a process of its own, whose largest size is this scene's.
+// In a process of its own, so that its peak is due to this scene.
 double addedMib(const std::string& file) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What it takes to compare two pictures in memory:  bench_metrics [-n RUNS]
-// Two pictures of 1920x1080, noise over a gradient, nowhere alike; the kinds in turn, RUNS times. Wall clock
-// and processor time: medians and spread. `memory` is the largest resident size that the first run added to
-// the process, over one picture's.
+// Time to compare two images in memory: bench_metrics [-n RUNS]
+// Two images of 1920x1080, noise over a gradient, different everywhere. Interleaves RUNS runs of each
+// kind. Wall-clock and processor time: medians and spread. `memory`: resident size that the first run
+// added to the process, in images.
 #include "compare/metrics/flip.h"
 #include "compare/metrics/standard.h"
 
@@ -29,7 +29,7 @@ struct Pair {
     Image reference, test;
 };
 
-// `stops`: how many powers of 2 the picture spans; 0: from 0 to 1.
+// `stops`: range of the image in powers of 2; 0: from 0 to 1.
 Pair pictures(double stops) {
     Pair pair{Image(1920, 1080, 3), Image(1920, 1080, 3)};
     std::mt19937 random(1);
@@ -66,7 +66,7 @@ double processorMs() {
     return ms(u.ru_utime) + ms(u.ru_stime);
 }
 
-// Of a process of its own, whose largest size is this kind's; in pictures.
+// In a process of its own, so that its peak is due to this kind; in images.
 double addedPictures(const Kind& kind) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");

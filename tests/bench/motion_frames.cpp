@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What motion adds to a frame:  bench_motion_frames [-n RUNS] [SCENE [SECONDS]]
-// Frames of both paths, in turn: whole, the same without posing (of the pose that is there: a frame at rest),
-// and posing alone; medians and spread. What is left of the whole after posing should be the frame at rest.
+// Cost of motion per frame: bench_motion_frames [-n RUNS] [SCENE [SECONDS]]
+// Interleaves frames of both paths: complete, without deformation (with the existing pose, like a frame
+// at rest), and deformation alone. Medians and spread. Complete minus deformation should equal the frame at
+// rest.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
@@ -30,7 +31,7 @@ struct Times {
     }
 };
 
-// The passes that pose come first, under one name.
+// The deformation passes come first, under one name.
 std::size_t posingPasses(const PassList& passes) {
     std::size_t count = 0;
     for (const DeclaredUse& use : passes.declarations())

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What it takes to pose a mesh on the device:  bench_posing [-n RUNS] [VERTICES]
-// Meshes of so many vertices (1,000,000) are posed RUNS times, in turn with copies by memcpy of as many bytes
-// on one thread and on all; medians and spread. Bytes are those of the cache lines that the pose needs, each
-// once: a vertex's attributes are one struct, of which normal and tangent are read and written. A copy of n
-// bytes moves 2 n.
+// Time to deform a mesh on the device: bench_posing [-n RUNS] [VERTICES]
+// Deforms meshes of VERTICES vertices (default 1,000,000) RUNS times, interleaved with memcpy of as many
+// bytes on one thread and on all; medians and spread. Bytes count each needed cache line once. A vertex's
+// attributes are one struct, of which normal and tangent are read and written. A copy of n bytes moves 2
+// n.
 #include "shared/draw/posing.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/vulkan/device.h"
@@ -36,7 +36,7 @@ struct Case {
     SkinNormals normals = SkinNormals::joints;
 };
 
-// A grid with 64 joints in a row; a vertex follows those that are near it, of any set. Targets move positions
+// A grid with 64 joints in a row; each vertex follows nearby joints, in every set. Targets move positions
 // and normals.
 Scene sheet(const Case& c, std::size_t vertices) {
     constexpr int joints = 64;
@@ -83,7 +83,7 @@ Scene sheet(const Case& c, std::size_t vertices) {
     return scene;
 }
 
-// Of one vertex.
+// For one vertex.
 std::size_t bytesRead(const Case& c) {
     const auto sets = static_cast<std::size_t>(c.joint_sets), targets = static_cast<std::size_t>(c.targets);
     return sizeof(glm::vec3) + sizeof(gpu::VertexAttributes) +
@@ -91,7 +91,7 @@ std::size_t bytesRead(const Case& c) {
 }
 constexpr std::size_t bytesWritten = sizeof(glm::vec3) + sizeof(gpu::VertexAttributes);
 
-// Copies one half of the bytes onto the other; ms.
+// Copies one half of the bytes to the other; ms.
 double copyMs(std::vector<std::byte>& bytes, std::size_t moved, unsigned threads) {
     const std::size_t part = moved / 2 / threads;
     const Clock::time_point start = Clock::now();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What filters of shadow maps cost, each alone: bench_shadow_filters [WIDTH HEIGHT [SIZE]]. The least of 15
-// runs of the filter over WIDTH x HEIGHT pixels less the same without one, and of what makes and blurs the
-// moments of one map of SIZE x SIZE texels.
+// Cost of each shadow map filter: bench_shadow_filters [WIDTH HEIGHT [SIZE]]
+// Minimum of 15 runs over WIDTH x HEIGHT pixels, minus the same without a filter; and the cost of making
+// and blurring the moments of one map of SIZE x SIZE texels.
 #include "shared/contract/features.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/shadow/moments.h"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int runs = 15;
 
-// By name, the least times of a list's passes.
+// Minimum time of each pass, by name.
 std::map<std::string, double> profiled(PassList& passes) {
     std::map<std::string, std::vector<double>> all;
     passes.run();
@@ -58,7 +58,7 @@ public:
         pipeline_layout_ = makePipelineLayout(device_, {&set, 1}, range);
     }
 
-    // Of the filter number `filter` of bench_shadow.comp, ms; and of its moments' passes, by name.
+    // Times of FILTER `filter` of bench_shadow.comp and of its moment passes, by name; ms.
     std::map<std::string, double> of(std::uint32_t filter, Shadows shadows, gpu::uint feature, int kernel) {
         PassList passes(device_, width_, height_);
         const ImageRef depth = passes.image({.name = "map",

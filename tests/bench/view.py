@@ -80,7 +80,7 @@ def starts():
 
 
 def keys():
-    # Only keys that go down while the view moves already: the key before them is held.
+    # Only keys pressed while the view already moves: the key before them is held down.
     shown = r"key [WASD]: seen after (\d+) ms"
     view = View(["builtin:gallery", "--size", "640x360"])
     view.wait(r"first whole picture after ([\d.]+) s")
@@ -100,7 +100,7 @@ def keys():
 
 
 def interface():
-    # Every light at every pixel: a picture of both paths takes seconds.
+    # Every light at every pixel: an image of both paths takes seconds.
     view = View(["builtin:gallery", "--lights", "point:2000", "--assign", "every", "--size", "640x360"])
     view.wait(r"first picture after ([\d.]+) s")
     for i in range(40):

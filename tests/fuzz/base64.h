@@ -7,7 +7,7 @@
 
 namespace diptych::fuzz {
 
-// RFC 4648, 4.
+// RFC 4648, section 4.
 inline std::string base64(std::string_view bytes) {
     constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;

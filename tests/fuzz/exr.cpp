@@ -12,7 +12,7 @@ std::size_t compressionOf(std::string_view file) {
     return at == file.npos ? 0 : static_cast<unsigned char>(file.substr(at + attribute.size())[0]);
 }
 
-// Layers of one size whose channels have a number in every pixel.
+// Checks that all layers have one size and every channel a value in each pixel.
 void requirePicture(const PictureFile& file) {
     fuzz::require(!file.layers.empty(), "a file has a layer");
     for (const PictureLayer& layer : file.layers) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every target asks of a reader: any bytes either are read, and what comes of them keeps its promises,
-// or end in one std::runtime_error of one line. All else is a finding.
+// The contract of every fuzzed reader: any input either is read, with a result that meets its
+// postconditions, or ends in one std::runtime_error of one line. Everything else is a finding.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace diptych::fuzz {
 
-// Decoded bytes of an image, so that a run meets no input that is merely large.
+// Limit of decoded image bytes, so that no input fails merely by its size.
 inline constexpr std::uint64_t most_bytes = std::uint64_t{16} << 20;
 
 inline void require(bool holds, const char* promise) {
@@ -29,8 +29,8 @@ inline std::string_view textAt(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-// Behind some readers are libraries that are not instrumented: libFuzzer sees no branch of theirs, and would
-// keep one input of a thousand kinds. What is observed of an input (a kind, an error's words) counts as a
+// Some readers use libraries that are not instrumented. libFuzzer sees none of their branches and would
+// keep one input of a thousand kinds. An observed property (a format, an error message) counts as a
 // branch.
 #ifdef DIPTYCH_FUZZ
 __attribute__((section("__libfuzzer_extra_counters"))) static std::uint8_t observed[1024];
@@ -41,7 +41,7 @@ inline void observe(std::size_t what) {
 inline void observe(std::size_t) {}
 #endif
 
-// The last part of a message without its numbers: names and sizes of the file would be a branch each.
+// Hash of a message's last part without digits: otherwise each name and size would count as a branch.
 inline std::size_t wordsOf(std::string_view line) {
     std::size_t hash = 14695981039346656037u;  // FNV-1a
     for (const char c : line.substr(line.rfind(':') + 1))
@@ -51,7 +51,7 @@ inline std::size_t wordsOf(std::string_view line) {
 
 enum class Behind { our_code, a_library };
 
-// Reads, and checks what was read.
+// Reads and checks the result; an error must be one short line.
 template <class Read>
 void readOrSayWhy(Read&& read, Behind behind = Behind::our_code) {
     try {

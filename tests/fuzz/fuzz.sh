@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# fuzz.sh PROGRAM ARGUMENTS...: fuzzes for DIPTYCH_FUZZ_S seconds, 5 where that is not set; 0 only runs what there is.
+# fuzz.sh PROGRAM ARGUMENTS...: fuzzes for DIPTYCH_FUZZ_S seconds (5 if unset). 0 only runs the existing
+# inputs.
 set -eu
 seconds=${DIPTYCH_FUZZ_S:-5}
 case $seconds in
@@ -13,5 +14,5 @@ case $seconds in
 esac
 program=$1
 shift
-# Starting, and the inputs that there are, take time beside; one that hangs ends by -timeout.
+# Starting up and running existing inputs take additional time; -timeout ends an input that hangs.
 exec timeout -k 10 $((seconds + 300)) "$program" "$limit" "$@"

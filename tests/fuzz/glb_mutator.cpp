@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A .glb says its own length and its chunks': a mutation that inserts a byte would end there. Most of the
-// time the JSON or the rest is mutated by itself, and the lengths are set right again.
+// A .glb stores its own length and that of its chunks, so inserting a byte would make it invalid. Most
+// mutations change the JSON or the rest separately and correct the lengths.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
                                                unsigned int seed) {
-    constexpr std::size_t head = 20;  // of the file, and of its first chunk
+    constexpr std::size_t head = 20;  // headers of the file and of its first chunk
     const auto wordAt = [&](std::size_t at) {
         std::uint32_t word;
         std::memcpy(&word, data + at, sizeof word);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// .gltf and .glb alike, told apart as a reader does: by their first bytes. A few files lie beside it.
+// Fuzzes .gltf and .glb; the reader distinguishes them by their first bytes. External files are available.
 #include "shared/scene/gltf/gltf.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/valid_scene.h"
@@ -17,8 +17,8 @@ using namespace diptych;
 
 namespace {
 
-// A folder of the fuzzer's own: 256 bytes, the same below, a link to them, links that lead out, and to
-// nowhere.
+// A folder of external files: 256 bytes, the same in a subfolder, a link to them, links that lead outside,
+// and a broken link.
 class Beside {
 public:
     Beside() {
@@ -44,7 +44,7 @@ public:
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // One thread: an input does the same whenever it runs.
+    // One thread: the same input always does the same.
     static const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
     static const Beside beside;
     fuzz::readOrSayWhy([&] {

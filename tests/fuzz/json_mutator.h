@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Seeded edits of JSON: of its values (other types, numbers beyond every limit, names that lead elsewhere,
-// elements too few and too many), of its keys and of its bytes.
+// Seeded edits of JSON. Values get other types, out-of-range numbers, wrong names, or too few or too many
+// elements; keys and raw bytes change, too.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -64,7 +64,7 @@ private:
         return values[below(std::size(values))];
     }
 
-    // Anything in the tree, by a walk of random length.
+    // A node of the tree, found by a random descent.
     Json& place(Json& json) {
         if (!json.is_structured() || json.empty() || below(5) == 0) return json;
         auto at = json.begin();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lists, keys and plans that the program leaves and reads again.
+// File lists, checkpoint keys and move plans that the program writes and reads back.
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/file_moves.h"
 #include "compare/files/our_files.h"

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::require(image.data.size() == image.pixels() * static_cast<std::size_t>(image.components),
                           "a number for every component");
             for (const float value : image.data) fuzz::require(value >= 0 && value <= 1, "values are 0 to 1");
-            // Bits, colours, interlaced or not.
+            // Bit depth, color type, interlacing.
             fuzz::observe(std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28]);
         },
         fuzz::Behind::a_library);

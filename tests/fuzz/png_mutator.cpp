@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// libpng drops a chunk whose checksum is wrong, and with it whatever the mutation was: checksums are set
-// right again, most of the time.
+// libpng drops chunks with a wrong checksum, and the mutation with them. Most of the time checksums are
+// corrected.
 #include <zlib.h>
 
 #include <cstddef>
@@ -17,7 +17,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
         return std::size_t{data[at]} << 24 | std::size_t{data[at + 1]} << 16 |
                std::size_t{data[at + 2]} << 8 | data[at + 3];
     };
-    // A length, a name, as many bytes, and the checksum of name and bytes.
+    // Length, name, data, and the checksum of name and data.
     constexpr std::size_t frame = 12;
     for (std::size_t at = 8; at + frame <= size && word(at) <= size - at - frame; at += frame + word(at)) {
         const std::size_t length = word(at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A target without a fuzzer: every file under the folders and names given, one after the other. A finding
-// ends the program as it would end the fuzzer, after the file's name.
+// Runs a target without a fuzzer on every file in the given folders and names. A finding ends the program
+// as it would end the fuzzer, after printing the file's name.
 #include "tests/fuzz/fuzz.h"
 
 #include <filesystem>

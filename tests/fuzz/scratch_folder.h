@@ -11,8 +11,8 @@
 
 namespace diptych::fuzz {
 
-// An empty folder for one input, whose reader takes files. In memory where that is there: a disk is slower
-// than most readers.
+// An empty folder per input, for readers of files. In memory if possible: a disk is slower than most
+// readers.
 class ScratchFolder {
 public:
     ScratchFolder() {

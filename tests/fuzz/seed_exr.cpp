@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small EXR files of every kind: compressions in lines and tiles, levels, crops, parts, and what is not read.
+// Small EXR files of every kind: compressions in lines and tiles, levels, crops, parts, and unsupported
+// features.
 #include "tests/fuzz/seeds.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -27,7 +28,7 @@ namespace {
 
 constexpr int side = 20;
 
-// R (half), G (float), B (uint), smooth and with a corner of noise.
+// R (half), G (float), B (uint): smooth, with noise in the left columns.
 struct Pixels {
     Pixels() {
         for (int i = 0; i < side * side; ++i) {
@@ -91,7 +92,7 @@ std::string lines(const Imf::Header& head, const Imf::FrameBuffer& buffer) {
     return stream.str();
 }
 
-// Scan lines and 16 x 16 tiles, of one display window or of two.
+// Two parts: scan lines and 16 x 16 tiles, with equal or different display windows.
 std::string parts(bool alike) {
     const Pixels pixels;
     Imf::Header heads[] = {header(Imf::ZIPS_COMPRESSION), header(Imf::NO_COMPRESSION)};
@@ -112,7 +113,7 @@ std::string parts(bool alike) {
         second.writeTiles(0, 1, 0, 1);
     }
     std::string bytes = stream.str();
-    // The library writes no such file: the right end of the second window.
+    // Patched by hand, since the library writes no such file: the right end of the second window.
     const std::size_t window = bytes.rfind("displayWindow") + sizeof "displayWindow" + sizeof "box2i" + 4;
     if (!alike) bytes[window + 8] = 30;
     return bytes;

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// With its buffer inside.
+// The file as text, with its buffer embedded.
 std::string textOf(GltfFile f) {
     f.json["buffers"] = {
         {{"byteLength", f.data.size()}, {"uri", "data:application/octet-stream;base64," + base64(f.data)}}};
@@ -151,13 +151,13 @@ GltfFile dressed() {
     return m;
 }
 
-// As `dressed`, with a pointer to every kind of property, and drawn several times.
+// As `dressed`, with pointers to every kind of property, and instanced.
 GltfFile pointed() {
     GltfFile m = dressed();
     const auto extension = [](const std::string& pointer) {
         return Json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
     };
-    // Two keys at one time.
+    // Two keys at the same time.
     const int times = m.accessor<float>({0, 1, 1}, FLOAT, "SCALAR", 1);
     const int outputs[] = {m.accessor<std::uint16_t>({0, 30000, 65535}, USHORT, "SCALAR", 1, true),
                            m.accessor<float>({0, 1, 2, 3, 4, 5}, FLOAT, "VEC2", 2),
@@ -192,7 +192,7 @@ GltfFile pointed() {
     return m;
 }
 
-// Positions and indices as streams of meshoptimizer.
+// Positions and indices as meshoptimizer streams.
 GltfFile packed() {
     const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     const std::vector<unsigned> indices{0, 1, 2, 2, 1, 3};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small images of every kind that the readers know.
+// Small images of every format that the readers support.
 #include "tests/fuzz/seeds.h"
 
 #include <cstdio>  // jpeglib.h asks for its FILE
@@ -24,7 +24,7 @@ void appendTo(png_structp png, png_bytep bytes, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
 }
 
-// libpng ends the program where it fails: a seed that cannot be written is a fault of this file.
+// libpng ends the program on an error: a bug in this file.
 std::string pngOf(int color, int depth, int interlace) {
     std::string bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -69,7 +69,7 @@ void writePngSeeds(const fs::path& out) {
         }
 }
 
-// Grey and colour, sequential and progressive, with restart marks.
+// Grey and colour, sequential and progressive, with restart markers.
 std::string jpegOf(J_COLOR_SPACE colors, bool progressive) {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr errors{};
@@ -131,7 +131,7 @@ void writePfmSeeds(const fs::path& out) {
               "PF 1 2 0.5\n" + turned + turned + turned + turned + turned + turned + "\n");
 }
 
-// By libtiff itself: every packing, strips and tiles, integers and floats.
+// Written by libtiff: every compression, strips and tiles, integers and floats.
 void writeTiffSeeds(const fs::path& out) {
     fs::create_directories(out / "tiff");
     for (const int packing :

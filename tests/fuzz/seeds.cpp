@@ -23,7 +23,7 @@ std::string contentsOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The file with everything that it names inside it, as far as that is there.
+// The file with all its available external files embedded.
 std::string selfContained(const fs::path& file) {
     using Json = nlohmann::json;
     Json json = Json::parse(contentsOf(file), nullptr, false);

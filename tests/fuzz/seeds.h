@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the fuzzers start from. Every function writes files below OUT/TARGET.
+// Seeds of the fuzzers. Every function writes files below OUT/TARGET.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace diptych::fuzz {
 
-// A larger seed is mutated too slowly to be worth its coverage.
+// Larger seeds mutate too slowly to be worth their coverage.
 inline constexpr std::size_t largest_seed = std::size_t{64} << 10;
 
 void writeSeed(const std::filesystem::path& out, const char* target, std::string_view name,
@@ -17,7 +17,7 @@ void writeImageSeeds(const std::filesystem::path& out);  // hdr, pfm, png, textu
 void writeExrSeeds(const std::filesystem::path& out);
 void writeGltfSeeds(const std::filesystem::path& out);
 void writeTextSeeds(const std::filesystem::path& out);  // lights, settings
-// What is small among the assets, .gltf files with their buffers and images as data URIs. Returns how many.
+// Copies small assets; .gltf files get their buffers and images as data URIs. Returns the number of files.
 int copySeeds(const std::filesystem::path& assets, const std::filesystem::path& out);
 
 }  // namespace diptych::fuzz

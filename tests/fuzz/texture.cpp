@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The PNG and JPEG images inside glTF files.
+// Fuzzes the PNG and JPEG images inside glTF files.
 #include "shared/scene/image/decode.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::require(std::ssize(image.rgba) == (header.deep ? 0 : 4 * pixels) &&
                               std::ssize(image.rgba16) == (header.deep ? 4 * pixels : 0),
                           "a number for every component");
-            const bool png = header.kind == ImageHeader::Kind::png;  // bits, colours, interlaced or not
+            const bool png = header.kind == ImageHeader::Kind::png;  // bit depth, color type, interlacing
             fuzz::observe(png ? std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28] : 1);
         },
         fuzz::Behind::a_library);

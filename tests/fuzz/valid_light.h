@@ -10,7 +10,7 @@
 
 namespace diptych::fuzz {
 
-// What scene.h promises of a light, wherever it comes from. Aborts with the promise that is broken.
+// Postconditions of scene.h for a light of any source. Aborts with the violated one.
 inline void requireSound(const Light& light) {
     const auto isSize = [](float x) { return x > 0 && std::isfinite(x); };
     require(std::isfinite(glm::dot(light.position, light.position)), "a position is finite");

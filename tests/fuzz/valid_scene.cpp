@@ -45,7 +45,7 @@ bool fits(const Array& array, const Primitive& primitive) {
     return array.empty() || array.size() == primitive.positions.size();
 }
 
-// 1e-3 is wide for a float's rounding, and narrow beside any vector that was not normalized.
+// 1e-3 is generous for float rounding, and small compared with any unnormalized vector.
 template <class Vector>
 bool unit(const Vector& vector) {
     return std::abs(glm::length(vector) - 1) < 1e-3f;
@@ -112,7 +112,7 @@ void requireTrees(const Scene& scene) {
                 for (const auto& four : set.joints)
                     for (int c = 0; c < 4; ++c) require(four[c] < joints, "a vertex's joint is in the skin");
     }
-    // A node whose parents do not end is its own ancestor. Each is walked over once.
+    // Each node is visited once. Reaching a node of the current walk again means a cycle of parents.
     std::vector<int> walk(scene.nodes.size(), -1);
     for (int from = 0; from < static_cast<int>(scene.nodes.size()); ++from)
         for (int node = from; node != -1; node = scene.nodes[static_cast<std::size_t>(node)].parent) {
@@ -206,7 +206,7 @@ void requireSound(const Scene& scene) {
                     camera.aspect >= 0 && camera.xmag >= 0 && camera.far > camera.near,
                 "a camera sees something");
     }
-    // At the start, between keys and after the last, whatever they are.
+    // At the start, between keys and after the last key.
     for (const double seconds : {0.0, 0.37, 1e9}) requireSoundPose(scene, poseAt(scene, seconds));
 }
 

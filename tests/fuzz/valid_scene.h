@@ -5,9 +5,9 @@
 
 namespace diptych::fuzz {
 
-// Everything that scene.h and motion.h promise of a loaded scene, so that nobody behind the loader checks it
-// again: indices lead somewhere, arrays are as long as each other, numbers are finite, nodes are trees.
-// Aborts with the promise that is broken.
+// All postconditions of scene.h and motion.h for a loaded scene, so that later code need not check them:
+// indices are valid, array lengths match, numbers are finite, nodes are trees. Aborts with the violated
+// one.
 void requireSound(const Scene& scene);
 
 }  // namespace diptych::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What both paths hand out of lit before blending, and what a verdict makes of a difference after it.
+// lit before blending in both paths, and the verdict on a difference that arises after it.
 #include "compare/verdict/pair_reports.h"
 #include "tests/image/scenes.h"
 
@@ -29,7 +29,7 @@ std::size_t namedFailures(const Comparison& comparison) {
     }));
 }
 
-// lit before blending is that of the scene without what is blended.
+// lit before blending equals lit of the scene without blended surfaces.
 TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
     const Scene& scene = uploaded("builtin:glass").scene;
     Scene opaque = scene;
@@ -45,7 +45,7 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
             EXPECT_TRUE(rest[i].unblended.empty()) << "nothing blends";
             ASSERT_FALSE(all[i].unblended.empty());
             const DebugMode& mode = debugMode(lit);
-            // Unlit materials are among those that blend, for which F0 is read, not a constant.
+            // F0 is then read, not a constant: the blended materials include unlit ones.
             EXPECT_LT(channelStats(mode.metric, mode.kind, rest[i].channels.at(lit), all[i].unblended,
                                    everyPixel(all[i].unblended.pixels()))
                           .max,
@@ -61,7 +61,7 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
     }
 }
 
-// The control: a fault that comes after blending alone, and one that is there before.
+// Control: a fault after blending alone, and one already there before it.
 TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
     for (const GBufferEncoding gbuffer : {GBufferEncoding::full, GBufferEncoding::standard}) {
         const std::vector<Frame> frames =
@@ -81,7 +81,7 @@ TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
     }
 }
 
-// Of a few pixels, so few that lit passes as a whole.
+// Few pixels are wrong, so lit as a whole passes.
 TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
     Renderer& renderer = uploaded("builtin:glass").renderer;
     Settings settings = beforeBlendingPicture();
@@ -89,7 +89,7 @@ TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
     std::vector<Frame> frames{drawnBy(Path::reference, renderer, settings)};
     for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
     EXPECT_TRUE(afterBlendingReport(frames).passed());
-    // Pane by pane where the reference's picture is even around.
+    // One fault per pane, where the reference's image is uniform around it.
     std::size_t faults = 0;
     for (std::size_t y = 2; y < 88 && faults < 4; ++y)
         for (std::size_t x = 2; x < 158 && faults < 4; ++x) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Alpha masks that choose samples (--alpha-to-coverage).
+// Alpha masks that set sample coverage (--alpha-to-coverage).
 #include "compare/picture/picture.h"
 #include "tests/image/square.h"
 
@@ -23,7 +23,8 @@ Settings covered(Size size, bool on = true) {
     return settings;
 }
 
-// A masked square that shows 1 where it covers, its alpha a slope across the picture: by vertex colours.
+// A masked square with radiance 1 where it covers. Vertex colours make alpha a linear ramp along `turned`
+// (radians).
 Scene slope(double turned) {
     Scene scene = square();
     Primitive& p = scene.meshes[0].primitives[0];
@@ -39,7 +40,7 @@ Scene slope(double turned) {
     return scene;
 }
 
-// The share of each pixel that a slope's mask covers in both paths; the square fills the picture.
+// The fraction of each pixel that the mask covers, equal in both paths. The square fills the image.
 std::vector<double> sharesOf(const Scene& scene, int pixels, bool on) {
     Renderer renderer(device(), scene, pipelines());
     std::vector<std::vector<double>> shares;
@@ -54,7 +55,8 @@ std::vector<double> sharesOf(const Scene& scene, int pixels, bool on) {
     return shares[0];
 }
 
-// By 64 x 64 points, where a slope of this direction reaches the cutoff: pixel x, y of `pixels` a side.
+// The fraction of pixel x, y where the ramp reaches the cutoff, by 64 x 64 points; `pixels` is the image's
+// size.
 double exactShare(double turned, int pixels, int x, int y) {
     constexpr int points = 64;
     int inside = 0;
@@ -67,9 +69,9 @@ double exactShare(double turned, int pixels, int x, int y) {
     return static_cast<double>(inside) / (points * points);
 }
 
-// As many samples as come next to the share of the pixel where alpha reaches the cutoff: off by 1/8 of a
-// pixel at most along an axis, and by what a corner of the pixel rounds off (at most 1/8 more) in other
-// directions; over the positions along an edge by far less.
+// The sample count nearest to the fraction of the pixel where alpha reaches the cutoff. Along an axis the
+// error is at most 1/8 pixel; in other directions rounding at pixel corners adds up to 1/8. Averaged along
+// an edge it is far smaller.
 TEST(AlphaCoverage, IsTheShareOfThePixel) {
     constexpr int pixels = 24;
     for (const double degrees : {0.0, 90.0, 45.0, 20.0, 67.0, 200.0}) {
@@ -79,7 +81,7 @@ TEST(AlphaCoverage, IsTheShareOfThePixel) {
         double sum = 0, exact_sum = 0, parts = 0;
         for (int y = 0; y < pixels; ++y)
             for (int x = 0; x < pixels; ++x) {
-                // Where the square's two triangles meet each goes by the alpha of its own part.
+                // On the diagonal, each of the square's triangles uses the alpha of its own part.
                 if (x == pixels - 1 - y) continue;
                 const double share = shares[static_cast<std::size_t>(y * pixels + x)],
                              exact = exactShare(turned, pixels, x, y);
@@ -95,7 +97,7 @@ TEST(AlphaCoverage, IsTheShareOfThePixel) {
     }
 }
 
-// Negative control: without it a pixel is covered whole or not at all, which the bound notices.
+// Negative control: without it a pixel is covered entirely or not at all, which exceeds the bound.
 TEST(AlphaCoverage, WithoutItMasksCutWholePixels) {
     constexpr int pixels = 24;
     const double turned = 20 * std::numbers::pi / 180;
@@ -110,8 +112,8 @@ TEST(AlphaCoverage, WithoutItMasksCutWholePixels) {
     EXPECT_GT(beyond, 5);
 }
 
-// A texture that repeats begins anew beyond a triangle's edge, where nothing of it is drawn: a square that is
-// clear along one edge and opaque along the other shows no trace of that beyond the first.
+// A repeating texture wraps beyond the triangle's edge, where nothing is rasterised. The square is clear
+// along one edge and opaque along the opposite one. None of that opacity may leak onto the clear edge.
 TEST(AlphaCoverage, NothingIsTakenFromBeyondAnEdge) {
     Scene scene = slope(0);
     scene.meshes[0].primitives[0].colors.clear();
@@ -129,7 +131,7 @@ TEST(AlphaCoverage, NothingIsTakenFromBeyondAnEdge) {
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
             all += double{image.at(x, y, 0)};
-            // In the square's own axes, -1 to 1.
+            // In the square's axes, -1 to 1.
             const double u = 2 * (x + 0.5) / 64 - 1, v = 1 - 2 * (y + 0.5) / 64, turn = glm::radians(17.0);
             if ((u * std::cos(turn) + v * std::sin(turn)) / 0.6 < -0.5) left += double{image.at(x, y, 0)};
         }
@@ -137,7 +139,7 @@ TEST(AlphaCoverage, NothingIsTakenFromBeyondAnEdge) {
     EXPECT_GT(all, 200);
 }
 
-// Alpha that does not change is at the cutoff or not, as glTF says: at it a surface shows.
+// Constant alpha covers all or nothing; per glTF, alpha equal to the cutoff is visible.
 TEST(AlphaCoverage, OfOneAlphaIsAllOrNothing) {
     for (const float alpha : {cutoff - 0.01f, cutoff, 0.9f}) {
         Scene scene = slope(0);
@@ -149,8 +151,8 @@ TEST(AlphaCoverage, OfOneAlphaIsAllOrNothing) {
 
 class AlphaCoverageOf : public testing::TestWithParam<std::string> {};
 
-// Both paths have the same bits, whether a pre-pass draws the masks first and whichever samples are shaded as
-// one; and the picture is nearer to the reference's, of 64 samples a pixel, than that of masks which cut.
+// Both paths agree bit for bit, with or without a pre-pass and for any sample grouping. The image is
+// closer to the reference's (64 samples a pixel) than with binary masks.
 TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
     const bool builtin = GetParam().starts_with("builtin:");
     if (!builtin && !std::filesystem::exists(assets() / GetParam()))
@@ -180,7 +182,7 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
     options.channels = {lit};
     options.runs = 0;
     const Image truth = renderer.draw(settings, options).channels.at(lit);
-    // Of what is displayed, where 0.7 is what a twentieth of the pixels exceed.
+    // The displayed error; exposure puts the 95th percentile at 0.7.
     std::vector<float> ordered(truth.data.begin(), truth.data.end());
     const auto p95 = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() * 95 / 100);
     std::nth_element(ordered.begin(), p95, ordered.end());
@@ -201,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Msaa, AlphaCoverageOf,
                          testing::Values("builtin:cutout", "features/alpha_mask/01_alpha_mask.gltf"),
                          [](const auto& scene) { return testName(scene.param); });
 
-// coverage shades every sample of a pixel that a mask covers in part, as if its triangle did.
+// `coverage` shades every sample of a pixel that a mask covers partly, as if a triangle's edge did.
 TEST(AlphaCoverage, CoverageEdgesKnowOfMasks) {
     Scene scene = slope(0.35);
     scene.materials[0].unlit = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ambient light in both paths: against values computed by hand, and against the reference.
+// Ambient light in both paths: compared with values computed by hand and with the reference.
 #include "shared/contract/debug_mode.h"
 #include "shared/environment/directional_albedo.h"
 #include "shared/scene/load.h"
@@ -21,8 +21,7 @@ std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4
     return bothPaths(scene, settings, {lit, lit_ambient, static_cast<int>(gpu::DEBUG_material_id)});
 }
 
-// A base without a specular layer reflects its colour's share; the green texel of the square's texture is
-// fully occluded.
+// A base without a specular layer reflects its colour. The texture's green texel is fully occluded.
 TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -38,7 +37,7 @@ TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     }
 }
 
-// At normal incidence and roughness 1 the lobe's integral is 1 - ln 2
+// At normal incidence and roughness 1 the integral of the lobe is 1 - ln 2
 // (tests/unit/compare/reference/ambient_test.cpp).
 TEST(Ambient, OfARoughMetalSeenStraightOn) {
     Scene scene = square();
@@ -53,8 +52,8 @@ TEST(Ambient, OfARoughMetalSeenStraightOn) {
     }
 }
 
-// The polynomial through four samples of the table, two on each side, errs by at most 6.2e-6 at these angles;
-// one through samples that lie a step aside by 1.5e-5.
+// The cubic through four samples of the table, two on each side, errs by at most 6.2e-6 at these angles. A
+// cubic through samples shifted by one step errs by 1.5e-5.
 TEST(Ambient, OfAMetalIsTheIntegralAtEveryAngle) {
     for (const double degrees : {0.5, 9.0, 31.0, 47.0, 66.0, 80.0})
         for (const float roughness : {0.1f, 0.35f, 0.6f, 0.85f}) {
@@ -74,8 +73,8 @@ TEST(Ambient, OfAMetalIsTheIntegralAtEveryAngle) {
         }
 }
 
-// The square's second UV set is mirrored left to right: the green texel is at its top left. A lightmap is
-// irradiance over pi, which a Lambertian base multiplies by its colour; a metal reflects none of it.
+// The second UV set is mirrored left to right: the green texel is at the top left. A lightmap is
+// irradiance over pi: a Lambertian base multiplies it by its colour, a metal reflects none of it.
 TEST(Ambient, OfALightmap) {
     Scene scene = square();
     scene.lights.emplace_back().intensity = 0;
@@ -100,7 +99,7 @@ TEST(Ambient, OfALightmap) {
     for (const Frame& frame : draw(scene))
         EXPECT_EQ(colorAt(frame, lit_ambient, 0, 0), glm::vec3(0)) << "a metal has no base";
     m.metallic = 0;
-    // Red: unoccluded at the top left of the first set, occluded at its right.
+    // Red: unoccluded at the top left of the first set, occluded at the right.
     m.occlusion_texture.texture = 0;
     for (const Frame& frame : draw(scene)) {
         expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " open");
@@ -119,7 +118,7 @@ TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
         for (const float value : frame.channels.at(lit_ambient).data) ASSERT_EQ(value, 0.0f) << frame.name;
 }
 
-// The table's error is at most 6e-5, and float32's is far smaller; 1e-4 is the tolerance of any light.
+// The table's error is at most 6e-5; float32 adds far less. 1e-4 is the tolerance of every light.
 class AmbientReference : public testing::TestWithParam<const char*> {};
 
 TEST_P(AmbientReference, BothPathsAreTheIntegral) {

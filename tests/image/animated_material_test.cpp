@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Materials at a time: both paths draw what a scene whose materials are so at rest shows, bit for bit, from
-// textures that were uploaded once.
+// Materials animated to a time: both paths match a scene with those static materials bit for bit. The
+// textures are uploaded once.
 #include "tests/image/square.h"
 
 #include "shared/scene/motion/pose.h"
@@ -10,7 +10,7 @@
 namespace diptych::tests {
 namespace {
 
-// Keys at 0 s and 1 s.
+// Keyframes at 0 s and 1 s.
 void moveMaterial(Scene& scene, AnimatedPart part, std::vector<float> values, int element = 0) {
     if (scene.animations.empty()) scene.animations.emplace_back();
     Animation& a = scene.animations[0];
@@ -26,7 +26,7 @@ Scene squareBeforeAnother() {
     sun.kind = LightKind::directional;
     sun.direction = glm::normalize(glm::dvec3(0.3, 0.2, -1));
     scene.lights = {sun};
-    // Behind it another, which shows through what lets light through.
+    // A square behind it, visible through transmission.
     scene.materials.push_back({});
     scene.materials[1].base_color = {0.1f, 0.7f, 0.3f, 1};
     scene.materials[1].metallic = 0;
@@ -53,7 +53,7 @@ const std::vector<MovingMaterial>& movingMaterials() {
              moveMaterial(s, AnimatedPart::ior, {1.5f, 2});
              moveMaterial(s, AnimatedPart::specular_color, {1, 1, 1, 0.2f, 0.4f, 0.8f});
          }},
-        // At rest no texture of these slots is read, for their factors are zero.
+        // At rest no texture of these slots is read: their factors are zero.
         {"emission begins",
          [](Scene& s) {
              s.materials[0].emissive_texture.texture = 0;
@@ -88,7 +88,7 @@ const std::vector<MovingMaterial>& movingMaterials() {
     return all;
 }
 
-// The light, and what it is made of: fewer channels need fewer pipelines.
+// Radiance and its inputs only: fewer channels need fewer pipelines.
 const std::vector<int> shownChannels{lit, albedo, normals, emission, occlusion};
 
 TEST(AnimatedMaterials, AreDrawnAsAtRest) {
@@ -116,7 +116,7 @@ TEST(AnimatedMaterials, AreDrawnAsAtRest) {
     }
 }
 
-// A picture that keeps the materials of 0 s is another one.
+// Control: an image with the materials of 0 s differs.
 TEST(AnimatedMaterials, MotionChangesThePicture) {
     for (const MovingMaterial& c : movingMaterials()) {
         Scene moving = squareBeforeAnother();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of area lights: both paths and every assignment agree, and the LTC table is close to the
-// reference.
+// Area lights: both paths and every assignment agree, and the LTC table is close to the reference.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"
@@ -55,10 +54,10 @@ double meanError(const Frame& referenceFrame, const Frame& frame, int channel) {
     return sum / all;
 }
 
-// Lambert's integral is exact; the remaining diffuse error is the layer's Fresnel term, evaluated for one
-// direction of each light: 0.0016. The specular error is the table's, largest on dielectrics seen at a
-// grazing angle such as the floor: 0.023, of which 0.03 leaves room for another device's rounding. One
-// representative point is far worse in both.
+// Lambert's integral is exact. The remaining diffuse error, 0.0016, comes from the layer's Fresnel term,
+// evaluated for one direction per light. The specular error, 0.023, comes from the table and is largest on
+// dielectrics at grazing angles, such as the floor. The limit of 0.03 allows for other devices' rounding.
+// One representative point is far worse in both.
 TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
@@ -74,7 +73,7 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
     RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, litDiffuse)));
 }
 
-// A scene without area lights gives the same bits with either setting.
+// Without area lights both settings give the same bits.
 TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A command that an audit prints was tried, and is one that shows the failure.
+// The commands that an audit prints have been tried and reproduce the failure.
 #include "compare/audit/failures.h"
 #include "compare/audit/quantities.h"
 #include "tests/image/square.h"
@@ -13,8 +13,8 @@ using audit::Quantity;
 using audit::Series;
 using audit::Subject;
 
-// Pictures are four times as bright as they should be where the lamp has 4 cd or more: a fault that the
-// program itself has not.
+// An injected fault: images are four times too bright if the lamp has 4 cd or more. The program itself
+// does not have it.
 audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subject) {
     static const Quantity brightness{
         .name = "brightness",

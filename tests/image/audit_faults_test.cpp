@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an audit finds where a path has a known fault: each breaks at the magnitude that its theory gives,
-// within a factor of 2.
+// Audits of a path with an injected fault: it breaks at the magnitude that theory predicts, within a
+// factor of 2.
 #include "compare/audit/audit.h"
 #include "compare/audit/quantities.h"
 #include "tests/image/square.h"
@@ -22,7 +22,7 @@ using audit::Step;
 using audit::Subject;
 
 constexpr int positionChannel = static_cast<int>(gpu::DEBUG_position);
-constexpr double percent = 1e-2;  // the criterion whose limit is looked for
+constexpr double percent = 1e-2;  // the criterion; its breaking point is searched for
 
 Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& change = {}) {
     Settings settings;
@@ -33,8 +33,8 @@ Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& chan
     return audit::makeSubject(scene, settings);
 }
 
-// The magnitude between `sound` and `broken` at which the error of forward+ reaches 1e-2, to a factor of 1.1,
-// on a scale of logarithms. Fails where the one is not sound or the other not broken.
+// The magnitude between `sound` and `broken` at which the error of forward+ reaches 1e-2, to a factor of
+// 1.1 (bisection in log scale). Fails if `sound` breaks or `broken` passes.
 double limitOf(Measurer& measurer, const Quantity& quantity, double sound, double broken) {
     const std::array<Series, 1> series{Series{Path::forward_plus, {}}};
     const auto passes = [&](double magnitude) {
@@ -60,7 +60,7 @@ const Quantity& quantityNamed(std::string_view name) {
     return *audit::quantitiesOf(std::array{std::string(name)}).front();
 }
 
-// Many vertices at many depths, under the default sun, whose light does not depend on the place.
+// Many vertices at many depths. The default sun's light does not depend on position.
 Scene inclined() {
     Scene scene = fineMesh(24);
     scene.nodes[0].parent_from_node =
@@ -68,10 +68,10 @@ Scene inclined() {
     return scene;
 }
 
-// A vertex and the eye are each rounded to float32 where they are in the world, by up to half a step of their
-// coordinate; their distance is the difference. The scene moves along (0.8, 0, 0.6), and depth is along z: at
-// an offset X it is off by up to 2^-24 0.6 X twice, and a little more than one of them in the 99th
-// percentile.
+// A vertex and the eye are each rounded to float32 in world space, by up to half a ULP of their
+// coordinate; depth depends on the difference. The scene moves along (0.8, 0, 0.6), and depth is along z.
+// At offset X each rounding is at most 2^-24 0.6 X. The 99th percentile is slightly more than one of the
+// two.
 TEST(AuditFaults, AFloat32WorldTransformBreaksWhereTheorySays) {
     const Subject subject = subjectOf(inclined());
     Measurer measurer(device(), subject, {});
@@ -79,7 +79,7 @@ TEST(AuditFaults, AFloat32WorldTransformBreaksWhereTheorySays) {
         const auto rounded = [](glm::dvec3 p) { return glm::dvec3(glm::vec3(p)); };
         for (Node& node : drawn.scene.nodes) {
             if (node.mesh < 0) continue;
-            // The whole transform, as world matrices have it; a parent holds the offset.
+            // The whole world transform; a parent node has the offset.
             glm::dmat4 world = node.parent_from_node;
             for (int at = node.parent; at >= 0; at = drawn.scene.nodes[static_cast<std::size_t>(at)].parent)
                 world = drawn.scene.nodes[static_cast<std::size_t>(at)].parent_from_node * world;
@@ -98,20 +98,20 @@ TEST(AuditFaults, AFloat32WorldTransformBreaksWhereTheorySays) {
         glm::dvec4& eye = drawn.camera().world_from_camera[3];
         eye = glm::dvec4(rounded(glm::dvec3(eye)), 1);
     }});
-    // Off by 1.5 half steps of 2^-24 0.6 X, at the distance of the middle.
+    // An error of 1.5 half ULPs of 2^-24 0.6 X, at the distance of the centre.
     const double distance = glm::distance(subject.point, subject.view.eye());
     const double predicted = percent * distance / (1.5 * 0.6 * 0x1p-24);
     expectWithinTwo(limitOf(measurer, quantityNamed("offset"), 1, 1e7), predicted, "float32 world transform");
 }
 
-// z = (1 - n / d) (for f much further than d) has a step of 2^-24 below 1, so it is off by 2^-25 at best, and
-// d by d^2 / n of it; the rasteriser's plane of z adds up to two more roundings.
+// z = 1 - n / d (for f much larger than d) has a ULP of 2^-24 below 1: an error of at least 2^-25, which
+// is d^2 / n times that in d. The rasteriser's plane equation for z adds up to two roundings.
 TEST(AuditFaults, StandardDepthBreaksWhereTheorySays) {
     const Subject subject =
         subjectOf(inclined(), [](Settings& s) { s.depth_format = DepthFormat::d32f_standard; });
     Measurer measurer(device(), subject, {});
     const Quantity& near = quantityNamed("near");
-    // Of the middle of the picture, which is where most pixels are; the magnitude is far / near.
+    // At the image's centre, where most pixels are; the magnitude is far / near.
     const double distance = glm::distance(subject.point, subject.view.eye());
     Case pushed = subject.given;
     near.push(pushed, subject, 1e3);
@@ -120,8 +120,8 @@ TEST(AuditFaults, StandardDepthBreaksWhereTheorySays) {
     expectWithinTwo(limitOf(measurer, near, 1e2, 1e9), predicted, "standard depth");
 }
 
-// A square that a sun lights from the viewer's side, all of it within a small angle of its highlight; a
-// metal, whose lit is D and what hardly changes.
+// A square lit by a sun from the viewer's side, entirely within a small angle of the highlight. It is a
+// metal, so lit is D times a nearly constant factor.
 Scene highlight() {
     Scene scene = square();
     scene.materials[0].metallic = 1;
@@ -138,9 +138,9 @@ void pushSharpness(Case& pushed, const Subject&, double roughness) {
     for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
 }
 
-// The denominator (n.h)^2 (alpha^2 - 1) + 1 is alpha^2 + the square of the angle, made of numbers near 1 that
-// float32 rounds: by 2^-24 of n.h and half of it of the rest, some 1.5 2^-24 in all, and D by twice as much
-// of it. Where that is 1e-2, alpha^2 is 1.8e-5 and the roughness 0.065.
+// The denominator (n.h)^2 (alpha^2 - 1) + 1 equals alpha^2 plus the squared angle, computed from numbers
+// near 1. Float32 rounds n.h by 2^-24 and the rest by half of that: 1.5 2^-24 in all. D errs by twice the
+// relative error. It reaches 1e-2 at alpha^2 = 1.8e-5, roughness 0.065.
 TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
     const Subject subject = subjectOf(highlight());
     Measurer measurer(device(), subject, {});
@@ -178,7 +178,7 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
     expectWithinTwo(limitOf(measurer, sharpness, 0.5, 0.01), predicted, "D");
 }
 
-// The whole angle, with a soft edge from the axis on.
+// `degrees`: full cone angle; the falloff starts at the axis.
 void pushSoftCone(Case& pushed, const Subject&, double degrees) {
     for (Light& light : pushed.scene.lights) {
         light.inner_cone = 0;
@@ -186,8 +186,8 @@ void pushSoftCone(Case& pushed, const Subject&, double degrees) {
     }
 }
 
-// The cone's edge is 1 - cos(outer) wide, and never less than 0.001 where it is guarded: without the guard
-// the light changes once it would be less, by 1e-2 where it is 0.995 of that.
+// The cone's falloff is 1 - cos(outer) wide, clamped to at least 0.001. Without the clamp, light changes
+// below that width: by 1e-2 at 0.995 of it.
 TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
     Scene scene = square();
     scene.cameras[0].yfov = 0.5 * std::numbers::pi / 180;

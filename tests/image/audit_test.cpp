@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths where they used to break: far from the origin, tiny, behind thick air. Each is measured as an
-// audit measures it.
+// Both paths where they used to break: far from the origin, tiny, behind thick air. Errors are measured as
+// in an audit.
 #include "compare/audit/audit.h"
 #include "compare/audit/quantities.h"
 #include "tests/image/square.h"
@@ -24,7 +24,7 @@ Subject auditedScene(const Scene& scene) {
     return audit::makeSubject(scene, settings);
 }
 
-// The errors of both paths with nothing packed.
+// The errors of both paths with float32 encodings.
 std::vector<Outcome> errorsAt(Measurer& measurer, const std::string& name, double magnitude) {
     const audit::Quantity& quantity = *audit::quantitiesOf(std::array{name}).front();
     const std::array<Series, 2> both{Series{Path::deferred, {}}, Series{Path::forward_plus, {}}};
@@ -38,8 +38,9 @@ std::vector<Outcome> errorsAt(Measurer& measurer, const std::string& name, doubl
 }
 
 void expectHolds(Measurer& measurer, const std::string& name, std::initializer_list<double> magnitudes) {
-    // Float32 shading of the usual scene is within 2e-5 of double (compare/reference/MEASURED.md); a tenth
-    // of an audit's least criterion leaves room for GPUs, whose division and square roots are less exact.
+    // Float32 shading of the default scene is within 2e-5 of double (compare/reference/MEASURED.md). A
+    // tenth of an audit's smallest criterion allows for GPUs, whose division and square roots are less
+    // exact.
     constexpr double most = 1e-4;
     for (const double magnitude : magnitudes)
         for (const Outcome& outcome : errorsAt(measurer, name, magnitude)) {
@@ -67,8 +68,8 @@ TEST(AuditImages, APictureIsTheSameWhereverItsSceneIsAndHoweverLarge) {
     expectHolds(measurer, "roughness", {0, 1e-3, 1});
 }
 
-// What approximates is wrong by itself, where nothing is pushed; at an extreme it is by no more than 1e-2
-// more.
+// Approximations have errors of their own in the unstressed scene. At an extreme they exceed those by at
+// most 1e-2.
 TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
     struct Row {
         const char* scene;
@@ -94,7 +95,7 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
             what += std::string(" ") + option + " " + value;
         }
         if (settings.env == "scene") {
-            // A sky that is brighter in one half, with a small sun.
+            // A sky with one brighter half and a small sun.
             Image sky(32, 16, 3, 0.3f);
             for (std::size_t i = 0; i < sky.pixels() / 2; ++i) sky.pixel(i)[2] = 1;
             for (int c = 0; c < 3; ++c) sky.pixel(32 * 4 + 9)[c] = 50;
@@ -103,8 +104,8 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
         const Subject subject = audit::makeSubject(scene, settings);
         Measurer measurer(device(), subject, {});
         const std::vector<Outcome> rest = errorsAt(measurer, "scale", 1);
-        // Not with vertices moved by 1e7 m in their mesh: float32 leaves them on a lattice of 1 m, which is
-        // another scene.
+        // Not with vertices offset by 1e7 m in their mesh: float32 puts them on a grid of 1 m, another
+        // scene.
         for (const auto& [name, magnitude] :
              {std::pair("offset", 1e7), {"scale", 1e-4}, {"scale", 1e5}, {"intensity", 1e9}}) {
             const std::vector<Outcome> pushed = errorsAt(measurer, name, magnitude);
@@ -116,18 +117,18 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
     }
 }
 
-// Until the paths' own light ends, at an optical depth of 87, and not where the reference once gave up.
+// Measured until the paths' light underflows at optical depth 87, not where the reference once gave up.
 TEST(AuditImages, ThickAirIsMeasuredUntilItsLightEnds) {
     const Scene scene = makeBuiltin("spots");
     const Subject subject = auditedScene(scene);
     ASSERT_TRUE(subject.seen);
     Measurer measurer(device(), subject, {});
-    // Of red, which the air dims least; what is furthest away is twice as far, short of where float32 ends.
+    // For red, which the air attenuates least. The farthest point is twice as far, within float32's range.
     const double depth_35 = 35 / (2.58e-5 * subject.nearest);
     expectHolds(measurer, "haze", {depth_35});
 }
 
-// Squares of its lengths are below float32: what looks at it must not become NaN.
+// Squared lengths underflow float32; nothing may become NaN.
 TEST(AuditImages, AScene30OrdersTooSmallIsLitByNumbers) {
     Scene scene = square();
     for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(1e-30));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Modes that a benchmark times separately differ in their pipelines, and its kernels compute the same
-// function.
+// Modes that a benchmark times separately use different pipelines; its kernels compute the same function.
 #include "compare/bench/kernels.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -21,7 +20,7 @@ Settings mode(Path path, Assignment assign) {
     return settings;
 }
 
-// The modes of both paths that can be drawn.
+// The supported modes of both paths.
 std::vector<Settings> drawnModes() {
     std::vector<Settings> modes;
     for (const auto& [assign, name] : enumNames<Assignment>())
@@ -51,7 +50,7 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
         }
     EXPECT_EQ(renderer.pipelines(), pipelines);
     EXPECT_FALSE(frames.profile(0).empty());
-    // The same for what a Renderer draws by itself.
+    // The same when a Renderer draws by itself.
     RenderOptions options;
     options.channels = {static_cast<int>(gpu::DEBUG_lit)};
     options.runs = 0;
@@ -67,7 +66,7 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
     EXPECT_GT(renderer.pipelines(), pipelines);
 }
 
-// The largest difference relative to the pixel's largest component.
+// The largest difference, relative to the pixel's largest component.
 double furthest(const Image& a, const Image& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -82,8 +81,8 @@ double furthest(const Image& a, const Image& b) {
     return most;
 }
 
-// Sums of 48 lights of one sign, each with some forty roundings of 6e-8 and, in the CPU's kernel only, fused
-// multiply-adds: 1e-5 is several times that, and far below the difference of any other formula.
+// Sums of 48 lights of one sign, each with some forty roundings of 6e-8, and fused multiply-adds in the
+// CPU's kernel only. 1e-5 is several times that and far below the difference of any other formula.
 constexpr double oneArithmetic = 1e-5;
 
 TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
@@ -101,7 +100,7 @@ TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
             EXPECT_GT(byHand.data[0], 0.0f);
             EXPECT_LT(furthest(byHand, picture), oneArithmetic) << kernel.name << ", " << length << " lights";
         }
-        // Negative control: one light more is detected.
+        // Negative control: one light fewer is detected.
         runCpuKernel(workload, 47, byHand);
         EXPECT_GT(furthest(byHand, drawn->picture()), 100 * oneArithmetic);
     }

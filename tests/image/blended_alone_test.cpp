@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where all that is in view is blended, deferred has no G-buffer and the picture that forward+ has.
+// If everything in view is blended, deferred has no G-buffer and its image equals that of forward+.
 #include "compare/render/path_plan.h"
 #include "tests/image/square.h"
 
@@ -8,7 +8,7 @@
 namespace diptych::tests {
 namespace {
 
-// A pane before the background, under a sun and a lamp; with a wall behind it or without.
+// A pane before the background, lit by a sun and a lamp; optionally with a wall behind it.
 Scene blendedPane(bool wall) {
     Scene scene = square();
     scene.materials[0].alpha_mode = AlphaMode::blend;

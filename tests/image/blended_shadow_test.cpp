@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sun's shadow on what is blended, far in front of what is opaque: maps that cover what the picture
-// shows, and pages that it reads, cover it too.
+// The sun's shadow on blended surfaces far in front of opaque ones. Fitted maps and requested pages must
+// cover the blended surfaces too.
 #include "compare/render/frame_facts.h"
 #include "tests/image/shadow_scenes.h"
 
@@ -10,8 +10,8 @@
 namespace diptych::tests {
 namespace {
 
-// A blended pane 2 m before the camera, a wall 38 m behind it, through a lens of 10 degrees. Three strips
-// throw their shadows on the pane; they are not seen, and their shadows on the wall would lie beside it.
+// A blended pane 2 m before the camera, a wall 38 m behind it, field of view 10 degrees. Three strips out
+// of view cast shadows on the pane; their shadows on the wall would fall beside it.
 Scene paneUnderStrips() {
     std::vector<Primitive> standing{
         rectangle({-15, -15, -40}, {30, 0, 0}, {0, 30, 0}),
@@ -32,7 +32,7 @@ Scene paneUnderStrips() {
     return scene;
 }
 
-// Of the pane's pixels the share that is off by more than half of the shadow.
+// The fraction of the pane's pixels whose error exceeds half of the shadow's contrast.
 double wrongShare(const Frame& frame, const Frame& reference) {
     const Image &made = frame.channels.at(lit), &truth = reference.channels.at(lit);
     std::vector<float> seen;
@@ -48,7 +48,7 @@ double wrongShare(const Frame& frame, const Frame& reference) {
     return static_cast<double>(wrong) / static_cast<double>(seen.size());
 }
 
-// Edges of shadows lie within a pixel: a fiftieth of the pane. Texels of 2 cm are as wide as two of its
+// Shadow edges are accurate to a pixel: a fiftieth of the pane. Texels of 2 cm are as wide as two of its
 // pixels.
 TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     const Scene scene = paneUnderStrips();

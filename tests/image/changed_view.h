@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a path whose input a test has changed.
+// The image of a path whose input a test has changed.
 #pragma once
 
 #include "compare/render/frame_facts.h"
@@ -11,7 +11,7 @@
 
 namespace diptych::tests {
 
-// lit, after `change` has modified the path's input; `after` sees the view once it has been drawn.
+// lit, after `change` has modified the path's input; `after` is called with the view once it is rendered.
 inline Image litWith(const Scene& scene, const Settings& settings,
                      const std::function<void(PreparedView&)>& change,
                      const std::function<void(PreparedView&)>& after = {}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lighting of channels: a path's own channels give its own lit.
+// Relighting from channels: a path's own channels reproduce its lit.
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -54,7 +54,7 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
                 for (std::size_t i = 0; i < theirs.data.size(); ++i)
                     differ += theirs.data[i] != std::as_const(made[t]->data)[i];
             }
-            // Elsewhere the two pipelines may round apart.
+            // On devices that are not bit-exact the two pipelines may round differently.
             EXPECT_EQ(device().profile().bit_exact ? differ : 0u, 0u) << "of " << own.pixels();
         }
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();

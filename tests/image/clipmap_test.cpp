@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sun's clipmap: the same bits in both paths whatever its pool holds, against the rays of the reference,
-// and pages that are kept against pages that are drawn anew.
+// The sun's clipmap. Both paths give the same bits whatever the pool contains, the image matches the
+// reference's rays, and cached pages equal redrawn ones.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -24,7 +24,7 @@ constexpr int seen = static_cast<int>(gpu::DEBUG_shadow_visibility),
               material = static_cast<int>(gpu::DEBUG_material_id),
               position = static_cast<int>(gpu::DEBUG_position);
 
-// Pages of 32 texels: a picture of 160x90 asks for some hundred of them.
+// Pages of 32 texels: a 160 x 90 image requests about a hundred.
 Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
     Settings settings = smallPicture(encoding);
     settings.shadows = Shadows::clipmap;
@@ -46,7 +46,7 @@ std::string cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
     return fmt::format("eye={},{},{} target={},{},{}", eye.x, eye.y, eye.z, target.x, target.y, target.z);
 }
 
-// A pool that lacks two pages of those that the picture asks for.
+// A pool two pages smaller than the image requests.
 int nearlyAll(const Frame& frame) {
     return static_cast<int>(std::max<std::uint64_t>(frame.counters.shadow_pages.requested, 4) - 2);
 }
@@ -64,7 +64,7 @@ TEST_P(ClipmapPaths, SeeTheSame) {
     Renderer& renderer = uploaded(GetParam()).renderer;
     const auto expectSame = [&](const Settings& settings) {
         std::vector<int> channels{seen, level, residency, material};
-        // With smaller encodings the surfaces differ, and so what they reflect.
+        // With smaller encodings the decoded surfaces differ, and so does lit.
         if (settings.gbuffer == GBufferEncoding::full) channels.push_back(lit);
         const std::vector<Frame> frames = bothPaths(renderer, settings, channels);
         for (const int mode : channels)
@@ -74,11 +74,11 @@ TEST_P(ClipmapPaths, SeeTheSame) {
         return frames[0];
     };
     const Frame whole = expectSame(paged(GBufferEncoding::full));
-    // What marks chooses the page that shading reads: where there is room none is missing.
+    // Marking and shading choose the same page: none is missing if the pool has capacity.
     EXPECT_EQ(whole.counters.shadow_pages.fallback, 0u);
     const Image& missing = whole.channels.at(residency);
     for (std::size_t i = 0; i < missing.pixels(); ++i) ASSERT_EQ(*missing.pixel(i), 0) << i;
-    if (GetParam() != "builtin:gallery") {  // whose many materials would be compiled again for each
+    if (GetParam() != "builtin:gallery") {  // its many materials would recompile for each
         expectSame(paged(GBufferEncoding::compact));
         expectSame(paged(GBufferEncoding::standard, 512, 7));
     }
@@ -87,12 +87,12 @@ TEST_P(ClipmapPaths, SeeTheSame) {
         EXPECT_GT(few.counters.shadow_pages.fallback, 0u) << pool;
     }
     Settings without = paged(GBufferEncoding::full, nearlyAll(whole));
-    without.prepass = Switch::off;  // the same pages serve where forward+ has no depth of its own
+    without.prepass = Switch::off;  // forward+ without its own depth uses the same pages
     expectSame(without);
 }
 
-// Beyond the reach of the filter of the level that serves and a texel from an edge, what is shown lit is lit
-// and what is shown dark is dark, but for one pixel in 2,000.
+// Farther from an edge than the resident level's filter radius and a texel, visibility is correct. At most
+// one pixel in 2,000 is falsely lit, and as many falsely dark.
 TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
     Renderer& renderer = uploaded(GetParam()).renderer;
     Settings settings = paged(GBufferEncoding::full, 4096);
@@ -121,8 +121,8 @@ TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
             falseLit += shown > is;
             falseDark += shown < is;
         }
-        // Through the whole scene's page alone, whose texels are wider than walls are thick, a surface is
-        // moved beyond some.
+        // With only the whole scene's page, texels are wider than walls are thick: the bias moves a
+        // surface through some.
         const double most = pool > 1 ? 5e-4 : 0.01;
         EXPECT_LE(static_cast<double>(falseLit), most * static_cast<double>(covered))
             << covered << ", near " << near << ", pool " << pool;
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ClipmapPaths,
                                          "builtin:far_away"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// Draws the ground alone, of which all must be lit. Returns the finest level that any of it asks for.
+// Draws the ground alone, all of which must be lit. Returns the finest level that it requests.
 float expectLit(double degrees, double scale, const Settings& settings) {
     const Scene scene = groundUnder(sunAt(degrees), {}, scale);
     Renderer renderer(device(), scene, pipelines());
@@ -159,8 +159,8 @@ float expectLit(double degrees, double scale, const Settings& settings) {
     return finest;
 }
 
-// A plane never shadows itself, however the sun grazes it, at any scale, from the finest level to the page of
-// the whole scene.
+// A plane never shadows itself at any grazing angle or scale, from the finest level to the page of the
+// whole scene.
 TEST(ClipmapPlane, IsFullyLit) {
     for (const double degrees : {0.1, 1.0, 10.0, 35.0, 70.0, 90.0})
         for (const int pool : {512, 1})
@@ -171,7 +171,7 @@ TEST(ClipmapPlane, IsFullyLit) {
             expectLit(degrees, scale, paged(GBufferEncoding::standard));
 }
 
-// So near that nothing finer can serve: what float32 rounds of depths and places is hidden by the bias.
+// So near that no finer level exists. The bias hides float32 rounding of depths and positions.
 TEST(ClipmapPlane, IsFullyLitByTheFinestLevel) {
     for (const double degrees : {0.3, 3.0, 20.0, 60.0, 90.0})
         for (const int kernel : {1, 7})
@@ -184,7 +184,7 @@ TEST(ClipmapPlane, IsFullyLitByTheFinestLevel) {
             }
 }
 
-// Nothing casts, or no sun shines: nothing is marked, and everything is seen.
+// Without a caster or a sun, nothing is marked and everything is visible.
 TEST(ClipmapPlane, WithoutASunThereIsNoClipmap) {
     Scene scene = groundUnder(sunAt(45));
     scene.lights.clear();
@@ -202,10 +202,10 @@ TEST(ClipmapPlane, WithoutASunThereIsNoClipmap) {
     }
 }
 
-// ---- pages that are kept -----------------------------------------------------------------------------
+// ---- cached pages -----------------------------------------------------------------------------------
 
-// After a walk, a teleport, a jump of exactly a window's width of a level, and where coordinates are
-// negative: a picture from pages that were kept has the bits of one from pages that are all drawn for it.
+// Images from cached pages equal images from redrawn pages bit for bit: after a walk, a teleport, a jump
+// by exactly one level's window, and at negative coordinates.
 TEST(ClipmapCached, EqualsRedrawn) {
     const Scene scene = loadScene("builtin:gallery");
     Settings settings = paged(GBufferEncoding::standard, 200);
@@ -233,7 +233,8 @@ TEST(ClipmapCached, EqualsRedrawn) {
     settings.camera = cameraAt({-5, 1, -6}, {-1, 0, 0});
     drawnWith(walking, settings, {});
     expectSame("after a teleport");
-    // A level of 16 pages of 32 texels has a window of 17 pages: 17 m of the level with pages of 1 m.
+    // A level of 16 pages of 32 texels has a window of 17 pages: 17 m on the level whose pages are 1 m
+    // wide.
     const SceneView view = makeSceneView(scene, viewRequest(settings));
     const glm::dvec3 across =
         lightSpace(-glm::normalize(glm::dvec3(view.lights.at(*brightestSun(view.lights)).direction))).x;
@@ -244,7 +245,7 @@ TEST(ClipmapCached, EqualsRedrawn) {
     }
 }
 
-// A still camera: pages are drawn before the first frame, and never again.
+// Still camera: pages are drawn before the first frame and never again.
 TEST(ClipmapCached, AStillCameraDrawsNoPageAgain) {
     const Scene scene = groundUnder(sunAt(40), {board(1)});
     Renderer renderer(device(), scene, pipelines());
@@ -255,7 +256,7 @@ TEST(ClipmapCached, AStillCameraDrawsNoPageAgain) {
     }
 }
 
-// One view of a scene whose pose is the test's, drawn from an atlas that outlives it.
+// Renders a view of a scene posed by the test from an atlas that outlives it.
 Image litOf(SharedResources& shared, const SceneView& view, const Settings& settings,
             std::optional<float> poison = {}, ShadowPages* pages = nullptr) {
     PreparedFrame frame(device(), shared, view, settings);
@@ -281,7 +282,7 @@ TEST(ClipmapCached, AMovedCasterIsDrawnAnewAndNothingElse) {
     EXPECT_LT(pages.drawn, pages.requested / 2);
 }
 
-// A page has the same texels, to the bit, when it is drawn with others and in another slot.
+// A page has the same texels, to the bit, drawn together with others and in another slot.
 TEST(ClipmapCached, PagesHaveTheSameTexelsInEverySlot) {
     const Scene scene = loadScene("builtin:gallery");
     Settings settings = paged(GBufferEncoding::standard, 120);
@@ -312,7 +313,7 @@ TEST(ClipmapCached, PagesHaveTheSameTexelsInEverySlot) {
     EXPECT_GT(elsewhere, compared / 4);
 }
 
-// What no page has drawn is never read: slots that are free, and whatever lies beside a page.
+// Undrawn texels are never read: free slots, and texels beside a page.
 TEST(ClipmapCached, NothingReadsWhatWasNotDrawn) {
     for (const int kernel : {1, 7})
         for (const double degrees : {2.0, 40.0, 90.0}) {
@@ -333,7 +334,7 @@ TEST(ClipmapCached, NothingReadsWhatWasNotDrawn) {
         }
 }
 
-// A picture that reads pages which hold nothing of it would pass every comparison with itself.
+// Control: an image that reads no page would pass every comparison with itself.
 TEST(ClipmapCached, PoisonInAPageThatIsReadIsSeen) {
     const Scene scene = groundUnder(sunAt(40), {board(1)});
     const Settings settings = paged(GBufferEncoding::standard);
@@ -347,7 +348,7 @@ TEST(ClipmapCached, PoisonInAPageThatIsReadIsSeen) {
     EXPECT_GT(differingPixels(right, readLit(frame)), right.pixels() / 3);
 }
 
-// The least and the most visibility on the ground where x lies between two values, of the middle.
+// Minimum and maximum visibility on the ground for x in [from, to], near its centre line.
 std::pair<float, float> seenBetween(const Frame& frame, const glm::dvec3& eye, double from, double to) {
     std::pair<float, float> range{2.0f, -1.0f};
     const Image& at = frame.channels.at(position);
@@ -362,8 +363,8 @@ std::pair<float, float> seenBetween(const Frame& frame, const glm::dvec3& eye, d
     return range;
 }
 
-// Where the board's shadow lies is known: with cameras that take each other's slots in a small pool, an entry
-// of the page table that still named the slot of another place would light it, or darken the ground beside.
+// The board's shadow is known. The cameras reuse each other's slots in a small pool. A stale page table
+// entry would light the shadow or darken the ground beside it.
 TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
     const Scene scene = groundUnder(sunAt(45), {board(1)});
     Renderer renderer(device(), scene, pipelines());
@@ -382,7 +383,7 @@ TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
         settings.camera = cameraAt(eye, {-0.3, 0, 0});
         const Frame frame = drawnWith(renderer, settings, {seen, material, position});
         EXPECT_EQ(frame.counters.shadow_pages.fallback, 0u);
-        // A board of 1 m under a sun 45 degrees high, 0.3 radians from +X: 0.955 m.
+        // Shadow length of a 1 m board, sun 45 degrees high and 0.3 radians from +X: 0.955 m.
         const auto [least, dark] = seenBetween(frame, eye, -0.85, -0.1);
         const auto [beside, brightest] = seenBetween(frame, eye, 0.1, 2);
         EXPECT_EQ(dark, 0) << settings.camera;
@@ -393,7 +394,7 @@ TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
     }
 }
 
-// A frame marks what it was served by, in both paths, with and without a depth pre-pass.
+// A frame marks the pages that it used, in both paths, with and without a depth pre-pass.
 TEST(ClipmapMarks, AreTheSameOfEveryDepth) {
     const Scene scene = loadScene("builtin:gallery");
     SharedResources shared(device(), scene, pipelines());

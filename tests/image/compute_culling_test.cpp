@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Triangles that may show, chosen by a kernel into indirect draws (DeviceProfile::culls_by_compute): pictures
-// have the bits of --cull off, and about as much is left out as by the host. What the host draws is compared
-// with --cull off in culling_test.cpp, and a GPU's choices with the device's own in gpu_choices_test.cpp.
+// Triangles culled by a compute shader into indirect draws (DeviceProfile::culls_by_compute). Images equal
+// those of --cull off bit for bit, and about as many triangles are culled as on the host. culling_test.cpp
+// compares the host's culling with --cull off; gpu_choices_test.cpp compares a GPU's choices with the
+// device's own.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -25,7 +26,7 @@ Settings chosenSettings(Path path, Size size = {160, 90}) {
     return settings;
 }
 
-// Tell surfaces apart, and what follows from their light.
+// These distinguish surfaces and their lighting.
 const std::vector<int> chosenChannels{lit, static_cast<int>(gpu::DEBUG_normals),
                                       static_cast<int>(gpu::DEBUG_depth),
                                       static_cast<int>(gpu::DEBUG_material_id)};
@@ -80,7 +81,7 @@ TEST(ComputeCulling, ChangesNoBitOfAssets) {
     if (drawn == 0) GTEST_SKIP() << "none of them is in " << assets().string();
 }
 
-// What reads the choice before the frame, or once more after it.
+// Passes that read the draws before the frame or again after it.
 TEST(ComputeCulling, ChangesNoBitUnderAnySetting) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer gallery(byCompute(), scene, computePipelines());
@@ -115,8 +116,8 @@ DrawnCounts countsOn(Device& on, const std::shared_ptr<PipelineSet>& set, const 
     return drawnCounts(view.draws, shared.geometry, view.culling);
 }
 
-// The kernel looks at each triangle, where the host keeps clusters whole that reach beyond the view, and at
-// samples also where a pixel has several: it leaves out no less.
+// The compute shader tests each triangle; the host keeps clusters that extend beyond the view whole. It
+// also tests samples under MSAA: it culls no less.
 TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
     std::vector<std::string> names{"builtin:spheres", "builtin:gallery", "builtin:mirrored"};
     if (std::filesystem::exists(assets() / "sponza/Sponza.gltf"))
@@ -140,7 +141,7 @@ TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
         }
 }
 
-// More parts than a row of workgroups has.
+// More meshlet ranges than a row of workgroups has.
 TEST(ComputeCulling, ChoosesOfManyMeshes) {
     const Scene scene = loadScene("builtin:array?objects=34000&triangles=68000&meshes=34000");
     Settings settings = chosenSettings(Path::deferred, {1280, 720});
@@ -153,7 +154,7 @@ TEST(ComputeCulling, ChoosesOfManyMeshes) {
     EXPECT_EQ(kernel.vertices, host.vertices);
 }
 
-// A pass before all others, whose indices and draws what draws the scene reads.
+// A pass before all others; passes that draw the scene read its indices and draws.
 TEST(ComputeCulling, IsAPassOfTheFrame) {
     const Scene scene = loadScene("builtin:spheres");
     for (const Path path : drawn_paths) {
@@ -179,7 +180,7 @@ TEST(ComputeCulling, IsAPassOfTheFrame) {
         EXPECT_NE(whole.passes.names().front(), Culling::name);
         EXPECT_TRUE(passesReading(whole, "indirect draws").empty());
     }
-    // Both the host's part and the device's are its time, under one name.
+    // Its time includes the host's part and the device's, under one name.
     Renderer renderer(byCompute(), scene, computePipelines());
     const std::vector<Settings> each{chosenSettings(Path::deferred)};
     PreparedFrames frames = renderer.prepare(each);

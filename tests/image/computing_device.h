@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The device that there is, where a kernel chooses what of a view may show (DeviceProfile::culls_by_compute).
+// The device, with culling by compute shader (DeviceProfile::culls_by_compute).
 #pragma once
 
 #include "tests/image/scenes.h"

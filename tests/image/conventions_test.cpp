@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conventions in which renderers differ, in both paths and the reference: what a coloured layer leaves to the
-// base, how a spot fades, how a light ends at its range.
+// Conventions in which renderers differ, in both paths and the reference: how a coloured layer attenuates
+// the base, how a spot fades, how a light ends at its range.
 #include "compare/cli/explanations.h"
 #include "compare/explain/explain.h"
 #include "shared/contract/debug_mode.h"
@@ -24,7 +24,7 @@ struct Convention {
     bool of_ambient = false;  // whether it changes ambient light too
 };
 
-// Scenes that feel them: coloured layers, spots, lights that end within the view.
+// Scenes sensitive to them: coloured layers, spots, lights that end within the view.
 constexpr std::array conventions{
     Convention{"base-layer", "component", "builtin:dielectrics", Multiscatter::off, true},
     Convention{"base-layer", "component", "builtin:dielectrics", Multiscatter::energy, true},
@@ -46,8 +46,8 @@ Settings withConvention(const Convention& convention, bool switched) {
     return settings;
 }
 
-// Of every channel of light at most 1 % of the pixels lie further from the reference than the paths do
-// without the convention, with a quarter to spare: it adds no error of its own.
+// In every channel of light, the 99th percentile of the error grows by at most a quarter: the convention
+// adds no error of its own.
 TEST_P(Conventions, BothPathsAreTheReference) {
     const Convention& convention = GetParam();
     UploadedScene& scene = uploaded(convention.scene);
@@ -77,7 +77,7 @@ TEST_P(Conventions, BothPathsAreTheReference) {
             EXPECT_LE(p99(drawn[1], path, channel), 1.25 * p99(drawn[0], path, channel) + 1e-5)
                 << drawn[1].paths[path].name << " " << debugMode(channel).name;
         }
-    // And it changes what it is about by far more than that.
+    // It changes its own effect by far more than that.
     const auto change = [&](int channel) {
         const DebugMode& mode = debugMode(channel);
         return channelStats(mode.metric, mode.kind, drawn[0].paths[0].channels.at(channel),
@@ -102,9 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [
            std::string(nameOf(c.multiscatter));
 });
 
-// Another program's picture of the scene: it has these conventions, and says nothing of them nor of its
-// surfaces, which ours are substituted for. Those of a pair may cancel in part (a spot's edge near the end of
-// its range).
+// Another program's image of the scene has these conventions. It declares neither them nor its surfaces,
+// so ours are substituted. Two conventions may partly cancel (a spot's edge near the end of its range).
 TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
     using Words = std::vector<std::pair<std::string, std::string>>;
     const std::pair<const char*, Words> cases[] = {
@@ -144,7 +143,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
         std::ranges::sort(expected);
         EXPECT_EQ(named, expected) << name;
         EXPECT_LE(found.unexplained, 0.01 * found.distance) << name;
-        // The same of a picture that is ours, which says its Settings, is no convention of others.
+        // An image of our own declares its Settings: the same difference is then not a convention.
         other.origin.external = false;
         for (const Cause& cause : explain(device(), renderer, scene, ours, other).causes) {
             EXPECT_NE(cause.name, "--spot-cone");
@@ -153,7 +152,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
     }
 }
 
-// Normals are surfaces': another program's picture alone says how it turns those of skins.
+// Normals are surface data: only an image of another program names its rotation of skinned normals.
 TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
     const Scene scene = loadScene("builtin:motion");
     SceneViews views(scene);

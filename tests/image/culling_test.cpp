@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles that --cull leaves out change no bit of a picture, and a device is spared them.
+// Triangles that --cull removes change no bit of an image, and the device does not process them.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -21,7 +21,7 @@ Settings cullingSettings(Path path, Size size = {160, 90}) {
     return settings;
 }
 
-// What tells surfaces apart, and what follows from their light.
+// These distinguish surfaces and their lighting.
 const std::vector<int> fewChannels{static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
                                    static_cast<int>(gpu::DEBUG_depth),
                                    static_cast<int>(gpu::DEBUG_material_id)};
@@ -108,7 +108,7 @@ TEST(Culling, ChangesNoBitAmongPlacedBalls) {
     }
 }
 
-// Of a ball that is seen from outside at most half is drawn.
+// At most half of a ball seen from outside is drawn.
 TEST(Culling, SparesADeviceWhatFacesAwayAndLiesBeyond) {
     Settings settings = cullingSettings(Path::deferred, {1280, 720});
     const auto counts = [&](bool cull) {

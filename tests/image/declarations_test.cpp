@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the passes of a frame declare: the barriers that follow from it, stage by stage (the validation layer
-// does not see a source stage that is missing), and that no declaration is there in vain.
+// The declared uses of a frame's passes: the barriers that follow from them, stage by stage, and that no
+// declaration is redundant. The validation layer does not detect missing source stages.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/computing_device.h"
@@ -60,7 +60,7 @@ std::string textOf(const RecordedBarrier& barrier) {
                        barrier.from.layout != barrier.to.layout ? ", layout" : "");
 }
 
-// The passes of one path, declared and not run.
+// The passes of one path, declared but not run.
 class Declared {
 public:
     Declared(Path path, Assignment assign, LightKernel kernel = LightKernel::scatter,
@@ -94,7 +94,7 @@ std::vector<std::string> secondRun(const PassList& passes) {
     return lines;
 }
 
-// Of a frame that is drawn again: whatever it writes waits for the readers of the frame before.
+// Barriers of a second frame: every write waits for the previous frame's readers.
 TEST(Declarations, BarriersOfForwardPlusWithClusters) {
     Declared declared(Path::forward_plus, Assignment::clustered);
     EXPECT_EQ(secondRun(declared.passes()),
@@ -124,7 +124,7 @@ TEST(Declarations, BarriersOfForwardPlusWithClusters) {
               }));
 }
 
-// Gather waits for the candidates of tiles and slices; everything else is as with scatter.
+// Gather waits for the candidates of tiles and slices; everything else matches scatter.
 TEST(Declarations, BarriersOfGather) {
     Declared scatter(Path::forward_plus, Assignment::clustered),
         gather(Path::forward_plus, Assignment::clustered, LightKernel::gather);
@@ -148,7 +148,8 @@ TEST(Declarations, BarriersOfGather) {
     EXPECT_EQ(lines, other);
 }
 
-// A kernel that chooses waits for the draws of the frame before, and the first draw of a frame for it.
+// The culling dispatch waits for the previous frame's draws; the frame's first draw waits for the
+// dispatch.
 TEST(Declarations, BarriersOfChosenTriangles) {
     Declared declared(Path::forward_plus, Assignment::every, LightKernel::scatter, "point:40",
                       Lighting::fragment, byCompute(), computePipelines());
@@ -164,7 +165,7 @@ TEST(Declarations, BarriersOfChosenTriangles) {
                      }));
 }
 
-// Clusters need no depth: nothing of them waits for the G-buffer. Tiles do.
+// Clusters need no depth, so they do not wait for the G-buffer. Tiles do.
 TEST(Declarations, OnlyTilesWaitForDepth) {
     for (const Assignment assign : {Assignment::clustered, Assignment::tiled}) {
         Declared declared(Path::deferred, assign);
@@ -175,9 +176,8 @@ TEST(Declarations, OnlyTilesWaitForDepth) {
     }
 }
 
-// The declarations without which the barriers of two frames are the same, and which no other declaration
-// covers: without that one, too, they would differ. Those that are covered are kept among the test's results,
-// with what covers them.
+// Declarations that change no barrier of two frames when removed, and that no other declaration covers:
+// removing that one too would change barriers. Covered ones are recorded with the test's results.
 std::string inVain(const PassList& passes) {
     const std::vector<DeclaredUse> all = passes.declarations();
     const std::vector<RecordedBarrier> whole = passes.plannedBarriers(2);
@@ -227,8 +227,7 @@ TEST(Declarations, OneInVainIsFound) {
     EXPECT_EQ(inVain(passes), "idle: uploaded\n");
 }
 
-// The sums of batches of lights hand their memory on: two batches' sums at a time are needed, whatever their
-// number.
+// Partial sums of light batches reuse memory: two batches are live at a time, however many there are.
 TEST(Declarations, PartialSumsShareMemory) {
     Declared declared(Path::deferred, Assignment::every, LightKernel::scatter, "point:200000");
     std::size_t batches = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light of an environment in both paths against the reference that integrates it: approximations pass by what
-// they cost, and faults do not.
+// Environment light in both paths against the reference, which integrates it. The approximations pass
+// within their known error; faults fail.
 #include "compare/verdict/pair_reports.h"
 #include "tests/bench/environment_errors.h"
 #include "tests/image/scenes.h"
@@ -12,7 +12,7 @@
 namespace diptych::tests {
 namespace {
 
-// White spheres from smooth to rough, of metal and not, under a sky with a lamp; nothing else lights them.
+// White spheres from smooth to rough, metal and dielectric, lit only by a sky with a lamp.
 Scene spheresUnderLamp() {
     Scene scene = loadScene("builtin:furnace");
     scene.environment = environment_errors::lampSky(64);
@@ -38,7 +38,7 @@ public:
         options.environment_errors = true;
         reference_ = renderer_.draw(truth, options);
     }
-    // The paths as drawn by `drawn` of `scene`, and changed by `plant`.
+    // Draws `scene` with settings `drawn`, then modifies the frames by `plant`.
     Report verdict(const Scene& scene, const Settings& drawn,
                    const std::function<void(Frame&)>& plant = {}) const {
         std::vector<Frame> frames{reference_};
@@ -63,7 +63,7 @@ private:
     Frame reference_;
 };
 
-// What fails of both paths against the reference.
+// Failed channels of both paths against the reference.
 std::vector<std::string> failing(const Report& report) {
     std::vector<std::string> names;
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
@@ -110,7 +110,7 @@ TEST(EnvironmentReference, AWrongRotationFails) {
             EXPECT_TRUE(fails(report, path, mode)) << path << " " << mode;
 }
 
-// A level of the maps is half an octave of alpha.
+// One level of the maps is half an octave of alpha.
 TEST(EnvironmentReference, AMapOneLevelOffFails) {
     Scene scene = lampJudged().scene();
     for (Material& m : scene.materials)
@@ -128,7 +128,7 @@ TEST(EnvironmentReference, WithoutOneOverPiItFails) {
     for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit_diffuse)) << path;
 }
 
-// A tenth is more than all that is granted where the approximations are nearly right.
+// A tenth exceeds the whole tolerance where the approximations are nearly exact.
 TEST(EnvironmentReference, ABrighterEnvironmentFails) {
     Settings settings = lampJudged().settings();
     settings.ibl_intensity = 1.1f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sun of an environment as a light of both paths and of the reference.
+// The sun of an environment as a light, in both paths and the reference.
 #include "shared/scene/lights/environment_sun.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
@@ -21,7 +21,7 @@ constexpr int sunDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
               sunIds = static_cast<int>(gpu::DEBUG_material_id);
 const std::vector<int> sunChannels{lit, sunDiffuse, sunSeen, sunIds};
 
-// Radiance 0.5, and a texel of 2000 towards about (1, 0, 1).
+// Radiance 0.5, and a texel of 2000 at about (1, 0, 1).
 constexpr int sunColumn = 112, sunRow = 31;
 constexpr double even = 0.5, bright = 2000;
 Environment sunny() {
@@ -37,7 +37,7 @@ const double sunLux =
     (bright - even) * 2 * std::numbers::pi / 128 *
     (std::cos(std::numbers::pi * sunRow / 64) - std::cos(std::numbers::pi * (sunRow + 1) / 64));
 
-// The white Lambertian square, and a small one whose shadow falls on its middle.
+// The white Lambertian square, and a small one whose shadow falls on its centre.
 Scene sunlitSquare() {
     Scene scene = square();
     scene.environment = sunny();
@@ -69,8 +69,9 @@ Frame referenceOf(Renderer& renderer, Settings settings) {
     return renderer.draw(settings, options);
 }
 
-// E / pi of the even rest everywhere, and of the sun beside its shadow; of one texel at the horizon its solid
-// angle is that of its tent within 0.1 %. What the reference samples of the even rest is within 1 % of it.
+// Expected: E / pi of the uniform sky everywhere, plus the sun outside its shadow. The solid angle of a
+// texel at the horizon equals that of its tent filter within 0.1 %. The reference's samples of the uniform
+// sky are within 1 %.
 TEST(EnvironmentSunLight, LightsAndCastsShadows) {
     const Scene scene = sunlitSquare();
     Renderer renderer(device(), scene, pipelines());
@@ -95,7 +96,7 @@ TEST(EnvironmentSunLight, LightsAndCastsShadows) {
     }
 }
 
-// Turned by half a turn the sun is behind the square: nothing of it but the even rest, twice.
+// Rotated by 180 degrees the sun is behind the square: only the uniform sky remains, at intensity 2.
 TEST(EnvironmentSunLight, TurnsAndIsScaledWithTheEnvironment) {
     const Scene scene = sunlitSquare();
     Renderer renderer(device(), scene, pipelines());
@@ -116,7 +117,8 @@ TEST(EnvironmentSunLight, TurnsAndIsScaledWithTheEnvironment) {
     }
 }
 
-// The background is the picture, which has its sun; and where light is from all of it, it is the same light.
+// The background is the environment image, sun included. A path that integrates the whole image gets the
+// same light.
 TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
     Scene scene = sunlitSquare();
     scene.nodes.pop_back();
@@ -134,7 +136,7 @@ TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
     }
     const Frame with = referenceOf(renderer, settings), off = referenceOf(renderer, without);
     EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data);
-    // The reference samples the sun as a part of the picture.
+    // The reference samples the sun as part of the image.
     settings.camera.clear();
     without.camera.clear();
     settings.shadows = without.shadows = Shadows::off;
@@ -143,7 +145,7 @@ TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
     EXPECT_NEAR(as_light, as_picture, 0.01 * as_picture);
 }
 
-// One view for all rotations where there is no sun to turn; one picture for both where none is found.
+// All rotations share one view if the sun is not a light; images are equal if none is found.
 TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
     Scene scene = sunlitSquare();
     scene.environment = Environment{"even", Image(128, 64, 3, 0.5f)};
@@ -156,7 +158,7 @@ TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
                     off = drawnBy(path, renderer, without, sunChannels);
         EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data) << with.name;
         EXPECT_TRUE(std::ranges::any_of(with.notes, [](const std::string& note) {
-            return note.starts_with("environment: --env-sun on: no spot ");
+            return note.starts_with("environment: --env-sun on: no compact spot ");
         }));
     }
     without.env_rotation = 30;
@@ -166,7 +168,7 @@ TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
     EXPECT_EQ(&first, &views.at(viewRequest(without)));
 }
 
-// All that the paths make of a scene under it, shadows and other lights too, they make alike.
+// Both paths render scenes under it alike, including shadows and other lights.
 TEST(EnvironmentSunLight, BothPathsAreEqualBitForBit) {
     Scene scene = loadScene("builtin:lightmaps");
     scene.environment = sunny();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light of an environment in both paths: against closed forms, ambient light, and the reference.
+// Environment light in both paths: compared with closed forms, ambient light, and the reference.
 #include "compare/reference/environment.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
@@ -42,7 +42,7 @@ Environment constantSky(float radiance) {
     return {"sky", Image(8, 4, 3, radiance)};
 }
 
-// Each of +X, -X, +Y, -Y, +Z, -Z has a colour of its own, within 45 degrees of it.
+// Each of +X, -X, +Y, -Y, +Z, -Z has its own colour, within 45 degrees.
 const std::array<glm::vec3, 6> painted{{{1, 0, 0}, {0, 1, 1}, {0, 1, 0}, {1, 0, 1}, {0, 0, 1}, {1, 1, 0}}};
 const std::array<glm::vec3, 6> axes{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 std::size_t axisOf(const glm::dvec3& d) {
@@ -64,7 +64,8 @@ Environment paintedSky() {
     return sky;
 }
 
-// The square as a smooth metal mirrors what is behind the camera, and the background shows what is before it.
+// The square, a smooth metal, mirrors what is behind the camera; the background shows what is in front of
+// it.
 TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
     Scene scene = square();
     scene.environment = paintedSky();
@@ -75,7 +76,7 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
     for (const Frame& frame : bothPaths(renderer, underSky({17, 17}), shown))
         expectColor(colorAt(frame, lit, 8, 8), painted[4], 1e-3f, frame.name + " mirrors +Z");
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        // From before the square, beside whose plane nothing is.
+        // From in front of the square, with nothing beside its plane.
         Settings settings = underSky({9, 9});
         const glm::vec3 eye(0, 0, 20), to = eye + axes[i];
         settings.camera =
@@ -87,7 +88,7 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
                 EXPECT_EQ(colorAt(frame, term, 4, 4), glm::vec3(0)) << "the background is no light term";
         }
     }
-    // Turned counter-clockwise seen from above, what was at +X comes to -Z.
+    // Rotated counter-clockwise seen from above, +X moves to -Z.
     Settings turned = underSky({9, 9});
     turned.camera = "eye=0,0,20 target=0,0,-1 fov=5 near=0.1 far=10";
     turned.env_rotation = 90;
@@ -99,7 +100,7 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
         expectColor(colorAt(frame, lit, 4, 4), 2.0f * painted[1], 2e-3f, frame.name + " mirrors what was -X");
 }
 
-// Radiance 1 from everywhere is what --ambient is, for each way of making light of it but samples.
+// A uniform sky equals --ambient, for every method except sampling.
 TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
     Scene scene = loadScene("builtin:dielectrics");
     scene.environment = constantSky(0.75f);
@@ -128,7 +129,7 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
     }
 }
 
-// Its channel is the same whatever lights shine beside it, in one draw or in several.
+// The environment's channel is independent of other lights, in one draw or several.
 TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     Scene scene = square();
     scene.environment = paintedSky();
@@ -153,7 +154,7 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     }
 }
 
-// The samples estimate the same integral: of a metal at every angle that the square shows.
+// Sampling estimates the same integral: of a metal at every angle in view.
 TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
     Scene scene = square();
     scene.environment = constantSky(1);
@@ -172,8 +173,8 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
     }
 }
 
-// What shaders/lib/environment.glsl takes by samples of a mirror-like or rough white metal in z = 0, in
-// double: each reads the level whose texels are as large as its share of the solid angle.
+// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each sample
+// reads the level whose texels match its solid angle.
 double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dvec3& v, int count,
                     double bias) {
     const double alpha = roughness * roughness, pi = std::numbers::pi;
@@ -195,7 +196,9 @@ double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dv
         if (l.z <= 0) continue;
         const double t = h.z * h.z * (alpha * alpha - 1) + 1;
         const double density = alpha * alpha / (pi * t * t * 4 * v.z * (1 + lambda(v.z)));
-        // The map has 4 / side^2 of [-1, 1]^2 a texel, of |d|_1^3 as much in sr (octahedral_map.h).
+        // A texel covers 4 / side^2 of [-1, 1]^2, and that times
+        // d
+        // _1^3 in sr (octahedral_map.h).
         const double l1 = std::abs(l.x) + std::abs(l.y) + std::abs(l.z), side = maps.levels[0].side;
         const double texel = 4 / (side * side) * l1 * l1 * l1;
         const double last = static_cast<double>(maps.levels.size()) - 1;
@@ -210,7 +213,7 @@ double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dv
     return sum / count;
 }
 
-// Under a sky of noise, each level of which is another picture.
+// Under a noise sky, of which each level is a different image.
 TEST(EnvironmentLight, ASampleReadsTheLevelOfItsSolidAngle) {
     Scene scene = square();
     Image noise(64, 32, 3);
@@ -233,7 +236,7 @@ TEST(EnvironmentLight, ASampleReadsTheLevelOfItsSolidAngle) {
         const Frame frame = drawnBy(Path::forward_plus, renderer, settings, shown);
         for (int y = 0; y < 17; y += 4)
             for (int x = 0; x < 17; x += 4) {
-                if (x == 8 && y == 8) continue;  // where every axis across the view is right
+                if (x == 8 && y == 8) continue;  // where any tangent axis is correct
                 const glm::dvec3 p((x + 0.5) / 8.5 - 1, 1 - (y + 0.5) / 8.5, 0);
                 const double expected = sampledWhite(
                     maps, double{roughness}, glm::normalize(glm::dvec3(0, 0, 1) - p), 16, double{bias});
@@ -250,7 +253,7 @@ TEST(EnvironmentLight, OcclusionTexturesDimIt) {
     m.metallic = 0;
     m.base_color = {0.5f, 0.5f, 0.5f, 1};
     const std::vector<Frame> open = bothPaths(scene, underSky({4, 4}), shown);
-    m.occlusion_texture.texture = 0;  // 1 and 0 above, 0 and 0.2 below; red
+    m.occlusion_texture.texture = 0;  // red: 1 and 0 above, 0 and 0.2 below
     m.occlusion_strength = 0.75f;
     const std::vector<Frame> dimmed = bothPaths(scene, underSky({4, 4}), shown);
     for (std::size_t i = 0; i < 2; ++i)
@@ -262,8 +265,8 @@ TEST(EnvironmentLight, OcclusionTexturesDimIt) {
         }
 }
 
-// Frames of builtin:lightmaps under an even sky alone. Of its materials the first of the tiles has no
-// lightmap, and the last is unlit; the wall's is black here, which is a lightmap too.
+// Frames of builtin:lightmaps under a uniform sky alone. The first tile's material has no lightmap, the
+// last one's is unlit. The wall's lightmap is set to black, which still counts as a lightmap.
 constexpr float unmapped = 4, unlit = 8;
 class LightmapsUnderSky {
 public:
@@ -292,7 +295,7 @@ public:
     Scene scene = loadScene("builtin:lightmaps");
 };
 
-// Wherever a lightmap lights the base, and there alone, the environment does not; in every encoding.
+// A base lit by a lightmap gets no environment light; every other base does. In every encoding.
 TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     LightmapsUnderSky lightmaps;
     std::set<float> mapped;
@@ -318,13 +321,13 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     for (const int mode : shown)
         EXPECT_EQ(differingPixels(full[0].channels.at(mode), full[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
-    // The floor's beyond what 9.9.9.e5 holds.
+    // The floor's lightmap exceeds the range of 9.9.9.e5.
     lightmaps.scene.materials[0].lightmap_intensity = 1e4f;
     check(lightmaps.paths(GBufferEncoding::standard), " wide ");
 }
 
-// The reference samples until it is sure of 1 %, with 95 % confidence: of some thousand pixels the worst may
-// be off by three times that (one was by 2.1 %).
+// The reference samples until its 95 % confidence interval is within 1 %. Of some thousand pixels the
+// worst may deviate by three times that (one deviated by 2.1 %).
 TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
     const LightmapsUnderSky lightmaps;
     const Frame truth = lightmaps.reference();
@@ -342,7 +345,7 @@ TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
         }
 }
 
-// No pass, and no feature, where there is no environment or its intensity is 0.
+// No pass and no feature without an environment or at intensity 0.
 TEST(EnvironmentLight, NothingIsAddedWhereThereIsNone) {
     const auto isDrawn = [](const Scene& scene, const Settings& settings) {
         SharedResources shared(device(), scene, pipelines());
@@ -367,7 +370,7 @@ TEST(EnvironmentLight, NothingIsAddedWhereThereIsNone) {
     }
 }
 
-// With --gbuffer full nothing is lost between the two, whatever way the environment is taken.
+// With --gbuffer full both paths are equal, however the environment is evaluated.
 TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
     Scene scene = loadScene("builtin:gallery");
     scene.environment = paintedSky();
@@ -388,8 +391,8 @@ TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
 
 class AssetEnvironment : public testing::TestWithParam<std::string> {};
 
-// The same of real scenes under 256 lights, in haze, with shadows of the sun and of lamps; where something is
-// blended, in every way to put that together.
+// The same for real scenes with 256 lights, haze, and shadows of the sun and lamps. Scenes with blending
+// use every transparency mode.
 TEST_P(AssetEnvironment, IsEqualBitForBit) {
     const std::filesystem::path file = assets() / GetParam();
     if (!std::filesystem::exists(file))
@@ -416,7 +419,7 @@ TEST_P(AssetEnvironment, IsEqualBitForBit) {
             EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << name << ": " << frame.name;
             EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << name << ": " << frame.name;
         }
-        if (!blends) break;  // no other has a pass: Transparent.WithoutBlendingThereIsNoPass
+        if (!blends) break;  // other modes add no pass: Transparent.WithoutBlendingThereIsNoPass
     }
 }
 
@@ -424,7 +427,7 @@ INSTANTIATE_TEST_SUITE_P(Asset, AssetEnvironment, testing::ValuesIn(assetScenes(
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// Turned with everything in it, a scene looks the same: maps have no direction of their own.
+// A scene rotated with its environment and camera looks the same: the maps favour no direction.
 TEST(EnvironmentLight, TurnsWithTheScene) {
     constexpr float degrees = 37;
     Scene scene = loadScene("builtin:gallery");
@@ -453,7 +456,7 @@ TEST(EnvironmentLight, TurnsWithTheScene) {
     }
 }
 
-// The background is the picture itself; what is left of it in float32 is an angle of 1e-6.
+// The background is the environment image itself; float32 leaves an angular error of 1e-6.
 TEST(EnvironmentLight, TheBackgroundIsThePicture) {
     Scene scene = square();
     scene.environment = paintedSky();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// --textures exact: both paths come near to the reference in mode scene, which decodes and filters texels in
-// double, where a device's own decoding and filters keep them apart.
+// --textures exact: both paths come close to the reference in mode scene, which decodes and filters texels
+// in double. A device's own decoding and filtering do not.
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/scene/scene_view.h"
@@ -30,7 +30,7 @@ Frame tracedScene(const Scene& scene, Settings settings) {
     return drawReferenceFrame(scene, views.at(viewRequest(settings)), settings, nullptr, options);
 }
 
-// Magnified noise of 8 bits in the slots of colours and of numbers.
+// Magnified 8-bit noise in colour and non-colour slots.
 Scene noisySquare() {
     Scene scene = square();
     TextureImage image{"noise", 6, 6, {}};
@@ -55,9 +55,8 @@ double largestError(const Frame& frame, const Frame& truth, gpu::uint mode) {
     return most;
 }
 
-// Numbers of 16 bits are off by a step of them, 1.5e-5, and by float32's texture coordinates; colours by half
-// a step of a half float below 1, 2.4e-4. The device's own 8 bits may be off by a whole code, 3.9e-3, and
-// lavapipe's are.
+// 16-bit values err by a step, 1.5e-5, plus float32's texture coordinates; colours by half a ULP of a half
+// float below 1, 2.4e-4. A device's own 8-bit filtering may be off by a whole code, 3.9e-3; lavapipe's is.
 TEST(ExactTextures, AreFilteredAsTheReferenceDoes) {
     const Scene scene = noisySquare();
     const Frame truth = tracedScene(scene, texturedPicture(TexturePrecision::device));
@@ -87,7 +86,7 @@ TEST(ExactTextures, AreFilteredAsTheReferenceDoes) {
 
 struct CloseUp {
     double normals = 0;  // degrees, 99th percentile
-    double lit = 0;      // share of pixels that are off by over 2 %
+    double lit = 0;      // fraction of pixels off by over 2 %
 };
 CloseUp closeUpOf(const Frame& frame, const Frame& truth) {
     const auto channel = [](const Frame& of, gpu::uint mode) -> const Image& {
@@ -114,8 +113,8 @@ CloseUp closeUpOf(const Frame& frame, const Frame& truth) {
             static_cast<double>(off) / static_cast<double>(degrees.size())};
 }
 
-// So near that texels are magnified: what is left is level of detail, edges and half floats. The table of
-// shared/material/MEASURED.md.
+// So close that texels are magnified: the remaining differences are level of detail, edges and half
+// floats. Table in shared/material/MEASURED.md.
 TEST(ExactTextures, BringAHelmetNearToTheReference) {
     const std::filesystem::path file = assets() / "flight_helmet/FlightHelmet.gltf";
     if (!std::filesystem::exists(file))

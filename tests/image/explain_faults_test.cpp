@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often an explanation names what was planted: more than fifty single faults, each in at least twenty
-// views that feel it, and pairs of them.
+// How often an explanation names an injected fault: over fifty single faults, each in at least twenty
+// views that are sensitive to it, and pairs of them.
 #include "tests/image/injected_faults.h"
 
 #include <fmt/format.h>
@@ -16,14 +16,15 @@
 namespace diptych::tests {
 namespace {
 
-// Of each fault and each pair; and no more, as all of them take a minute.
+// Number of views for each fault and each pair; all of them would take a minute.
 constexpr std::size_t leastCases = 20, leastPairCases = 10;
 
 bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
 }
 
-// Shares and what is unexplained are the difference, of FLIP too, and so are their maps at every pixel.
+// The shares and the unexplained part add up to the difference, also for FLIP, and so do their maps at
+// every pixel.
 bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
     double all = e.unexplained, flip = e.flip_unexplained;
     for (const Cause& cause : e.causes) all += cause.share, flip += cause.flip;
@@ -37,7 +38,7 @@ bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
             sum += double{cause.map.pixel(p)[0]};
             size += std::abs(double{cause.map.pixel(p)[0]});
         }
-        // Floats, and exposure that is taken off lit and put on again.
+        // Float rounding, and exposure divided out of lit and reapplied.
         if (std::abs(sum - difference) > 1e-6 * (size + e.distance)) return false;
     }
     return true;
@@ -55,7 +56,7 @@ std::string listed(const Explanation& e) {
 
 struct Tally {
     std::size_t cases = 0, named = 0;
-    double share = 0;  // of those that are named, the sum
+    double share = 0;  // sum over the named ones
     std::string missed{};
 
     double rate() const { return cases > 0 ? static_cast<double>(named) / static_cast<double>(cases) : 0.0; }
@@ -71,7 +72,7 @@ struct Tally {
     }
 };
 
-// Each single fault is named first in 95 % of the views that feel it.
+// Each single fault is named first in 95 % of the views that are sensitive to it.
 TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     const std::vector<InjectedFault>& faults = injectedFaults();
     ASSERT_GE(faults.size(), 50u);
@@ -96,7 +97,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
-// The light that a fault is of has the largest part of its causes' shares.
+// The light with the fault has the largest part of its causes' shares.
 TEST(ExplainFaults, TheLightIsNamedToo) {
     for (const InjectedFault& fault : injectedFaults()) {
         if (!fault.of_first_light) continue;
@@ -120,8 +121,8 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
     }
 }
 
-// Two faults of which each is felt alone. `sign`: of their interaction, where it is known: -1 where one makes
-// the other redundant, 1 where each hides what the other does.
+// Two faults, each visible alone. `sign`: of their interaction, if known: -1 if one makes the other
+// redundant, 1 if each hides the other.
 struct InjectedPair {
     const char *first, *second;
     int sign = 0;
@@ -150,12 +151,12 @@ constexpr InjectedPair injectedPairs[] = {
     {"emission is missing from the sum", "albedo of 4 bits"},
     {"an environment is turned by 90 degrees", "albedo as BGR"},
     {"an environment is turned by 180 degrees", "blended surfaces are left out"},
-    // Both make lit brighter by a factor: either one taken back takes most of it.
+    // Both brighten lit by a factor: correcting either removes most of it.
     {"albedo sRGB taken for linear", "exposure is doubled", -1},
     {"emission doubled", "exposure is doubled", -1},
     {"occlusion left out", "ambient light is doubled", -1},
     {"the diffuse lobe lacks its pi", "exposure is doubled", -1},
-    // One gives back what the other takes.
+    // One restores what the other removes.
     {"albedo decoded twice", "the diffuse lobe lacks its pi", 1},
     {"the diffuse lobe lacks its pi", "exposure is halved", 1},
     {"albedo decoded twice", "exposure is doubled", 1},
@@ -163,7 +164,7 @@ constexpr InjectedPair injectedPairs[] = {
     {"emission doubled", "emission is missing from the sum", 1},
 };
 
-// The two causes with the largest shares, whatever their sign.
+// The two causes with the largest absolute shares.
 std::vector<std::string> largestTwo(const Explanation& e) {
     std::vector<std::pair<double, std::string>> shares;
     for (const Cause& cause : e.causes) shares.emplace_back(std::abs(cause.share), cause.name);
@@ -174,7 +175,7 @@ std::vector<std::string> largestTwo(const Explanation& e) {
     return names;
 }
 
-// One of the two is of the first fault and the other of the second.
+// One of the two names belongs to each fault.
 bool areBoth(const std::vector<std::string>& two, const InjectedFault& first, const InjectedFault& second) {
     return two.size() == 2 && ((isAmong(first.named, two[0]) && isAmong(second.named, two[1])) ||
                                (isAmong(first.named, two[1]) && isAmong(second.named, two[0])));
@@ -187,8 +188,8 @@ double interactionOf(const Explanation& e, const InjectedFault& first, const Inj
     return 0;
 }
 
-// Both of two faults are named by the two largest shares, or as a pair that interacts; redundant and
-// cancelling ones among them.
+// Both of two faults are named by the two largest shares or as an interacting pair; including redundant
+// and cancelling faults.
 TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
     ASSERT_GE(std::size(injectedPairs), 20u);
     std::string table = fmt::format("{:<92} {:>3} {:>6}   {}\n", "pair", "in", "named", "interaction");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Explanations of differences whose causes are known, because they were planted.
+// Explanations of differences with injected, known causes.
 #include "compare/explain/explain.h"
 #include "compare/explain/lighting_components.h"
 #include "compare/picture/picture.h"
@@ -32,7 +32,7 @@ Settings explained(Size size) {
     return settings;
 }
 
-// A fault of a channel: what it makes of a pixel.
+// A fault of a channel: `plant` modifies a pixel.
 struct Fault {
     std::string channel;
     std::string means;
@@ -67,7 +67,7 @@ std::vector<Fault> faults() {
     };
 }
 
-// A scene drawn by forward+, and copies of its Frame with planted faults.
+// A scene rendered by forward+, and copies of its Frame with injected faults.
 class Injected {
 public:
     Injected(const std::string& name, Size size)
@@ -76,7 +76,7 @@ public:
         right = drawnBy(Path::forward_plus, renderer, settings, modes);
     }
 
-    // The Frame that a renderer with these faults would have drawn.
+    // The Frame that a renderer with these faults would produce.
     Frame with(const std::vector<Fault>& injected) {
         Frame frame = right;
         SurfaceImages images(device(), settings.size);
@@ -109,7 +109,7 @@ double sumOfShares(const Explanation& e) {
                            [](double sum, const Cause& cause) { return sum + cause.share; });
 }
 
-// All maps together are the difference at each pixel, and each one's mean is its share.
+// The maps sum to the difference at each pixel, and each map's mean is its share.
 void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& test) {
     const Image &a = baseline.channels.at(lit), &b = test.channels.at(lit);
     const auto mean = [](const Image& map) {
@@ -138,15 +138,14 @@ std::vector<std::string> names(const Explanation& e) {
     return all;
 }
 
-// Whether lit has changed enough for anything to be explained: a scene without metal cannot feel a fault of
-// it.
+// Whether lit changed at all: a scene without metal, for instance, is not sensitive to a metallic fault.
 bool hasEffect(const Explanation& e) {
     return e.distance > 0;
 }
 
 class ExplainOf : public testing::TestWithParam<const char*> {};
 
-// Each fault alone is the only cause, explains all, and shares add up.
+// Each fault alone is the only cause, explains everything, and shares add up.
 TEST_P(ExplainOf, NamesEachPlantedFault) {
     Injected injected(GetParam(), {96, 54});
     int effective = 0;
@@ -163,7 +162,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         const Frame test = injected.with({fault});
         expectMapsAddUp(e, injected.right, test);
         if (e.causes.size() > 1) continue;
-        // The map: of one cause it is the difference itself.
+        // Of a single cause the map is the difference itself.
         const Image &a = injected.right.channels.at(lit), &b = test.channels.at(lit);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < a.pixels(); ++p)
@@ -177,7 +176,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
-// Of two faults both are named before anything else, whichever is larger.
+// Both of two faults are named before anything else, whichever is larger.
 TEST_P(ExplainOf, NamesBothOfTwoFaults) {
     Injected injected(GetParam(), {96, 54});
     const std::vector<Fault> all = faults();
@@ -188,7 +187,7 @@ TEST_P(ExplainOf, NamesBothOfTwoFaults) {
                                       injected.with({all[first], all[second]}));
         const std::vector<std::string> found = names(e);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
-        if (found.size() < 2) continue;  // the scene cannot feel one of them
+        if (found.size() < 2) continue;  // the scene is insensitive to one of them
         ++effective;
         EXPECT_EQ(found.size(), 2u);
         EXPECT_TRUE(std::ranges::count(found, all[first].channel) == 1 &&
@@ -210,13 +209,13 @@ TEST(Explain, OfTheSameFrameHasNoCause) {
     EXPECT_TRUE(std::ranges::all_of(e.dominant.data, [](float place) { return place < 0; }));
 }
 
-// Two faults that hide each other: what one takes from the light the other gives back.
+// Two faults that hide each other: one restores the light that the other removes.
 TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
     Injected injected("builtin:points", {64, 36});
     const Fault darker{"albedo", "halved", [](float* p) {
                            for (int c = 0; c < 3; ++c) p[c] *= 0.5f;
                        }};
-    // The emission that makes lit what it was, nearly.
+    // Emission that nearly restores lit.
     const Frame dark = injected.with({darker});
     const Image &was = injected.right.channels.at(lit), &is = dark.channels.at(lit);
     Frame hidden = dark;
@@ -240,7 +239,7 @@ TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
-// A Setting that differs is a cause beside channels that differ, and what it changes is found where it is.
+// A differing Setting is a cause like a differing channel, and its effect is located in the image.
 TEST(Explain, SettingsAreCauses) {
     Injected injected("builtin:points", {64, 36});
     for (const auto& [option, value] : {std::pair<std::string, std::string>{"ambient", "0.2,0.2,0.2"},
@@ -258,8 +257,8 @@ TEST(Explain, SettingsAreCauses) {
     }
 }
 
-// The packed G-buffer's channels explain all that deferred differs by: its background and its blended
-// surfaces are forward+'s.
+// The packed G-buffer's channels explain deferred's whole difference: both paths share the background and
+// blended surfaces.
 TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
     for (const char* name : {"builtin:gallery", "builtin:glass"}) {
         const Scene scene = loadScene(name);
@@ -287,7 +286,7 @@ std::vector<int> withTerms() {
     return modes;
 }
 
-// lit as another renderer with these terms would have it, where nothing is blended.
+// lit as a renderer with these terms would sum it, where nothing is blended.
 void sumTerms(Frame& frame) {
     const auto data = [&](gpu::uint number) { return frame.channels.at(mode(number)).data.data(); };
     Image& sum = frame.channels.at(lit);
@@ -300,7 +299,7 @@ void sumTerms(Frame& frame) {
         if (ids[i / 3] >= 0) out[i] = (((d[i] + s[i]) + a[i]) + e[i]) * t[i] + h[i];
 }
 
-// A renderer that does one stage otherwise is told which, and all its difference is there.
+// Names the lighting component that a renderer computes differently, with all of the difference.
 TEST(Explain, NamesTheStageThatTermsDifferIn) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());
@@ -340,7 +339,7 @@ TEST(Explain, NamesTheStageThatTermsDifferIn) {
     }
 }
 
-// A channel and a stage at once, and direct light that is seen otherwise.
+// A channel and a component at once, and direct light whose visibility differs.
 TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());
@@ -369,8 +368,8 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
-// A shadow that is missing is the sun's whose shadow it is, though that sun lights nothing there where
-// shadows are drawn.
+// A missing shadow is attributed to the sun that would cast it, although that sun lights nothing there in
+// the frame with shadows.
 TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
     const Scene scene = loadScene("builtin:suns");
     Renderer renderer(device(), scene, pipelines());
@@ -392,7 +391,7 @@ TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
     }
 }
 
-// Without terms the same difference is what no cause explains.
+// Without terms the same difference stays unexplained.
 TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
     Injected injected("builtin:points", {32, 18});
     Frame test = injected.right;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Magnified, linearly filtered textures of both paths against the reference in
-// mode scene, whose filter is the same there: a device may be off by what a
-// probe of it measures for the texels that a pixel mixes, and no more.
+// Magnified, linearly filtered textures of both paths against the reference in mode scene, which filters
+// alike. A device may deviate by what a probe measures for the texels that a pixel mixes.
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
@@ -15,7 +14,7 @@ namespace {
 
 constexpr int filteredTexels = 6, filteredPixels = 60;
 
-// Noise of codes that differ from texel to texel by none to all.
+// Noise in which neighbouring codes differ by little to everything.
 Scene filteredSquare() {
     Scene scene = square();
     TextureImage image{"noise", filteredTexels, filteredTexels, {}};
@@ -36,7 +35,7 @@ Scene filteredSquare() {
 
 struct FilteredChannel {
     gpu::uint mode;
-    std::vector<std::size_t> components;  // of the texel, one for each of the channel's
+    std::vector<std::size_t> components;  // texel component for each component of the channel
     bool srgb;
 };
 const std::array filteredChannels{FilteredChannel{gpu::DEBUG_albedo, {0, 1, 2}, true},
@@ -64,8 +63,7 @@ double rangeAt(const TextureImage& image, const TexelDecode& decode, std::size_t
     return most - least;
 }
 
-// Values of a channel that are further from the reference than `grant` of the
-// bound permits.
+// Number of values of a channel whose error exceeds `grant` times the bound.
 std::size_t beyondBound(const Frame& frame, const Frame& reference, const TextureImage& image,
                         const FilteredChannel& channel, const TextureSampling& sampling, double grant) {
     const int mode = static_cast<int>(channel.mode);
@@ -76,7 +74,7 @@ std::size_t beyondBound(const Frame& frame, const Frame& reference, const Textur
             for (std::size_t c = 0; c < channel.components.size(); ++c) {
                 const double range =
                     rangeAt(image, sampling.decode(channel.srgb), channel.components[c], x, y);
-                // A texel's share is a product of two in float coordinates.
+                // A texel's weight is a product of two float coordinates.
                 const double allowed = grant * bound.of(range) + 4 * 0x1p-23 * filteredTexels;
                 const double off = double{frame.channels.at(mode).at(x, y, static_cast<int>(c))} -
                                    double{reference.channels.at(mode).at(x, y, static_cast<int>(c))};
@@ -100,7 +98,7 @@ TEST(TextureFilters, AreOffByWhatTheDeviceMeasuresAndNoMore) {
         return drawReferenceFrame(of, views.at(viewRequest(asked)), asked, nullptr, options);
     };
     const Scene decoded = withDecodedColors(scene, sampling.srgb);
-    Scene moved = decoded;  // the negative control: by a twentieth of a texel
+    Scene moved = decoded;  // the negative control: shifted by a twentieth of a texel
     for (const auto slot :
          {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::occlusion_texture,
           &Material::emissive_texture, &Material::specular_texture})
@@ -116,7 +114,7 @@ TEST(TextureFilters, AreOffByWhatTheDeviceMeasuresAndNoMore) {
             };
             EXPECT_EQ(beyond(reference, 1), 0u) << who;
             EXPECT_GT(beyond(wrong, 1), 100u) << who << ": the negative control";
-            // Each half of the grant is needed, where the device is off at all.
+            // The whole tolerance is needed if the device deviates at all.
             if (!channel.srgb && sampling.linear_filter.rounding > 0.1 / 255) {
                 EXPECT_GT(beyond(reference, 0.5), 0u) << who;
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Frame does not depend on when, where and at which size it is drawn.
+// A Frame does not depend on when, where and at which size it is rendered.
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
 
@@ -20,7 +20,7 @@ TEST(FrameOf, TwoRunsAreTheSameBits) {
     }
 }
 
-// Lavapipe reads LP_NUM_THREADS when a device is made.
+// Lavapipe reads LP_NUM_THREADS when a device is created.
 TEST(FrameOf, OneThreadAndTwoAreTheSameBits) {
     if (!device().profile().software)
         GTEST_SKIP() << "SKIPPED: LP_NUM_THREADS means nothing to " << device().info().name;
@@ -63,7 +63,7 @@ TEST(FrameOf, ASizeBeyondTheDeviceIsRefusedByName) {
     }
 }
 
-// No stale data: the frame drawn before must not affect the next.
+// No stale data: the previous frame must not affect the next.
 TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
     const Scene scene = loadScene("builtin:gallery");
     Settings before = smallPicture(GBufferEncoding::standard), after = before;
@@ -101,8 +101,8 @@ TEST(FrameOf, BackgroundIsZeroAndItsIdMinusOne) {
     }
 }
 
-// The share of the picture that is covered, known by ray casting for this camera: 31.2 % is sky. A tenth of
-// a percent is allowed for the pixel grid.
+// The covered fraction of the image, known by ray casting for this camera: 31.2 % is sky. The pixel grid
+// accounts for 0.1 %.
 TEST(FrameOf, SpheresCoverWhatRayCastingSays) {
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.size = {1280, 720};

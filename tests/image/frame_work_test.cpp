@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a frame asks of a device, counted on scenes whose numbers are known.
+// Workload counts of a frame, on scenes whose counts are known.
 #include "compare/render/frame_work.h"
 
 #include "compare/render/renderer.h"
@@ -37,7 +37,7 @@ PassWork passOf(const FrameWork& work, const std::string& name) {
 
 constexpr std::uint64_t pixels = 160 * 90;
 
-// Squares side by side, none in front of another.
+// Squares side by side, without overlap.
 TEST(FrameWork, CountsVerticesTrianglesAndFragments) {
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         const FrameWork work = workOf("array?objects=12&triangles=24", countedSettings(path));
@@ -69,7 +69,7 @@ TEST(FrameWork, AGBufferIsWrittenOnceAndReadOnce) {
     EXPECT_GT(passOf(work, "shade").lights, 0);
 }
 
-// What the depth test takes is not shaded: after a pre-pass each covered pixel once.
+// Fragments that fail the depth test are not shaded: after a pre-pass each covered pixel is shaded once.
 TEST(FrameWork, APrepassSavesFragments) {
     Settings settings = countedSettings(Path::forward_plus);
     const FrameWork without = workOf("gallery", settings);

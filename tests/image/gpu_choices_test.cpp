@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is chosen on a GPU (DeviceProfile), drawn on the device that there is: where the view is read, input
-// sets, the light kernel, stored depth, who chooses triangles, submits in bands. On a CPU device the pictures
-// have the same bits; on a GPU this draws what all other tests draw, and the depth of a fragment and the
-// depth that is stored are counted where they differ.
+// The choices that DeviceProfile makes on a GPU, rendered on the available device: where the view is read,
+// input sets, the light compute shader, stored depth, triangle culling, submission in bands. On a CPU
+// device the images equal the default's bit for bit. On a GPU these are the default choices; there, pixels
+// where fragment depth differs from stored depth are counted.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -26,7 +26,7 @@ std::shared_ptr<PipelineSet> gpuPipelines() {
     return set;
 }
 
-// One of each kind: what is lit, what a surface has, what a list holds, what comes from depth.
+// One channel of each kind: lighting, surface, light list, depth.
 const std::vector<int> channels{lit, static_cast<int>(gpu::DEBUG_normals),
                                 static_cast<int>(gpu::DEBUG_light_count),
                                 static_cast<int>(gpu::DEBUG_position)};
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
                                          "builtin:spheres"),
                          [](const auto& test) { return testName(test.param); });
 
-// Modules whose branches are selections draw the same bits: of every kind of light, the most branches.
+// Modules with flattened branches give the same bits, with every type of light: the most branches.
 TEST(GpuChoice, FlattenedBranchesDrawTheSamePictures) {
     Device flat({.choice = "", .validate = true, .choices = ProfileChoices::flattening_branches});
     ASSERT_TRUE(flat.profile().flattens_branches);
@@ -72,8 +72,8 @@ TEST(GpuChoice, FlattenedBranchesDrawTheSamePictures) {
     EXPECT_EQ(flat.validationMessages(), 0u) << flat.firstValidationMessage();
 }
 
-// Groups of samples after a pixel's first are shaded from a list, or by a draw each that the depth test
-// leaves a part of. Of a mesh finer than pixels the list takes several draws.
+// Secondary sample groups are shaded from a list, or by a draw each whose depth test selects samples. On a
+// mesh finer than pixels the list takes several draws.
 TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
     const auto lists = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene,
                           const Settings& settings) {
@@ -114,7 +114,7 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
     EXPECT_GT(compared(fineMesh(450), {300, 300}, MsaaEdges::exact), gpu::FURTHER_WIDTH * gpu::FURTHER_ROWS);
 }
 
-// Of many triangles, and of those of many instances.
+// For many triangles, and for many instances.
 TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
     const auto stamps = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene) {
         Settings settings = smallPicture(GBufferEncoding::standard);
@@ -136,7 +136,7 @@ TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
     EXPECT_EQ(stamps(device(), pipelines(), loadScene("builtin:points")), 0u) << "few triangles";
 }
 
-// That they are what is drawn with: each shows in the frame.
+// The chosen options are in effect: each is visible in the frame.
 TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
     const Scene scene = loadScene("builtin:points");
     Settings settings = smallPicture(GBufferEncoding::standard);
@@ -164,7 +164,7 @@ TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
     EXPECT_NE(own.passes.names().front(), Culling::name) << "on a CPU device the host chooses faster";
 }
 
-// Forward+ without a pre-pass shades with gl_FragCoord.z, deferred with the depth that is stored.
+// Forward+ without a pre-pass shades with gl_FragCoord.z, deferred with the stored depth.
 TEST(DepthEquality, OfAFragmentAndOfTheStoredDepth) {
     constexpr int depth = static_cast<int>(gpu::DEBUG_depth);
     std::size_t covered = 0, different = 0, beyond = 0;

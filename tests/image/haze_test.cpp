@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Haze in both paths: against each other, against the reference, and against what must not depend on it.
+// Haze in both paths: compared with each other and with the reference. It does not depend on the far plane
+// and changes no other channel.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/square.h"
@@ -31,7 +32,7 @@ Settings hazePicture(float density, int steps = 0) {
     return settings;
 }
 
-// Through thick air, so that all of it is seen.
+// Thick air, so that its whole effect is visible.
 TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
     for (const char* name : {"builtin:suns", "builtin:deep", "builtin:ortho", "builtin:unlit_materials"})
         for (const int steps : {0, 6}) {
@@ -64,7 +65,7 @@ TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
         }
 }
 
-// The texels of what each channel shows are those without haze but for lit and its own two channels.
+// Haze changes only lit and its own two channels.
 TEST(HazeImages, NothingElseFeelsIt) {
     UploadedScene& scene = uploaded("builtin:suns");
     Settings settings = hazePicture(300);
@@ -82,8 +83,8 @@ TEST(HazeImages, NothingElseFeelsIt) {
     }
 }
 
-// Of density 0, or of nothing that scatters, it is the picture without haze, byte by byte, in every channel;
-// and nothing of it is there: no pass, no feature, no bytes.
+// With density 0 or no scattering, every channel equals that without haze byte by byte. No pass, feature
+// or memory is added.
 TEST(HazeImages, OfDensityZeroIsNone) {
     UploadedScene& scene = uploaded("builtin:deep");
     Settings none = hazePicture(1);
@@ -118,7 +119,7 @@ TEST(HazeImages, OfDensityZeroIsNone) {
     }
 }
 
-// The background and all surfaces, by both models; the reference by quadrature.
+// The background and all surfaces, for both models; the reference integrates by quadrature.
 TEST(HazeImages, AreTheReferences) {
     for (const char* name : {"builtin:deep", "builtin:ortho"})
         for (const int steps : {0, 64})
@@ -141,7 +142,7 @@ TEST(HazeImages, AreTheReferences) {
                             return std::abs(double{frame.channels.at(channel).pixel(i)[c]} -
                                             double{truth.channels.at(channel).pixel(i)[c]});
                         };
-                        // Of scene's own rays the surfaces lie where the exact depth is.
+                        // In mode scene the reference's own rays hit surfaces at their exact depth.
                         off += apart(hazeThrough) > (mode == ReferenceMode::surface ? 1e-6 : 1e-4) ? 1 : 0;
                         most_haze = std::max(most_haze, apart(hazeLight));
                         largest = std::max(largest, double{truth.channels.at(hazeLight).pixel(i)[c]});
@@ -151,7 +152,7 @@ TEST(HazeImages, AreTheReferences) {
                 }
                 const std::string what = fmt::format("{}, {} steps, {}", name, steps, nameOf(mode));
                 EXPECT_EQ(off, 0u) << what;
-                // The closed form's rounding; what 64 steps leave; a depth's.
+                // Error of 64 steps; rounding of the closed form; error of the stored depth.
                 const double allowed = steps > 0 ? 5e-3 : mode == ReferenceMode::surface ? 2e-6 : 1e-4;
                 EXPECT_LT(most_haze, allowed * std::max(largest, 0.1)) << what;
                 EXPECT_LT(most_background, allowed * std::max(largest, 0.1)) << what;
@@ -160,7 +161,7 @@ TEST(HazeImages, AreTheReferences) {
             }
 }
 
-// Positions come from depths, whose bits a far plane changes; the background has none.
+// Positions come from depth, whose bits depend on the far plane; the background has no depth.
 TEST(HazeImages, AreTheSameForAnyFarPlane) {
     UploadedScene& scene = uploaded("builtin:deep");
     const auto view = [&](Path path, const char* far) {
@@ -191,7 +192,7 @@ TEST(HazeImages, AreTheSameForAnyFarPlane) {
     }
 }
 
-// A background seen level: from the first row that looks down to the last that looks up light changes evenly.
+// A level view of the background: from just below to just above the horizon, light changes smoothly.
 TEST(HazeImages, HaveNoBandAtTheHorizon) {
     UploadedScene& scene = uploaded("builtin:background");
     for (const int steps : {0, 8}) {
@@ -209,7 +210,7 @@ TEST(HazeImages, HaveNoBandAtTheHorizon) {
                 whole = std::max(whole, double{image.at(0, y, 2)});
             }
             EXPECT_GT(whole, 0.5) << nameOf(path);
-            // A row is a fiftieth of a degree.
+            // A row is 1/50 degree.
             EXPECT_LT(most, 0.01 * whole) << nameOf(path) << ", " << steps;
         }
     }

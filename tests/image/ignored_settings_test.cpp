@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Setting that a path is said to ignore changes no bit of its picture, so that a sweep may leave it out.
+// A Setting that a path is documented to ignore changes no bit of its image, so a sweep may skip it.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
@@ -26,8 +26,7 @@ TEST(IgnoredSettings, ChangeNoBit) {
         for (const Field& field : settingFields()) {
             if (field.option == "path" || field.option == "size") continue;
             const bool ignored = !ignoredBecause(defaults, field.option).empty();
-            if (!ignored && field.option != "gbuffer")
-                continue;  // one that is read is enough to compare with
+            if (!ignored && field.option != "gbuffer") continue;  // one that is read suffices as a control
             for (const std::string& value : sweptValues(defaults, field.option)) {
                 Settings other = defaults;
                 other.set(field.option, value);
@@ -43,7 +42,7 @@ TEST(IgnoredSettings, ChangeNoBit) {
     EXPECT_GE(changed, 2u) << "what is read is told from it: the G-buffer of deferred";
 }
 
-// Where a shadow begins follows from the triangle's normal, which forward+ packs as the G-buffer would.
+// Shadow bias depends on the triangle's normal, which forward+ quantizes like the G-buffer.
 TEST(IgnoredSettings, ForwardPlusReadsTheGBuffersEncodingWithShadowsAlone) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene, pipelines());

@@ -57,7 +57,7 @@ float* dataOf(Frame& frame, gpu::uint number) {
     return frame.channels.at(modeOf(number)).data.data();
 }
 
-// Terms that are changed, and lit with them.
+// Changes terms, and lit accordingly.
 using OfTerm = std::function<float(float term, std::size_t pixel)>;
 std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, const OfTerm& of) {
     return [terms, of](InjectedView& view, Frame& frame) {
@@ -74,7 +74,7 @@ std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, co
     };
 }
 
-// lit alone.
+// Changes lit alone.
 std::function<void(InjectedView&, Frame&)> output(
     const std::function<void(float*, const float* emitted)>& of) {
     return [of](InjectedView& view, Frame& frame) {
@@ -91,7 +91,7 @@ std::function<void(InjectedView&, Frame&)> exposed(float factor) {
     };
 }
 
-// The right picture but for a tile of 24 x 16 pixels, from which the first light that lights it is dropped.
+// The correct image, except that a tile of 24 x 16 pixels lacks the light with the largest effect there.
 void dropFromTile(InjectedView& view, Frame& frame) {
     InjectedFault without{"a light is dropped", {}};
     double most = 0;
@@ -122,8 +122,8 @@ void dropFromTile(InjectedView& view, Frame& frame) {
     }
 }
 
-// Blended surfaces without the haze before them, over opaque ones with it: over = T under + B, and T is what
-// more light under them adds.
+// Blended surfaces without haze, over opaque ones with haze: over = T under + B. T is the response to
+// additional light under them.
 void hazeOnOpaqueOnly(InjectedView& view, Frame& frame) {
     Settings clear = view.settings, bare = view.settings;
     clear.haze = false;
@@ -232,7 +232,7 @@ void addLightFaults(std::vector<InjectedFault>& all) {
             {means, named, kind, false, {}, {}, [of](Settings& settings, Scene&) { of(settings); }});
     };
     setting("shadow bias is tripled", shadows, [](Settings& s) { s.shadow_bias *= 3; });
-    // A coarser one serves, and filters over more texels.
+    // A coarser cascade is used, and filters cover more texels.
     setting("cascade is one off", {"shadow_visibility"}, [](Settings& s) {
         s.shadow_cascades -= 1;
         s.shadow_distance = 60;
@@ -364,7 +364,7 @@ private:
     std::mt19937 random_;
 };
 
-// A sky that is brighter where its sun is, above a ground.
+// A sky with a bright sun, above a ground.
 Environment sky(Draws& draws) {
     Environment made{"sky", Image(32, 16, 3)};
     const double azimuth = draws.between(0, 32), height = draws.between(2, 6),
@@ -381,7 +381,7 @@ Environment sky(Draws& draws) {
     return made;
 }
 
-// A scene with other materials and lights.
+// A scene with randomized materials and lights.
 Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
     Scene scene = loadScene(name);
     Draws draws(seed);
@@ -409,7 +409,7 @@ Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
         sun.direction = glm::normalize(glm::dvec3(draws.between(0.6, 1.2), -0.7, draws.between(-0.5, -0.1)));
         scene.lights.push_back(sun);
     }
-    // The first one is what faults of one light are of.
+    // Faults of a single light affect the first one.
     std::rotate(scene.lights.begin(),
                 scene.lights.begin() + static_cast<std::ptrdiff_t>(seed % scene.lights.size()),
                 scene.lights.end());
@@ -428,7 +428,7 @@ Settings settingsOf(const std::string& name, const std::string& camera, ViewKind
     settings.ambient = {ambient, 0.9f * ambient, 1.1f * ambient};
     settings.haze = true;
     settings.haze_density = static_cast<float>(draws.between(300, 1500));
-    if (name == "builtin:far_away") settings.haze_ground = 2e5f;  // where it is
+    if (name == "builtin:far_away") settings.haze_ground = 2e5f;  // the scene's height
     if (kind == ViewKind::blended) {
         settings.env = "scene";
         settings.ibl_samples = 16;
@@ -481,7 +481,7 @@ InjectedView::InjectedView(const std::string& scene_name, const std::string& cam
       right(drawnBy(Path::forward_plus, renderer, settings, injectedChannels())),
       images_(device(), settings.size) {
     right.settings = settings;
-    // Occlusion, which few scenes have.
+    // Varies occlusion: few scenes have any.
     Image& occluded = right.channels.at(modeOf(gpu::DEBUG_occlusion));
     const double turn = 0.7 * seed;
     for (int y = 0; y < pictureHeight; ++y)
@@ -496,7 +496,7 @@ bool InjectedView::covered(std::size_t pixel) const {
     return right.channels.at(modeOf(gpu::DEBUG_material_id)).pixel(pixel)[0] >= 0;
 }
 
-// lit and its terms of the Frame's channels.
+// Computes lit and its terms from the Frame's channels.
 void InjectedView::shadeInto(Frame& frame, const Settings& drawn) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) images_.set(0, c, frame);
     std::optional<ChannelShading> other;
@@ -542,7 +542,7 @@ Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
                     if (covered(p)) fault->pixel(frame.channels.at(number).pixel(p));
             }
     }
-    // What the light from all around, the air and what is blended do not change.
+    // Settings without effect on visibility: environment light, haze and blending.
     Settings seen_by = drawn;
     for (const std::string_view option :
          {"ambient", "haze", "haze-density", "env-rotation", "ibl-intensity", "transparency", "multiscatter"})
@@ -553,7 +553,7 @@ Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
     };
     const bool same_lights = std::ranges::equal(lights, scene.lights, alike);
     if (!same_lights || !(seen_by == settings)) {
-        // Nothing here moves: at another time it is another view, which has the lights of now.
+        // Nothing in these views moves: another time yields another view, with the current lights.
         static int otherwise = 0;
         drawn.time = ++otherwise;
         const std::vector<int> seen{modeOf(gpu::DEBUG_shadow_visibility), modeOf(gpu::DEBUG_local_visibility),
@@ -597,7 +597,7 @@ std::vector<InjectedView*> injectedViews(ViewKind kind) {
     static const std::vector<Place> blended{
         {"builtin:glass", {"front", "inside", "eye=-1.4,1.3,4.5 target=0,0.9,0 fov=46"}},
         {"builtin:crossed", {"front", "eye=1.2,0.9,3.2 target=0,0.6,0 fov=46"}}};
-    pipelines();  // before the views, which it outlives
+    pipelines();  // before the views: must outlive them
     static std::map<ViewKind, std::vector<std::unique_ptr<InjectedView>>> made;
     std::vector<std::unique_ptr<InjectedView>>& views = made[kind];
     if (views.empty())

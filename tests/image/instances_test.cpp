@@ -18,7 +18,7 @@ namespace {
 
 constexpr int flagCount = 90;
 
-// A ground with flags in it, turned any way, some mirrored. `apart`: each has a mesh of its own, all alike.
+// Randomly rotated flags on a ground, some mirrored. `apart`: each has its own copy of the mesh.
 Scene flags(bool apart, std::uint32_t seed, const std::function<void(Scene&)>& change = {}) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -104,7 +104,7 @@ TEST(Instances, LookAsIfEachWereAMeshOfItsOwn) {
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
-// The ground's draw and, of each kind of handedness, one for each step of distance.
+// One draw for the ground and, for each handedness, one for each distance step.
 TEST(Instances, TakeFewerDraws) {
     for (const bool cull : {true, false}) {
         Settings settings = instanceSettings(Path::deferred);
@@ -121,7 +121,7 @@ TEST(Instances, TakeFewerDraws) {
     }
 }
 
-// Where few can show, what stands between them is not drawn for long.
+// If few are visible, long gaps between them are not drawn.
 TEST(Instances, ThatCannotShowAreLeftOut) {
     const auto facingAway = [](Scene& scene) {
         for (std::size_t i = 1; i < scene.nodes.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels whose values are computed by hand: a square of two units that fills the picture, one metre before
-// the camera, with simple lights and textures.
+// Pixels computed by hand: a 2 m square that fills the image, 1 m in front of the camera, with simple
+// lights and textures.
 #include "tests/image/square.h"
 
 #include <numbers>
@@ -28,8 +28,8 @@ TEST(KnownValues, TheSecondUvSetIsReadWhereAsked) {
     }
 }
 
-// KHR_texture_transform: offset (0.5, 0) moves red to the right half; rotating the coordinates by a quarter
-// counter-clockwise, (u, v) -> (v, -u), shows the lower left texel at the top left.
+// KHR_texture_transform: offset (0.5, 0) moves red to the right half. Rotation by 90 degrees
+// counter-clockwise, (u, v) -> (v, -u), moves the lower left texel to the top left.
 TEST(KnownValues, TextureTransform) {
     Scene scene = square();
     scene.materials[0].base_color_texture = {0, 0, {1, 0, 0.5}, {0, 1, 0}};
@@ -51,8 +51,8 @@ TEST(KnownValues, TextureTransform) {
     }
 }
 
-// Factors, textures and KHR_materials_ior, _specular: dielectric F0 = min(((1-n)/(1+n))^2 color, 1) x
-// specular, then the metallic mix with the base colour.
+// Factors, textures, KHR_materials_ior and _specular: dielectric F0 = min(((1-n)/(1+n))^2 color, 1) x
+// specular, then mixed with the base colour by metallic.
 TEST(KnownValues, MaterialParameters) {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -69,7 +69,7 @@ TEST(KnownValues, MaterialParameters) {
         EXPECT_EQ(colorAt(frame, roughness, 1, 1).x, 0.6f);
         EXPECT_EQ(colorAt(frame, occlusion, 1, 1).x, 1.0f);
         expectColor(colorAt(frame, emission, 1, 1), {3, 0.5f, 0}, float32, "emission");
-        // (1/3)^2 = 1/9; x 0.5 = 1/18 (green 1/36); mix: 3/4 of it and 1/4 of the base colour
+        // (1/3)^2 = 1/9; x 0.5 = 1/18 (green 1/36); mix: 3/4 of that and 1/4 of the base colour.
         expectColor(colorAt(frame, specular, 1, 1),
                     {0.75f / 18 + 0.2f, 0.75f / 36 + 0.1f, 0.75f / 18 + 0.05f}, float32, "F0");
         expectColor(colorAt(frame, normals, 1, 1), {0, 0, 1}, float32, "normal");
@@ -107,8 +107,8 @@ TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
         expectColor(colorAt(frame, lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
                     frame.name + " sun");
 
-    // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos, at the pixel right of the
-    // centre and below: (0.25, -0.25), d^2 = 4.125, cos = 2 / d.
+    // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos. At the pixel right of and
+    // below the centre: (0.25, -0.25), d^2 = 4.125, cos = 2 / d.
     Light lamp;
     lamp.intensity = 10;
     lamp.range = 4;
@@ -135,8 +135,7 @@ TEST(KnownValues, GgxPeak) {
         expectColor(colorAt(frame, lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
 }
 
-// Occlusion only applies to ambient light, and leaves direct light as it is whether there is ambient light or
-// not.
+// Occlusion applies only to ambient light; direct light is unaffected with or without ambient light.
 TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     Scene scene = square();
     Light sun;
@@ -160,8 +159,8 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     }
 }
 
-// The normal map's texel (0.5 + 0.5 sin 30, 0.5, 0.5 + 0.5 cos 30) tilts the normal by 30 degrees to +u;
-// mirrored transforms and back faces follow glTF's rules.
+// The normal map's texel (0.5 + 0.5 sin 30, 0.5, 0.5 + 0.5 cos 30) tilts the normal by 30 degrees to +u.
+// Mirrored transforms and back faces follow glTF's rules.
 TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
     Scene scene = square();
     scene.images[0] = {"tilt", 1, 1, {191, 128, 238, 255}};
@@ -179,7 +178,7 @@ TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
         expectColor(colorAt(frame, normals, 1, 1), {-n.x, n.y, n.z}, 5 * float32,
                     frame.name + " mirrored in x");
 
-    Scene turned = scene;  // rotated by 180 degrees about y: its back is visible, with the normal flipped
+    Scene turned = scene;  // rotated by 180 degrees about y: back face visible, normal flipped
     turned.nodes[0].parent_from_node = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
     for (const Frame& frame : draw(turned))
         expectColor(colorAt(frame, normals, 1, 1), {n.x, -n.y, n.z}, 5 * float32,
@@ -241,15 +240,15 @@ TEST(Extremes, AFlattenedNodeKeepsItsNormals) {
     Scene scene = square();
     scene.nodes[0].parent_from_node[2] = {0, 0, 0, 0};
     expectSound(draw(scene, 8));
-    // In the plane of the square, whose scale flattens them to 0.
+    // In the plane of the square: its scale flattens them to 0.
     for (glm::vec3& n : scene.meshes[0].primitives[0].normals) n = {1, 0, 0};
     const auto frames = draw(scene, 8);
     expectSound(frames);
     expectColor(colorAt(frames[1], normals, 4, 4), {0, 0, 1}, float32, "the triangle's normal stands in");
 }
 
-// What an orthographic camera sees faces against its direction, not towards its place: far to the side a
-// steep triangle's normal points away from that.
+// With an orthographic camera, normals face against the view direction, not towards the camera's position.
+// Far to the side, a steep triangle's normal points away from that position.
 TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
     Scene scene = square();
     scene.cameras[0].orthographic = true;
@@ -269,7 +268,7 @@ TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
     }
 }
 
-// The picture is the same at any scale: lengths scaled by s, intensities by s^2.
+// The image is scale-invariant: lengths scaled by s, intensities by s^2.
 TEST(Extremes, ScaleDoesNotChangeThePicture) {
     Scene scene = square();
     Light lamp;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cells at the ends of the grid: lights that light pixels of the first slice alone, of the last slice, of
-// the first and last column and row of tiles. Most pictures have nothing there that a missing light would
-// change.
+// The froxels at the ends of the grid: lights that reach only pixels of the first or last slice, or of the
+// first or last column or row of tiles. In most images no missing light would show there.
 #include "shared/contract/debug_mode.h"
 #include "shared/light/light_grid.h"
 #include "shared/scene/view.h"
@@ -17,10 +16,10 @@
 namespace diptych::tests {
 namespace {
 
-constexpr Size cutOff{213, 119};  // of neither a whole number of tiles
+constexpr Size cutOff{213, 119};  // neither is a multiple of the tile size
 constexpr double halfFieldTangent = 0.5;
 
-// A white wall across the view at this distance; the camera stands at the origin and looks along -Z.
+// A white wall across the view at this distance; the camera is at the origin and looks along -Z.
 Scene wallAt(double distance, double near) {
     Scene scene = square();
     scene.images.clear(), scene.textures.clear();
@@ -42,7 +41,7 @@ Light lampOf(const glm::dvec3& position, double range) {
     return light;
 }
 
-// By the contract (shared/contract/light_list.h): steps of the float's bits, at most the last slice.
+// By shared/contract/light_list.h: the float's bits above the offset's, shifted.
 gpu::uint sliceAt(const gpu::LightGrid& grid, double depth) {
     const float sum = static_cast<float>(depth) + grid.slice_offset;
     const gpu::uint steps = std::bit_cast<gpu::uint>(sum) - std::bit_cast<gpu::uint>(grid.slice_offset);
@@ -83,8 +82,8 @@ std::set<std::pair<int, int>> litPixels(const Image& image) {
     return pixels;
 }
 
-// In every way the picture is that of every light at every pixel, and where a light shines, one was
-// evaluated. Returns the pixels that are lit.
+// Every assignment gives the image of `every`, and each lit pixel evaluated a light. Returns the lit
+// pixels.
 std::set<std::pair<int, int>> expectLitAlike(const Scene& scene) {
     Renderer renderer(device(), scene, pipelines());
     const DrawnLights every =
@@ -103,11 +102,11 @@ std::set<std::pair<int, int>> expectLitAlike(const Scene& scene) {
     return pixels;
 }
 
-// A light that ends just behind the wall: by what it reaches beyond, its end lies in the wall's slice. On the
-// wall it lights a disc of sqrt(1 - 0.98^2) = 0.2 of its range.
+// A light that ends just behind the wall, in the wall's slice. On the wall it lights a disc with a radius
+// of sqrt(1 - 0.98^2) = 0.2 of its range.
 TEST(LightCells, TheLastSliceOfFroxelsIsUsed) {
     for (const double range : {2.0, 0.5}) {
-        // Where slices end depends on the device's costs.
+        // Slice boundaries depend on the device's costs.
         double wall = 10;
         Scene scene;
         gpu::LightGrid grid{};
@@ -119,7 +118,7 @@ TEST(LightCells, TheLastSliceOfFroxelsIsUsed) {
         }
         ASSERT_EQ(sliceAt(grid, wall), grid.slices - 1) << "the wall is in the last slice";
         ASSERT_GT(grid.slices, 2u);
-        // The light ends in the last slice: there is none behind it that nothing needs.
+        // The light ends in the last slice: no needless slice follows it.
         EXPECT_EQ(sliceAt(grid, wall + 0.02 * range), grid.slices - 1);
         const std::size_t lit = expectLitAlike(scene).size();
         const double side = 2 * halfFieldTangent * wall / cutOff.height,
@@ -129,8 +128,8 @@ TEST(LightCells, TheLastSliceOfFroxelsIsUsed) {
     }
 }
 
-// The first slice ends at a share of the typical light's size: a wall before that, and a light between it and
-// the camera.
+// The first slice ends at a fraction of the typical light's size. A wall in front of that, and a light
+// between the wall and the camera.
 TEST(LightCells, TheFirstSliceIsUsed) {
     constexpr double wall = 0.02;
     Scene scene = wallAt(wall, 0.005);
@@ -142,8 +141,8 @@ TEST(LightCells, TheFirstSliceIsUsed) {
     EXPECT_GT(expectLitAlike(scene).size(), 100u);
 }
 
-// Lights that reach one pixel each, of every corner and edge of the picture: 0.3 pixels before the wall, with
-// a range of 0.8, the next pixels are 1.04 away.
+// Lights that reach one pixel each, at every corner and edge of the image: 0.3 pixels before the wall,
+// with a range of 0.8; the next pixels are 1.04 away.
 TEST(LightCells, TheOutermostTilesAreUsed) {
     constexpr double wall = 10, side = 2 * halfFieldTangent * wall / cutOff.height;
     Scene scene = wallAt(wall, 0.1);

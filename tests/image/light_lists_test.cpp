@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// With every assignment of lights, the picture is that of assignment every, bit for bit.
+// With every light assignment the image equals that of assignment every, bit for bit.
 #include "compare/render/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
@@ -28,7 +28,7 @@ RenderOptions untimed(std::vector<int> channels = {lit}) {
     return options;
 }
 
-// Number of pixels that differ; a NaN differs from everything, also from itself.
+// Number of differing pixels; a NaN differs from everything, including itself.
 std::size_t wrongPixels(const Image& a, const Image& b) {
     std::size_t nans = 0;
     for (std::size_t i = 0; i < a.pixels(); ++i)
@@ -36,7 +36,7 @@ std::size_t wrongPixels(const Image& a, const Image& b) {
     return differingPixels(a, b) + nans;
 }
 
-// The assignments and kernels that must not change the picture.
+// Assignments and compute shaders that must not change the image.
 struct Way {
     Assignment assign;
     LightKernel kernel;
@@ -46,7 +46,7 @@ constexpr Way ways[] = {{Assignment::clustered, LightKernel::scatter},
                         {Assignment::tiled, LightKernel::scatter},
                         {Assignment::tiled, LightKernel::gather}};
 
-// The scene with exactly `count` lights: its own first, then a seeded rig's, every eighth of them a spot.
+// The scene with exactly `count` lights: its own first, then a seeded rig's, every eighth a spot.
 Scene withLights(Scene scene, std::size_t count) {
     if (scene.lights.size() < count) {
         const std::size_t more = count - scene.lights.size(), spots = more / 8;
@@ -69,7 +69,7 @@ Settings picture(Size size, Path path, Assignment assign, LightKernel kernel = L
     return settings;
 }
 
-// Draws lit alone. No list may overflow. `captured`: the capture must equal the drawn picture, too.
+// Renders lit alone. No list may overflow. `captured`: the capture must also equal the rendered image.
 Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     if (captured) {
         Frame frame = renderer.draw(settings, untimed());
@@ -86,8 +86,8 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
     return frames.lit(0);
 }
 
-// Compares every way on both paths with `every` on forward+. A capture draws everything once more: small
-// pictures are captured in every way, large ones once for each path.
+// Compares every assignment on both paths with `every` on forward+. A capture renders everything again:
+// small images are captured for every assignment, large ones once per path.
 void expectEveryWayEqual(Renderer& renderer, Size size) {
     const bool small = size.width * size.height <= 1024;
     const Image every = litOf(renderer, picture(size, Path::forward_plus, Assignment::every), small);
@@ -108,8 +108,8 @@ void expectEveryWayEqual(Renderer& renderer, Size size) {
 
 class LightMatrix : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
-// Many lights on a large picture evaluate every light at every pixel several times, for seconds: one large
-// picture a scene, with more lights than the 256 of one batch, and a campaign draws more of them.
+// Many lights on a large image evaluate every light at every pixel several times, which takes seconds.
+// Each scene has one large image, with more lights than the 256 of a batch; a campaign renders more.
 std::vector<Size> sizesOf(const std::string& scene, int count) {
     std::vector<Size> sizes{{1, 1}, {15, 17}, {213, 119}};
     if (count == 257) sizes.push_back({1279, 719});
@@ -140,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(Lights, LightMatrix,
                                     std::to_string(std::get<1>(row.param)) + "_lights";
                          });
 
-// The other scenes each with two of the light counts and one size, so that every count is combined with
-// every size.
+// The other scenes, each with one light count and one size; together they combine every count with every
+// size.
 class LightPairs : public testing::TestWithParam<std::string> {};
 
 TEST_P(LightPairs, EveryWayIsEvery) {
@@ -251,7 +251,7 @@ TEST(LightExtremes, RangesFromAMillimetreToAMillionMetres) {
         expectEqualUnder(scene, lights);
 }
 
-// Lights at the largest possible distance: beyond bounding spheres whose squares fit well into float32.
+// The most distant lights possible: outside bounding spheres whose squared radii still fit into float32.
 TEST(LightExtremes, LightsAsFarAwayAsTheyMayBe) {
     constexpr float everywhere = std::numeric_limits<float>::infinity();
     std::vector<Light> lights;
@@ -274,7 +274,7 @@ TEST(LightExtremes, LightsOfNothingAndThousandsInOnePlace) {
 
 // Lights before, in and beyond the last slice; pixels behind the last light.
 TEST(LightExtremes, LightsBeyondTheLastSliceStillLight) {
-    // They are the median, which makes slices short.
+    // They determine the median, which makes slices short.
     std::vector<Light> lights(40, pointAt({0, 0.5, 13}, 1, 0.5f));
     for (double z = 5; z > -20; z -= 1) lights.push_back(pointAt({0, 1, z}, 4, 3));
     lights.push_back(pointAt({0, 2, -15}, 50, 200));
@@ -287,7 +287,7 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     const Scene scene = withLights(loadScene("builtin:gallery"), 65600);
     Renderer renderer(device(), scene, pipelines());
     expectEveryWayEqual(renderer, {24, 14});
-    // Negative control: the last of all lights is among those summed up.
+    // Negative control: the last light is included in the sum.
     Scene without = scene;
     for (Light& light : without.lights) light.intensity *= 1e-3f;
     without.lights.back() = pointAt(eyeOf("builtin:gallery"), 100, 1000);
@@ -299,11 +299,11 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
 }
 
-// More pairs of lights and cells than fit into the device's largest buffer.
+// More pairs of lights and froxels than fit into the device's largest buffer.
 TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     Scene scene = loadScene("builtin:spheres?lights=1");
     scene.lights.assign(65600, pointAt({0, 2, 0}, 1e-4f, std::numeric_limits<float>::infinity()));
-    // The median range of lights is small: slices are thin, and there are many.
+    // The lights' median range is small: slices are thin and many.
     for (int i = 0; i < 200; ++i) scene.lights.push_back(pointAt({0.1 * i - 10, 0.1, 0.07 * i - 8}, 1, 0.2f));
     Renderer renderer(device(), scene, pipelines());
     const Size size{192, 24};
@@ -318,7 +318,7 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     EXPECT_EQ(wrongPixels(every.channels.at(lit), frame.channels.at(lit)), 0u);
 }
 
-// ---- what the lists say of themselves ------------------------------------------------------------------
+// ---- counters and channels of the lists ----------------------------------------------------------------
 
 TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
     const Scene scene = loadScene("builtin:spheres?lights=256");
@@ -343,7 +343,7 @@ TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
             ++covered;
             EXPECT_EQ(frame.channels.at(listOverflow).pixel(i)[0], 0.0f);
         }
-        // Known for this scene: on average 5.07 point lights reach a covered pixel; a list holds a few more.
+        // Known for this scene: on average 5.07 point lights reach a covered pixel; a list has a few more.
         const double mean = sum / static_cast<double>(covered) - 1;
         EXPECT_GT(mean, 4.5);
         EXPECT_LT(mean, 5.07 * 4) << nameOf(assign);
@@ -360,7 +360,8 @@ TEST(LightLists, BothPathsHaveTheSameLists) {
     }
 }
 
-// ---- the comparison is awake -----------------------------------------------------------------------------
+// ---- negative controls
+// -----------------------------------------------------------------------------------
 
 TEST(LightNegativeControls, OneMoreLightChangesEvery) {
     const Scene scene = loadScene("builtin:spheres?lights=64");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Deferred lighting by fragments and in compute (--lighting) has the same bits.
+// Deferred lighting in fragment and compute shaders (--lighting) gives the same bits.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/samples.h"
@@ -26,7 +26,7 @@ Settings lightingSettings(Size size = {160, 90}) {
     return settings;
 }
 
-// lit of the frame that is timed, which no capture replaces.
+// lit of the timed frame, not of a capture.
 Image timedLit(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
     options.channels = {lit};
@@ -35,8 +35,8 @@ Image timedLit(Renderer& renderer, const Settings& settings) {
     return renderer.draw(settings, options).channels.at(lit);
 }
 
-// Below this, W/(sr m^2), terms that lavapipe's fragments flush to 0 in one process and keep in another,
-// being less than 2^-126, have been seen to change radiance: up to 6e-37.
+// Smallest compared radiance, W/(sr m^2). Lavapipe's fragments flush terms below 2^-126 to 0 in one
+// process and keep them in another. Such terms have changed radiance by up to 6e-37.
 constexpr float leastCompared = 1e-30f;
 Image withoutDarkness(Image image) {
     for (float& value : image.data)
@@ -44,7 +44,7 @@ Image withoutDarkness(Image image) {
     return image;
 }
 
-// Returns that of fragments.
+// Returns the image of fragment shading.
 Image expectSameLighting(Renderer& renderer, Settings settings, const std::string& name) {
     settings.lighting = Lighting::fragment;
     Image fragments = timedLit(renderer, settings);
@@ -73,7 +73,7 @@ std::size_t distinctTexels(const Image& image) {
 
 class LightingOf : public testing::TestWithParam<std::string> {};
 
-// With what a report draws: the capture of `lit`, by fragments, must reproduce the frame that compute shades.
+// As for a report: the capture of `lit`, by fragments, must reproduce the frame shaded in compute.
 TEST_P(LightingOf, ChangesNoBit) {
     Settings settings = lightingSettings();
     const Image image = expectSameLighting(uploaded(GetParam()).renderer, settings, GetParam());
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, LightingOf,
                                          "builtin:deep", "builtin:normals"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// Whatever chooses lights, whatever a surface is packed in.
+// For every light assignment and G-buffer encoding.
 TEST(LightingImages, AreTheSameForEveryAssignmentAndEncoding) {
     for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})
         for (const auto& [encoding, encoded] : enumNames<GBufferEncoding>())
@@ -108,7 +108,7 @@ TEST(LightingImages, AreTheSameForEveryAssignmentAndEncoding) {
                            [&](Settings& s) { s.light_kernel = kernel; });
 }
 
-// A device rounds what it draws to fewer bits, and what it stores, in ways of its own.
+// Attachment writes and image stores may round to fewer bits differently.
 TEST(LightingImages, AreTheSameInEveryFormat) {
     for (const auto& [lit_format, of_lit] : enumNames<LitFormat>())
         for (const auto& [depth_format, of_depth] : enumNames<DepthFormat>())
@@ -120,7 +120,7 @@ TEST(LightingImages, AreTheSameInEveryFormat) {
     if (device().support().has(DeviceFeature::shaderFloat16))
         expectSameLighting("builtin:gallery", "light in 16 bits",
                            [](Settings& s) { s.shading_precision = ShadingPrecision::fp16; });
-    // Beyond the largest number of 16 bits.
+    // Beyond the largest half float.
     Scene bright = loadScene("builtin:points");
     for (Light& light : bright.lights) light.intensity *= 1e6f;
     Renderer renderer(device(), bright, pipelines());
@@ -170,7 +170,7 @@ TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
             expectSameLighting(renderer, settings, fmt::format("{} {}", nameOf(ibl), samples));
         }
     for (const auto& [multiscatter, name] : enumNames<Multiscatter>()) {
-        if (multiscatter == Multiscatter::walk) continue;  // the reference's alone
+        if (multiscatter == Multiscatter::walk) continue;  // only the reference has it
         expectSameLighting("builtin:gallery", std::string(name), [&, kind = multiscatter](Settings& s) {
             s.ambient = {0.3f, 0.4f, 0.5f};
             s.multiscatter = kind;
@@ -195,7 +195,7 @@ TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
         });
 }
 
-// Where nothing was drawn light that is everywhere shows whoever shades it.
+// Background pixels stay 0 under ambient light, with either lighting.
 TEST(LightingImages, LeaveTheBackground) {
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full}) {
         const Image image = expectSameLighting("builtin:spheres", "ambient light", [&](Settings& s) {
@@ -206,7 +206,7 @@ TEST(LightingImages, LeaveTheBackground) {
     }
 }
 
-// Of light that is as good as none; whether fragments flush it may change once 16-bit floats are drawn to.
+// With negligible light. Whether fragments flush denormals may change after rendering to 16-bit floats.
 TEST(LightingImages, KeepNoDenormals) {
     Scene dim = loadScene("builtin:points");
     for (Light& light : dim.lights) light.intensity *= 1e-38f;
@@ -225,7 +225,7 @@ TEST(LightingImages, KeepNoDenormals) {
     }
 }
 
-// Of workgroups at the right and lower edge only a part lies in the picture.
+// Workgroups at the right and lower edges lie partly outside the image.
 TEST(LightingImages, AreTheSameOfEverySize) {
     constexpr auto side = static_cast<int>(gpu::LIGHTING_GROUP);
     for (const Size size : {Size{1, 1}, Size{33, 17}, Size{side, side}, Size{side - 1, side + 1},
@@ -265,7 +265,7 @@ TEST(LightingImages, AreTheSameOfSeveralSamples) {
     });
 }
 
-// Sums of earlier batches are stored, not drawn; the sun and those that cast are among them.
+// Sums of earlier batches are stored, not blended; the sun and shadow-casting lights are included.
 TEST(LightingImages, AreTheSameInBatches) {
     for (const Shadows shadows : {Shadows::off, Shadows::pcf})
         for (const Size size : {Size{24, 14}, Size{33, 17}})
@@ -287,7 +287,7 @@ TEST(LightingImages, AreTheSameUnderWhatIsBlended) {
         });
 }
 
-// Rows of workgroups come in bands where a device may not be kept busy for as long as a dispatch takes.
+// On devices that must not be busy for a whole dispatch, rows of workgroups are split into bands.
 TEST(LightingImages, AreTheSameInBands) {
     Device on({.choice = "", .validate = true, .choices = ProfileChoices::gpu});
     const Scene scene = loadScene("builtin:points");
@@ -302,7 +302,7 @@ TEST(LightingImages, AreTheSameInBands) {
     EXPECT_EQ(on.validationMessages(), 0u) << on.firstValidationMessage();
 }
 
-// That it is what is drawn: no full-screen triangle shades, and the G-buffer is read in compute.
+// Checks that compute is in use: no full-screen triangle shades, and compute reads the G-buffer.
 TEST(LightingImages, AreMadeInCompute) {
     const Scene scene = loadScene("builtin:points");
     for (const Lighting lighting : {Lighting::fragment, Lighting::compute})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lit of every sample of a picture, before the resolve.
+// lit of every sample of an image, before the resolve.
 #pragma once
 
 #include "compare/render/frame_facts.h"
@@ -14,7 +14,7 @@
 
 namespace diptych::tests {
 
-// A scene whose pictures are drawn sample by sample.
+// A scene rendered sample by sample.
 class SampledScene {
 public:
     explicit SampledScene(Scene drawn, Device& on = device(), std::shared_ptr<PipelineSet> set = pipelines())
@@ -23,7 +23,7 @@ public:
           shared_(on, scene, std::move(set)),
           words_(probeWords("lit_sample.frag")) {}
 
-    // An Image a sample: R, G, B.
+    // One Image per sample: R, G, B.
     std::vector<Image> draw(const Settings& settings) {
         const SceneView seen = makeSceneView(scene, viewRequest(settings));
         PreparedFrame frame(device_, shared_, seen, settings);

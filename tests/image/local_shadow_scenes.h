@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes under points and spots that cast shadows.
+// Small scenes with shadow-casting point and spot lights.
 #pragma once
 
 #include "tests/image/shadow_scenes.h"
@@ -11,7 +11,7 @@
 
 namespace diptych::tests {
 
-// The six sides of a box, seen from outside; from inside with `inwards`.
+// The six sides of a box, facing outwards or `inwards`.
 inline void addBox(std::vector<Primitive>& all, const glm::vec3& low, const glm::vec3& high, int material = 0,
                    bool inwards = false) {
     const glm::vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
@@ -34,7 +34,7 @@ inline Light castingPoint(const glm::dvec3& position) {
     return light;
 }
 
-// `degrees`: from the axis to the edge of its cone.
+// `degrees`: half angle of the cone.
 inline Light castingSpot(const glm::dvec3& position, const glm::dvec3& target, double degrees) {
     Light light = castingPoint(position);
     light.kind = LightKind::spot;
@@ -69,7 +69,7 @@ inline Scene sceneOf(std::vector<Primitive> all, const std::vector<Light>& light
     return scene;
 }
 
-// The ground, 8 m x 8 m around the origin, and what stands on it, seen from above.
+// The ground, 8 m x 8 m around the origin, with objects on it, seen from above.
 inline Scene ground(const std::vector<Light>& lights, std::vector<Primitive> standing = {},
                     double scale = 1) {
     std::vector<Primitive> all{rectangle({-4, 0, 4}, {8, 0, 0}, {0, 0, -8})};
@@ -77,8 +77,8 @@ inline Scene ground(const std::vector<Light>& lights, std::vector<Primitive> sta
     return sceneOf(std::move(all), lights, {0.4, 6, 2.5}, {0, 0, 0}, scale);
 }
 
-// A room of 6 m x 3 m x 6 m with pillars on all sides of its middle and small things along the edges of a
-// lamp's cube there; the camera stands in a corner.
+// A room of 6 m x 3 m x 6 m with pillars on all sides of its centre and small objects along the edges of a
+// lamp's cube map there. The camera is in a corner.
 inline std::vector<Primitive> room() {
     std::vector<Primitive> all;
     addBox(all, {-3, 0, -3}, {3, 3, 3}, 0, true);
@@ -94,7 +94,7 @@ inline std::vector<Primitive> room() {
 inline Scene lampInARoom() {
     return sceneOf(room(), {castingPoint({0.1, 1.6, -0.05})}, {-2.7, 2.7, 2.6}, {0.6, 0.9, -0.8});
 }
-// The spot's cone takes in the camera, too.
+// The spot's cone includes the camera, too.
 inline Scene bothLightsInARoom() {
     return sceneOf(room(), {castingPoint({0.1, 1.6, -0.05}), castingSpot({2.5, 2.8, -2.5}, {-1, 0.5, 1}, 35)},
                    {-2.7, 2.7, 2.6}, {0.6, 0.9, -0.8});

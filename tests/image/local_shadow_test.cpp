@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadows of points and spots: the same bits in both paths and by every assignment, against the rays of the
-// reference, and planes of which what is right is known.
+// Shadows of point and spot lights: equal bits in both paths and with every assignment, comparison with
+// the reference's rays, and planes with known results.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -34,7 +34,7 @@ Frame drawnOf(const Scene& scene, const Settings& settings,
     return drawAll(scene, {settings}, options).front();
 }
 
-// The least and the most local visibility of the pixels of one material.
+// Minimum and maximum local visibility of the pixels of one material.
 struct LocallySeen {
     float least = 1, most = 0;
     int pixels = 0;
@@ -60,7 +60,7 @@ struct LocalScene {
     const char* name;
     Scene (*make)();
     int lights;
-    double wrong = 5e-4;  // of the pixels
+    double wrong = 5e-4;  // fraction of the pixels
 };
 std::ostream& operator<<(std::ostream& out, const LocalScene& scene) {
     return out << scene.name;
@@ -88,8 +88,8 @@ TEST_P(LocalShadowPaths, SeeTheSame) {
         }
 }
 
-// Against rays: beyond the filter's reach and a texel from an edge, what is shown lit is lit, and what is
-// shown dark is dark, but for one pixel in 2,000 (of three lights at once, one in 1,000).
+// Against rays: outside the filter's radius and a texel from an edge, visibility is correct. At most one
+// pixel in 2,000 is falsely lit, and as many falsely dark (one in 1,000 with three lights).
 TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     const Scene scene = GetParam().make();
     Renderer renderer(device(), scene, pipelines());
@@ -103,8 +103,7 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.local_shadow_edge.empty());
     ASSERT_GT(path.local_shadow_reach, 0);
-    // From the filter's middle to a corner, and a texel; the path's own bound has what a surface is moved by,
-    // too.
+    // From the filter's centre to a corner, plus a texel. The path's own bound also includes the bias.
     const double reach = path.local_shadow_reach * (3 * std::numbers::sqrt2 / 2 + 1) /
                          marginOf(AtlasRequest{.kernel = 3, .bias = double{settings.shadow_bias}});
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
@@ -136,13 +135,12 @@ INSTANTIATE_TEST_SUITE_P(
     Builtin, LocalShadowPaths,
     testing::Values(LocalScene{"lamp", lampInARoom, 1}, LocalScene{"spot", spotOverTheGround, 1},
                     LocalScene{"wide_spot", wideSpotOverTheGround, 1},
-                    // Three lights, one of which grazes the floor, so that what it is
-                    // read at lies up to two texels aside.
+                    // Three lights. One grazes the floor: the bias moves its lookups by up to two texels.
                     LocalScene{"points", [] { return loadScene("builtin:points"); }, 3, 1e-3},
                     LocalScene{"spots", [] { return loadScene("builtin:spots"); }, 4}),
     [](const auto& row) { return std::string(row.param.name); });
 
-// A plane never shadows itself, however its light grazes it, with any filter, from small tiles or large.
+// A plane never shadows itself at any grazing angle, with any filter or tile size.
 TEST(LocalShadowPlane, IsFullyLitAtEveryAngle) {
     for (const double height : {0.02, 0.1, 0.5, 2.0, 7.0})
         for (const bool spot : {false, true})
@@ -168,8 +166,8 @@ TEST(LocalShadowPlane, IsFullyLitAtEveryScaleAndDarkFromBelow) {
     }
 }
 
-// A lamp 2 m to the right of the upright board on the ground's middle, which is 1 m high, as high as half the
-// lamp: the board's shadow begins at its foot and ends 2 m behind it.
+// The upright board at the ground's centre is 1 m high; the lamp is 2 m to its right and 2 m high. The
+// board's shadow begins at its foot and ends 2 m behind it.
 TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
     for (const double scale : {1e-3, 1.0, 1e4})
         for (const Light& light : {castingPoint({2, 2, 0}), castingSpot({2, 2, 0}, {-1, 0, 0}, 44)}) {
@@ -178,9 +176,9 @@ TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
             settings.size = {320, 180};
             const int position = int{gpu::DEBUG_position};
             const Frame frame = drawnOf(scene, settings, {localMode, ids, position});
-            // A texel of a point's tile is 8 mm at the foot, and 16 mm of height at the shadow's end, which
-            // is twice as much of ground; the filter reaches two, and a surface is moved by up to one and a
-            // half.
+            // A texel of a point light's tile is 8 mm at the foot. At the shadow's end it is 16 mm of
+            // height, twice that on the ground. The filter radius is two texels, and the bias up to one
+            // and a half.
             const double gap = 0.06, end = 0.12;
             const glm::dvec3 eye(0.4, 6, 2.5);
             int dark = 0, open = 0;
@@ -205,7 +203,7 @@ TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
         }
 }
 
-// Holes of an alpha mask let light through; what is blended casts nothing.
+// Light passes through holes of an alpha mask; blended surfaces cast nothing.
 TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     const auto darkest = [](AlphaMode mode, float alpha) {
         Scene scene = ground({castingPoint({2, 2, 0})}, {board(1)});
@@ -217,7 +215,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
     EXPECT_EQ(darkest(AlphaMode::mask, 0.3f), 1);
     EXPECT_EQ(darkest(AlphaMode::blend, 1.0f), 1);
-    // Where nothing casts no pass is drawn, and what is turned from the light sees none of it yet.
+    // Without a caster no pass is added, and surfaces facing away from the light are unaffected.
     Scene scene = ground({castingPoint({2, 2, 0})}, {board(1)});
     for (Material& material : scene.materials) material.alpha_mode = AlphaMode::blend;
     const Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
@@ -230,8 +228,8 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     EXPECT_EQ(locallySeen(drawnOf(scene, settings)).most, 0);
 }
 
-// Without a light that asks nothing is drawn, and not a bit differs from what it was; a light that asks casts
-// whatever --shadow-lights says; and a sun's shadow is its own.
+// If no light requests shadows, nothing is rendered and no bit changes. A light that requests one casts
+// whatever --shadow-lights says. The sun's shadow is independent.
 TEST(LocalShadowCasters, AreThoseThatAsk) {
     Scene scene = ground({castingPoint({2, 2, 0}), castingPoint({-2, 1, 0})}, {board(1)});
     Settings off = smallPicture(GBufferEncoding::standard), none = locally(off, 0), one = locally(off, 1);
@@ -251,7 +249,7 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     EXPECT_EQ(locallySeen(drawnOf(scene, off, channels)).least, 1) << "--shadows off";
 }
 
-// Each tile draws what lies in it, up to the light's range.
+// Each tile renders the objects within it, up to the light's range.
 TEST(LocalShadowCasters, AreChosenForEachTile) {
     std::vector<Primitive> standing;
     addBox(standing, {0.9f, 0.4f, -0.1f}, {1.1f, 0.6f, 0.1f}, 1);  // six sides beside the lamp
@@ -265,8 +263,8 @@ TEST(LocalShadowCasters, AreChosenForEachTile) {
     EXPECT_TRUE(says(drawnOf(ground({light}, standing), settings), "1 draw, "));
 }
 
-// More than the atlas has room for: those that find none are counted and lit without a shadow, in the
-// reference too.
+// More lights than the atlas has capacity for: the surplus is counted and lit without shadows, also in the
+// reference.
 TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
     std::vector<Light> lamps(50, castingPoint({2, 2, 0}));
     for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i].intensity = 100.0f - static_cast<float>(i);
@@ -278,7 +276,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
     EXPECT_EQ(locallySeen(frame).least, 0) << "the channel is that of those which cast";
 }
 
-// Whatever chooses the lights, the same ones cast, and every sum runs in the same order.
+// With every assignment the same lights cast, and every sum has the same order.
 TEST(LocalShadowLists, AreNoDifference) {
     const Scene scene = loadScene("builtin:points");
     Settings settings = locally(smallPicture(GBufferEncoding::full), 3, 512);
@@ -299,7 +297,7 @@ TEST(LocalShadowLists, AreNoDifference) {
         }
 }
 
-// A light that casts is shaded per pixel, where there is no room for others.
+// A shadow-casting light is shaded per pixel, even if pixel_lights is 0.
 TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     const Scene scene =
         ground({castingPoint({2, 2, 0}), castingPoint({0, 3, 1}), castingPoint({0, 3, 2})}, {board(1)});
@@ -309,7 +307,7 @@ TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     EXPECT_EQ(locallySeen(drawnOf(scene, settings)).least, 0);
 }
 
-// More lights than a draw may walk, so that those which cast are in several batches.
+// More lights than a draw may process: casting lights fall into several batches.
 TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
     Scene scene = ground({castingPoint({2, 2, 0}), castingSpot({1, 2, 1}, {-1, 0, 0}, 40)}, {board(1)});
     for (Light& light : scene.lights) light.shadow = true;
@@ -336,7 +334,7 @@ TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
     }
 }
 
-// What no tile owns may hold anything: filters never read it.
+// Texels outside all tiles may contain anything: filters never read them.
 TEST(LocalShadowAtlas, HoldsNothingElseThatIsRead) {
     for (const LocalScene& row :
          {LocalScene{"lamp", lampInARoom, 1}, LocalScene{"both", bothLightsInARoom, 2}})
@@ -356,7 +354,7 @@ TEST(LocalShadowAtlas, HoldsNothingElseThatIsRead) {
                        static_cast<std::size_t>(x);
             };
             for (const AtlasTile& tile : shadows.atlas().tiles) {
-                // The outermost texels of a tile are no filter's, either.
+                // Filters do not read the outermost texels of a tile, either.
                 for (int y = 1; y + 1 < tile.size; ++y)
                     for (int x = 1; x + 1 < tile.size; ++x)
                         owned[at(tile.corner.x + x, tile.corner.y + y)] = true;
@@ -391,10 +389,10 @@ TEST(LocalShadowAtlas, HoldsNothingElseThatIsRead) {
                 shared.uploader.buffer(poison, std::as_bytes(std::span(values)));
                 shared.uploader.flush();
                 prepared.passes.run(passes, passes + 1);
-                prepared.passes.run(1, passes);  // the maps' own pass is the first
+                prepared.passes.run(1, passes);  // the pass that renders the maps is the first
                 EXPECT_EQ(differingPixels(clean, readLit(prepared), true), 0u) << row.name << " " << value;
             }
-            // The negative control: what a tile owns is read.
+            // The negative control: texels of tiles are read.
             owned.assign(owned.size(), false);
             const std::vector<float> dark(owned.size(), 1);
             shared.uploader.buffer(poison, std::as_bytes(std::span(dark)));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Factors of which no two are alike, and none is 0 or 1.
+// Factors that all differ, none 0 or 1.
 Cell withFactors(const std::string& name) {
     Cell cell;
     cell.name = name;
@@ -35,7 +35,7 @@ Cell withTextures(const std::string& name) {
     return cell;
 }
 
-// Another one in each slot: turned, stretched and moved.
+// A different one for each slot: rotation, scale and offset.
 CellTexture::Transform transformOf(std::size_t slot) {
     const auto i = static_cast<double>(slot);
     return {{0.13 + 0.11 * i, 0.29 - 0.07 * i}, (20 + 29 * i) * degree, {0.8 + 0.05 * i, 1.2 - 0.06 * i}, {}};
@@ -91,7 +91,7 @@ void addCoordinates(std::vector<Cell>& cells) {
 }
 
 void addSlots(std::vector<Cell>& cells) {
-    // Any two slots differ in one of the first three; the last has none but the first slot.
+    // Any two slots differ in one of the first three cells; the last textures only the first slot.
     static_assert(gpu::SLOT_COUNT == 8);
     for (int bit = 0; bit < 4; ++bit) {
         Cell cell = withFactors("textures in the slots of bit " + std::to_string(bit));
@@ -100,7 +100,7 @@ void addSlots(std::vector<Cell>& cells) {
                 cell.textures[static_cast<std::size_t>(slot)] = {slot, 1, {}};
         cells.push_back(cell);
     }
-    // One image as sRGB and as linear. Its colours are no normals.
+    // One image as sRGB and as linear, except in the normal slot: its colours are not normals.
     Cell shared = withTextures("one image in every slot");
     for (CellTexture& use : shared.textures)
         if (use.picture != gpu::SLOT_normal) use.picture = gpu::SLOT_base_color;
@@ -150,7 +150,7 @@ void addColors(std::vector<Cell>& cells) {
     cells.back().unlit = true;
 }
 
-// Alpha that equals the cutoff is opaque.
+// Alpha equal to the cutoff is opaque.
 void addMasks(std::vector<Cell>& cells) {
     const auto add = [&](const char* name, std::optional<double> cutoff, double factor, double vertex) {
         Cell cell = withTextures(name);
@@ -161,14 +161,14 @@ void addMasks(std::vector<Cell>& cells) {
         cell.color.a = vertex;
         cells.push_back(cell);
     };
-    // The alpha of texels of the base colour's picture, as a file would say it.
+    // The alpha of texels of the base colour image, as a file would write it.
     for (const glm::ivec2 texel : {glm::ivec2(1, 0), glm::ivec2(2, 1), glm::ivec2(0, 3)}) {
         const int code = codesAt(gpu::SLOT_base_color, texel.x, texel.y).a;
         add("cutoff of a texel's alpha", double{static_cast<float>(code / 255.0)}, 1, 1);
     }
     add("cutoff of the opaque texel's alpha", 1, 1, 1);
     add("cutoff of half the opaque texel's alpha", 0.5, 0.5, 1);
-    // Interpolation in perspective rounds even what is alike at all corners.
+    // Perspective interpolation rounds even values that are equal at all vertices.
     add("cutoff below half the opaque texel's alpha, by the vertices", 0.499, 1, 0.5);
     add("cutoff not stated", {}, 1, 1);
     Cell edge = withFactors("cutoff of the factor");
@@ -244,8 +244,8 @@ glm::dmat3 CellCamera::axes() const {
 }
 
 const std::vector<CellCamera>& cellCameras() {
-    // Eight rows of cells, or three in the middle of the same wall. Perspective under ambient light,
-    // parallels without: each of the four would need pipelines of its own.
+    // Eight rows of cells, or three at the centre of the same wall. Perspective with ambient light,
+    // orthographic without: all four combinations would need pipelines of their own.
     static const std::vector<CellCamera> all{
         {.name = "Landscape", .eye = {0.3, -0.2, 10}, .all = true, .ambient = 0.3f},
         {.name = "Portrait", .eye = {-0.2, 2.4, 8}, .half = 5.6, .size = {160, 208}, .ambient = 0.3f},

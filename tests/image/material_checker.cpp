@@ -16,15 +16,15 @@
 namespace diptych::tests {
 namespace {
 
-// How far, in pixels, the edge of a texel or of a cell is at least from the centre of a pixel that is judged:
-// half a pixel would do but for the rasterizer's grid of 1/256 and float coordinates.
+// Minimum distance, in pixels, from the centre of a checked pixel to the edge of a texel or cell. Half a
+// pixel plus the rasterizer's grid of 1/256 and float rounding of coordinates.
 constexpr double judgedMargin = 0.51;
 
 constexpr unsigned slotBit(gpu::uint slot) {
     return 1u << slot;
 }
 
-// The slots that may change a channel, as bits.
+// Bit mask of the slots that may affect a channel.
 unsigned slotsOf(int mode) {
     constexpr unsigned base = slotBit(gpu::SLOT_base_color), rough = slotBit(gpu::SLOT_metallic_roughness);
     switch (static_cast<gpu::uint>(mode)) {
@@ -60,8 +60,8 @@ unsigned slotsOf(int mode) {
     }
 }
 
-// The pixel's place in the wall, and the slots of which it shows one texel, as bits; nothing at the edge of a
-// cell.
+// The pixel's position on the wall, and a bit mask of the slots whose texture shows a single texel there.
+// Nothing at a cell's edge.
 struct JudgedPixel {
     CellPlace place;
     unsigned slots = 0;
@@ -92,12 +92,12 @@ double largestIn(const std::vector<double>& values) {
     return largest;
 }
 
-// Of a channel's value at a pixel: what it may be off by in every component.
+// Tolerance of every component of a channel's value at a pixel.
 //
-// A value of a material is a product of at most four floats, factor, texel, vertex colour and mixture, of
-// which a texel, a decoded value and each product are rounded by 2^-24 at most: 2^-21 of it. A normal's texel
-// is off by 2^-24 as well, doubled, scaled by up to 1.6 and mixed with vectors of length 1: 4e-7 and as much
-// again for its length.
+// A material value is a product of at most four floats: factor, texel, vertex colour and mixture. A texel,
+// a decoded value and each product round by at most 2^-24: 2^-21 in all, relative. A normal's texel errs
+// by 2^-24, is doubled, scaled by up to 1.6 and mixed with unit vectors: 4e-7, and as much again for its
+// length.
 double roundingOf(int mode, const std::vector<double>& expected) {
     const double largest = largestIn(expected);
     switch (static_cast<gpu::uint>(mode)) {
@@ -118,11 +118,11 @@ double roundingOf(int mode, const std::vector<double>& expected) {
     }
 }
 
-// The rasterizer moves corners to a grid of 1/256 pixel. A place between two corners that were moved apart,
-// or to one side, is off by up to 1/128 of the way to the next pixel.
+// The rasterizer snaps vertices to a grid of 1/256 pixel. A point between two vertices is off by up to
+// 1/128 of the way to the next pixel.
 constexpr double cornerGrid = 1.0 / 128;
 
-// What that changes: texture coordinates anywhere, all else where the wall is seen at an angle.
+// Effect of that: on texture coordinates anywhere, on everything else if the wall is tilted.
 double movedBy(int mode, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
     const CellPlace here = cellPlace(cells, camera, {x + 0.5, y + 0.5});
     double deeper = 0, aside = 0;
@@ -139,8 +139,8 @@ double movedBy(int mode, const std::vector<Cell>& cells, const CellCamera& camer
         case gpu::DEBUG_texcoords:
             return aside * cornerGrid;
         case gpu::DEBUG_geometric_normal:
-            // Over a cell, some 16 pixels, a corner that was moved turns the triangle. Beside that, it is
-            // made of differences between positions of neighbouring pixels, which float32 rounds.
+            // Over a cell of some 16 pixels, a snapped vertex tilts the triangle. The normal is also built
+            // from position differences of neighbouring pixels, which float32 rounds.
             return deeper > 1e-9 ? deeper / aside * cornerGrid / 16 + 2 * here.depth * 0x1p-23 / aside : 0;
         default:
             return 0;
@@ -164,9 +164,8 @@ std::string placeName(const std::vector<Cell>& cells, const CellPlace& place, in
     return fmt::format("\"{}\" at {}, {}", cells[static_cast<std::size_t>(place.cell)].name, x, y);
 }
 
-// What a value of light may be off by: float32's rounding through some hundred operations, relative to the
-// largest component; and of ambient light the error of the paths' table of its integral
-// (tests/image/ambient_test.cpp).
+// Tolerance of light: float32 rounding through some hundred operations, relative to the largest component.
+// Ambient light adds the error of the paths' table of its integral (tests/image/ambient_test.cpp).
 constexpr double litRounding = 1e-5, ambientTable = 6e-5;
 
 std::vector<double> valuesAt(const Frame& frame, int mode, int x, int y) {
@@ -175,10 +174,9 @@ std::vector<double> valuesAt(const Frame& frame, int mode, int x, int y) {
     return {p, p + image.components};
 }
 
-// Where the wall is seen at an angle, what the grid of corners changes in a value of light: as much of its
-// differences to the neighbours that show the same texels, and, since a surface at another depth is off the
-// wall's plane, of the lamp's light, which changes by up to 2 / 3 a metre 3 m from it. Nothing where there is
-// no such neighbour in one direction.
+// Effect of vertex snapping on light if the wall is tilted: that fraction of the differences to neighbours
+// with the same texels. A surface at another depth is off the wall's plane, which changes the lamp's light
+// by up to 2/3 per metre at 3 m distance. Nothing if there is no such neighbour in one direction.
 std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamera& camera,
                                  const Frame& reference, int mode, const JudgedPixel& pixel, int x, int y) {
     if (camera.tilt == glm::dvec2(0)) return 0.0;
@@ -205,7 +203,7 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
     return moved;
 }
 
-// What a channel of a path may differ by from the reference; nothing where that is not judged.
+// Tolerance of a path's channel against the reference; nothing if it is not checked.
 std::optional<double> allowedBeside(const std::vector<Cell>& cells, const CellCamera& camera,
                                     const Frame& reference, int mode, const JudgedPixel& pixel, int x,
                                     int y) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Holds a Frame against the closed forms of the cells, and against another Frame, at every pixel that shows
-// one texel of all textures that matter to it.
+// Compares a Frame with the closed forms of the cells or with another Frame, at every pixel where all
+// relevant textures show a single texel.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -12,8 +12,8 @@
 
 namespace diptych::tests {
 
-// What was found of a channel: how many values were judged, how many were off by more than they may be, and
-// the worst, as a multiple of what is allowed.
+// Result for a channel: number of checked values, number out of tolerance, and the worst error as a
+// multiple of the tolerance.
 struct CheckedValues {
     std::size_t values = 0, wrong = 0;
     double worst = 0;
@@ -21,15 +21,15 @@ struct CheckedValues {
 };
 using ChannelChecks = std::map<int, CheckedValues>;  // by channel
 
-// Whether any value is wrong.
+// Whether any value is out of tolerance.
 bool anyWrong(const ChannelChecks& judgement);
 std::string describe(const ChannelChecks& judgement);
 
-// Channels of the material, depth and position against the closed form.
+// Material channels, depth and position against the closed form.
 ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cells, const CellCamera& camera,
                                 const CellDecode& decode);
 
-// Every channel that both have, light among them.
+// Every channel that both have, including light.
 ChannelChecks againstReference(const Frame& frame, const Frame& reference, const std::vector<Cell>& cells,
                                const CellCamera& camera);
 

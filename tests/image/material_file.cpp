@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The glTF file of the cells.
+// Writes the cells as a glTF file.
 #include "shared/image/file_bytes.h"
 #include "shared/image/png.h"
 #include "shared/scene/gltf/gltf.h"
@@ -28,7 +28,7 @@ std::string pngOf(int picture) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Texture n is picture n, without filters.
+// Texture n is image n, unfiltered.
 void writePictures(GltfFile& file) {
     file.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}}};
     for (int slot = 0; slot < static_cast<int>(gpu::SLOT_COUNT); ++slot) {
@@ -101,7 +101,7 @@ Json materialOfCell(const Cell& cell) {
     return m;
 }
 
-// The upper left, lower left, lower right and upper right corners.
+// The upper left, lower left, lower right and upper right vertices.
 void writeSquare(GltfFile& file, const Cell& cell, std::size_t material) {
     const glm::vec2 half(0.5 / std::abs(cell.scale.x), 0.5 / std::abs(cell.scale.y));
     const auto tx = static_cast<float>(std::cos(cell.tangent_angle)),
@@ -160,7 +160,7 @@ int addNode(GltfFile& file, Json node) {
     return static_cast<int>(file.json["nodes"].size()) - 1;
 }
 
-// Every camera frames a square, which fills the shorter side of its picture.
+// Every camera frames a square that fills the shorter side of its image.
 void writeCamera(GltfFile& file, const CellCamera& camera) {
     const double half = camera.half * std::min(1.0, static_cast<double>(camera.size.x) / camera.size.y),
                  far = 1000;
@@ -202,7 +202,7 @@ Scene materialScene(const std::vector<Cell>& cells) {
     file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.8, 0.6}}},
         {{"type", "point"}, {"intensity", 30}, {"color", {0.5, 0.7, 1}}}};
-    // Along -Z of its node, which is turned about X by 0.9 rad: the sun stands above the viewer.
+    // The sun shines along -Z of its node, rotated about X by 0.9 rad: from above the viewer.
     addNode(file, {{"rotation", {-std::sin(0.45), 0, 0, std::cos(0.45)}},
                    {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     addNode(file,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Surfaces that would be wrong in both paths alike: every property, texture slot and use of texture
-// coordinates of a glTF material, cameras and mirrored or turned geometry, of both paths and the reference,
-// against closed forms; and all light against the reference in mode scene, which has its own materials,
-// textures and camera.
+// Faults that would affect both paths alike. Every property, texture slot and use of texture coordinates
+// of a glTF material, cameras, and mirrored or rotated geometry: both paths and the reference match closed
+// forms. Light matches the reference in mode scene, which has its own materials, textures and camera.
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
@@ -57,7 +56,7 @@ Frame materialReference(const Scene& scene, const CellCamera& camera) {
     return drawReferenceFrame(scene, views.at(viewRequest(settings)), settings, nullptr, options);
 }
 
-// Of all cells, whose materials need most pipelines, those that show materials; of a few cells every channel.
+// All cells need the most pipelines: only material channels. A few cells: every channel.
 std::vector<int> channelsAt(const CellCamera& camera) {
     if (!camera.all) return allChannels();
     std::vector<int> modes;
@@ -87,11 +86,11 @@ std::vector<Frame> materialFrames(const CellCamera& camera) {
     return frames;
 }
 
-// ---- pictures ----------------------------------------------------------------------------------------
+// ---- images ------------------------------------------------------------------------------------------
 
 class MaterialPictures : public testing::TestWithParam<CellCamera> {
 protected:
-    // `channels`: how many it must have judged.
+    // `channels`: number of channels that must have been checked.
     static void expectRight(const std::string& who, const ChannelChecks& judgement, std::size_t channels) {
         EXPECT_FALSE(anyWrong(judgement)) << who << "\n" << describe(judgement);
         EXPECT_EQ(judgement.size(), channels) << who;
@@ -108,10 +107,10 @@ TEST_P(MaterialPictures, AreWhatTheFileSays) {
         "reference",
         againstClosedForm(materialReference(sceneOf(camera), camera), cellsOf(camera), camera, exactDecode()),
         18);
-    // sRGB as the device decodes it, and no other tolerance for that.
+    // sRGB as the device decodes it, without further tolerance.
     const Frame truth = materialReference(withDecodedColors(sceneOf(camera), deviceSampling().srgb), camera);
     for (const Frame& frame : materialFrames(camera)) {
-        // Those that the path makes; closed forms are of surfaces, not of light.
+        // Channels that the path supports; closed forms cover surfaces, not light.
         const std::size_t light = camera.all ? 1 : 9;
         const std::size_t channels = camera.all                 ? (frame.name == "deferred" ? 13 : 16)
                                      : frame.name == "deferred" ? 23
@@ -126,15 +125,15 @@ TEST_P(MaterialPictures, AreWhatTheFileSays) {
 INSTANTIATE_TEST_SUITE_P(Cameras, MaterialPictures, testing::ValuesIn(cellCameras()),
                          [](const auto& camera) { return std::string(camera.param.name); });
 
-// ---- planted faults ----------------------------------------------------------------------------------
+// ---- injected faults ---------------------------------------------------------------------------------
 
 struct MaterialFault {
     std::string name;
-    gpu::uint channel;  // where it must be seen
+    gpu::uint channel;  // where it must be detected
     std::function<void(Scene&)> plant;
 };
 
-// Of the channel that shows a slot's texture.
+// The channel that shows a slot's texture.
 constexpr std::array<gpu::uint, gpu::SLOT_COUNT> channelOfSlot{
     gpu::DEBUG_albedo,   gpu::DEBUG_roughness,      gpu::DEBUG_normals,  gpu::DEBUG_occlusion,
     gpu::DEBUG_emission, gpu::DEBUG_dielectric_f90, gpu::DEBUG_specular, gpu::DEBUG_lightmap};
@@ -173,11 +172,11 @@ void addSlotFaults(std::vector<MaterialFault>& faults) {
         faults.push_back(
             {"slot " + std::to_string(slot) + (srgb ? ": not decoded from sRGB" : ": decoded from sRGB"),
              channelOfSlot[slot], [slot, srgb](Scene& s) {
-                 // Read through the other curve these codes give what the fault would.
+                 // Decoded by the other curve, these codes give the fault's result.
                  recode(imageOfSlot(s, slot), [srgb](int code) {
                      return srgb ? encodedSrgb(code / 255.0) : exactSrgb(static_cast<std::size_t>(code));
                  });
-                 if (!srgb && slot == gpu::SLOT_specular)  // its alpha is what is read
+                 if (!srgb && slot == gpu::SLOT_specular)  // only its alpha is read
                      for (std::size_t i = 3; i < imageOfSlot(s, slot).rgba.size(); i += 4) {
                          std::uint8_t& code = imageOfSlot(s, slot).rgba[i];
                          code = static_cast<std::uint8_t>(std::lround(255 * exactSrgb(code)));
@@ -245,7 +244,7 @@ void addMaterialFaults(std::vector<MaterialFault>& faults) {
     add("sides ignored", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = false; });
     add("all are double-sided", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = true; });
     add("mask ignored", gpu::DEBUG_material_id, [](Material& m) { m.alpha_mode = AlphaMode::opaque; });
-    // As <= for < would.
+    // As <= instead of < would.
     add("the cutoff itself is cut out", gpu::DEBUG_material_id,
         [](Material& m) { m.alpha_cutoff = std::nextafter(m.alpha_cutoff, 2.0f); });
 }
@@ -306,7 +305,8 @@ void addGeometryFaults(std::vector<MaterialFault>& faults) {
            [](Camera& c) { c.orthographic = false; });
 }
 
-// The same checks find each fault, in the channel where it is, in a scene that differs from the file by it.
+// The same checks detect each fault in its channel, in a scene that differs from the file only by the
+// fault.
 TEST(MaterialNegativeControl, EveryFaultIsSeen) {
     std::vector<MaterialFault> faults;
     addSlotFaults(faults);
@@ -324,7 +324,7 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
     for (const MaterialFault& fault : faults) {
         Scene scene = sceneOf(camera);
         fault.plant(scene);
-        // Light from everywhere takes longest, and what it shows of materials other channels show.
+        // Without lightmaps: a lit environment takes longest, and other channels show the same materials.
         if (fault.channel != gpu::DEBUG_lightmap)
             for (Material& m : scene.materials) m.lightmap_texture.texture = -1;
         const ChannelChecks judgement = judged(scene);

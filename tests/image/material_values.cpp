@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Closed forms of the cells: glTF 2.0 and its extensions, written from their texts alone.
+// Closed forms of the cells, written solely from the texts of glTF 2.0 and its extensions.
 #include "shared/contract/debug_mode.h"
 #include "tests/image/material_cells.h"
 
@@ -24,10 +24,11 @@ std::vector<double> components(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-// MikkTSpace's tangent points to where u grows and v rests, its bitangent to where v falls and u rests: those
-// that the map is read with, KHR_texture_transform included. Both ways on the square as columns, in x and y.
+// MikkTSpace: the tangent points along growing u at constant v, the bitangent along falling v at constant
+// u. Uses the coordinates that the map is read with, KHR_texture_transform included. Columns: du and dv
+// directions on the square, in x and y.
 glm::dmat2 growthOf(const CellTexture& map) {
-    // By x and y: u grows to the right, v downwards. The second set is the first one transposed.
+    // d(uv)/d(xy): u grows to the right, v downwards. The second set is the first one transposed.
     const int set = map.transform && map.transform->texcoord ? *map.transform->texcoord : map.texcoord;
     glm::dmat2 uv = set == 1 ? glm::dmat2(0, 1, -1, 0) : glm::dmat2(1, 0, 0, -1);
     if (map.transform) {
@@ -38,8 +39,8 @@ glm::dmat2 growthOf(const CellTexture& map) {
     return glm::inverse(uv);
 }
 
-// glTF 2.0, 3.7.2.1 and 3.9.3: (T, w cross(N, T), N), to the world as normals and as directions are; a
-// mirroring node turns the cross product round. Seen from behind it is negated.
+// glTF 2.0, 3.7.2.1 and 3.9.3: (T, w cross(N, T), N), transformed to the world as normals and as
+// directions. A mirroring node flips the cross product. Seen from behind the normal is negated.
 void mapNormal(const Cell& cell, const glm::dvec3& texel, CellSurface& s) {
     glm::dvec3 tangent(std::cos(cell.tangent_angle), std::sin(cell.tangent_angle), 0);
     double w = cell.tangent_w;
@@ -56,13 +57,13 @@ void mapNormal(const Cell& cell, const glm::dvec3& texel, CellSurface& s) {
     const glm::dvec3 world =
         glm::normalize(t * scaled.x + glm::cross(n, t) * (hand * scaled.y) + n * scaled.z);
     s.normal = cell.fromBehind() ? -world : world;
-    if (cell.normal_scale == 0) return;  // the map has no effect, and is not read
+    if (cell.normal_scale == 0) return;  // the map has no effect and is not read
     s.tangent = t;
     s.handedness = hand;
     s.tangent_normal = glm::normalize(scaled);
 }
 
-// Of the square in its object space, seen from its front: (0, 0) in the upper left corner.
+// In the square's object space, seen from the front: (0, 0) is the upper left corner.
 glm::dvec2 firstTexcoord(const Cell& cell, const glm::dvec2& at) {
     const glm::dmat3 node = cell.node();
     return {node[0][0] > 0 ? at.x : 1 - at.x, node[1][1] > 0 ? at.y : 1 - at.y};
@@ -70,9 +71,9 @@ glm::dvec2 firstTexcoord(const Cell& cell, const glm::dvec2& at) {
 
 }  // namespace
 
-// Normals lean by 14 to 48 degrees in every direction. Of metallic and roughness none is small, so that no
-// highlight magnifies rounding. Other components of a texel are at least 55 codes apart, and the texels of a
-// picture at least 9. One texel is opaque: 255 is a float on every device, so that its products with halves
+// Normals tilt by 14 to 48 degrees in every direction. Metallic and roughness are never small, so no
+// highlight magnifies rounding. Other components of a texel differ by at least 55 codes, texels of an
+// image by at least 9. One texel is opaque: 255 is exact on every device, so its products with halves
 // equal a cutoff exactly.
 glm::ivec4 codesAt(int picture, int column, int row) {
     const int texel = 4 * row + column;
@@ -98,7 +99,7 @@ CellDecode exactDecode() {
             [](int code) { return code / 255.0; }};
 }
 
-// A camera's field of view is the picture's height, however wide that is.
+// A camera's field of view is the image's height, for any width.
 CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel) {
     const glm::dvec2 size(camera.size);
     const glm::dvec2 screen = glm::dvec2(pixel.x - size.x / 2, size.y / 2 - pixel.y) / (size.y / 2);
@@ -109,7 +110,7 @@ CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, co
     else
         direction += (axes[0] * screen.x + axes[1] * screen.y) * (camera.half / camera.eye.z);
     CellPlace place;
-    place.depth = -origin.z / direction.z;  // directions are one metre of depth long
+    place.depth = -origin.z / direction.z;  // directions have a depth of one metre
     const glm::dvec3 hit = origin + direction * place.depth;
     place.position = hit - camera.eye;
     const glm::dvec2 at(hit.x + cellsAcross / 2, cellsAcross / 2 - hit.y), cell = glm::floor(at);
@@ -122,8 +123,8 @@ CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, co
     return place;
 }
 
-// KHR_texture_transform: scaled, then turned counter-clockwise as the picture shows it (v grows downwards),
-// then moved. Repeated beyond the picture.
+// KHR_texture_transform: scale, then rotate counter-clockwise as the image shows it (v grows downwards),
+// then translate. Repeats beyond the image.
 glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at) {
     const CellTexture& use = cell.textures[slot];
     const glm::dvec2 first = firstTexcoord(cell, at);
@@ -152,7 +153,7 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
     };
     const glm::dvec4 color = cell.base_color * texel(gpu::SLOT_base_color, true) *
                              (cell.colors == CellColors::none ? glm::dvec4(1) : cell.color);
-    // In floats, in which a cutoff that is a texel's alpha equals it.
+    // Compared as floats, so that a cutoff written from a texel's alpha equals it.
     if (cell.masked && static_cast<float>(color.a) < static_cast<float>(cell.alpha_cutoff.value_or(0.5)))
         return std::nullopt;
     if (cell.fromBehind() && !cell.double_sided) return std::nullopt;

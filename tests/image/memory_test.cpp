@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where device memory comes from when it is short: the next memory type, an exact size, and at last a message
-// that names what was too large. A heap that is full is played: lavapipe has one that never is.
+// Fallbacks if device memory is short: the next memory type, an exact size, and finally a message that
+// names the request that was too large. A full heap is simulated: lavapipe's heap never is full.
 #include "shared/vulkan/memory.h"
 #include "tests/image/scenes.h"
 
@@ -18,8 +18,8 @@ constexpr VkMemoryPropertyFlags localMemory = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BI
                                 cachedMemory = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 constexpr VkDeviceSize mebibyte = VkDeviceSize{1} << 20;
 
-// As many a discrete GPU has them: 0 its own, 1 the host's, 2 the host's and cached, 3 its own that the host
-// sees.
+// As on many discrete GPUs: 0 device-local, 1 host-visible, 2 host-visible and cached, 3 device-local and
+// host-visible.
 VkPhysicalDeviceMemoryProperties discreteMemory() {
     VkPhysicalDeviceMemoryProperties properties{};
     properties.memoryTypeCount = 4;
@@ -45,8 +45,8 @@ TEST(MemoryTypes, TheBestComeFirstAndAllThatServeFollow) {
     EXPECT_EQ(memoryTypes(lazy, 0xf, MemoryUse::device), (Types{3, 1, 2}));
 }
 
-// Memory of those types, whose heaps give up to so many bytes. All of it is really of device()'s first type
-// that the host sees.
+// Simulated memory of those types; each heap provides up to the given number of bytes. All allocations
+// really come from device()'s first host-visible type.
 class PlayedMemory {
 public:
     explicit PlayedMemory(std::vector<VkDeviceSize> room, std::vector<VkDeviceSize> says = {})
@@ -83,14 +83,14 @@ private:
 TEST(MemoryTypes, TheNextTypeIsTakenWhereOneIsFull) {
     PlayedMemory played({100 * mebibyte, 300 * mebibyte, 0});
     const Allocation first = played.take(80 * mebibyte), second = played.take(80 * mebibyte);
-    // The second finds neither the device's own memory nor that which the host sees.
+    // The second allocation fits in neither device-local memory nor the host-visible part of it.
     EXPECT_EQ(played.asked(), (Types{0, 0, 3, 1}));
     EXPECT_EQ(first.mapped(), nullptr);
     EXPECT_NE(second.mapped(), nullptr);
     EXPECT_EQ(played.memory().allocated(), 160 * mebibyte);
 }
 
-// A block of a type that suits less is not filled while the best one has room.
+// A block of a less suitable type is not used while the best type has capacity.
 TEST(MemoryTypes, EachUseHasItsBestTypeThoughAnotherHasABlock) {
     PlayedMemory played({1000 * mebibyte, 1000 * mebibyte, 1000 * mebibyte});
     const Allocation upload = played.take(mebibyte, MemoryUse::upload),
@@ -99,7 +99,7 @@ TEST(MemoryTypes, EachUseHasItsBestTypeThoughAnotherHasABlock) {
     EXPECT_EQ(played.asked(), (Types{1, 2, 0}));
 }
 
-// Only a heap that is full is passed over.
+// Only a full heap is skipped.
 TEST(MemoryTypes, OtherErrorsAreNotTakenForAFullHeap) {
     Memory lost(
         device().handle(), discreteMemory(),
@@ -119,7 +119,7 @@ TEST(MemoryTypes, ABlockIsAsSmallAsItMustBe) {
     EXPECT_EQ(played.memory().allocated(), 30 * mebibyte);
 }
 
-// A heap that says that it has little left is asked last, though it might give more than it says.
+// A heap that reports little memory left is tried last, although it might provide more than it reports.
 TEST(MemoryTypes, HeapsSayWhatTheyHaveLeft) {
     PlayedMemory played({1000 * mebibyte, 1000 * mebibyte, 1000 * mebibyte},
                         {mebibyte, 1000 * mebibyte, mebibyte});

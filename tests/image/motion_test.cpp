@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What moves: both paths draw the live pose, the same bits wherever it is posed and whatever was drawn
-// before, with every assignment of lights, shadows and haze; and it is where the reference has it.
+// Animated scenes: both paths render the current pose. Bits are equal wherever it is computed and whatever
+// was rendered before, with every light assignment, shadows and haze. Positions match the reference's.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/motion/animation.h"
@@ -17,7 +17,7 @@ namespace {
 constexpr int materialId = static_cast<int>(gpu::DEBUG_material_id),
               depthMode = static_cast<int>(gpu::DEBUG_depth);
 
-// Of everything that what moves may reach: lights in lists, a shadowed sun, haze.
+// Everything that motion may affect: light lists, a shadowed sun, haze.
 Settings movingPicture(double time, const std::string& animation = {}) {
     Settings settings;
     settings.gbuffer = GBufferEncoding::full;
@@ -61,7 +61,7 @@ const std::vector<std::string> movingScenes{"builtin:motion", "builtin:tangents"
 
 class MovingParity : public testing::TestWithParam<std::string> {
 protected:
-    // Null and skipped where the file is not there.
+    // Null if the file does not exist; the test is then skipped.
     UploadedScene* scene() {
         if (GetParam().starts_with("builtin:")) return &uploaded(GetParam());
         const std::filesystem::path file = assets() / GetParam();
@@ -69,8 +69,8 @@ protected:
     }
 };
 
-// At the beginning, in the middle and at the end of each animation by itself: all assignments in both paths,
-// and vertices that are posed in either place.
+// At the start, middle and end of each animation: all assignments in both paths, and both places of
+// skinning.
 TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
     UploadedScene* const moving = scene();
     if (moving == nullptr)
@@ -82,7 +82,7 @@ TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
         for (const double part : {0.0, 0.5, 1.0}) {
             Settings settings =
                 movingPicture(part * lengthOf(moving->scene.animations[a]), std::to_string(a));
-            // More lights than one is per pixel are summed over vertices, which `every` does not do.
+            // Lights beyond the per-pixel limit are evaluated per vertex, which `every` does not do.
             settings.pixel_lights = 64;
             settings.assign = Assignment::every;
             const Frame every = drawnOnce(moving->renderer, settings, Path::forward_plus, channels);
@@ -98,7 +98,7 @@ TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
                  {Assignment::clustered, Assignment::tiled, Assignment::per_object}) {
                 settings.assign = assign;
                 same(Path::forward_plus);
-                // A G-buffer does not say which object a pixel is of.
+                // A G-buffer does not store which object a pixel belongs to.
                 if (assign != Assignment::per_object) same(Path::deferred);
             }
             settings.skinning = Skinning::vertex;
@@ -114,7 +114,7 @@ TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
     if (moving == nullptr)
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
     Settings settings = movingPicture(0.7);
-    // All that a vertex has reaches one of them.
+    // Each vertex attribute affects one of them.
     const std::vector<int> channels{lit,
                                     static_cast<int>(gpu::DEBUG_albedo),
                                     static_cast<int>(gpu::DEBUG_normals),
@@ -131,7 +131,7 @@ TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
     settings.skinning = Skinning::vertex;
     expectSameChannels(
         deferred, drawnOnce(moving->renderer, settings, Path::deferred, {lit, materialId, depthMode}), 3);
-    // Depth of a pre-pass is that of the draws that shade.
+    // A pre-pass computes the same depth as the shading draws.
     for (const Switch prepass : {Switch::on, Switch::off}) {
         settings.prepass = prepass;
         expectSameChannels(forward, drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
@@ -143,8 +143,8 @@ INSTANTIATE_TEST_SUITE_P(Scene, MovingParity, testing::ValuesIn(movingScenes), [
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// Half of a joint at rest and half of one that is half as wide, by hand: the normal (1, 0, 1) becomes (1.5,
-// 0, 1) by each joint's inverse transpose, and (4, 0, 3) by that of their mean.
+// Equal weights for a joint at rest and one scaled by 1/2 in x, computed by hand. The normal (1, 0, 1)
+// becomes (1.5, 0, 1) with each joint's inverse transpose, and (4, 0, 3) with that of their mean.
 TEST(Moving, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     Scene scene;
     scene.materials.resize(1);
@@ -181,7 +181,7 @@ TEST(Moving, NormalsOfSkinsGoByEachJointOrByTheirMean) {
 
 // ---- time --------------------------------------------------------------------------------------------
 
-// Prepared frames of several times in any order: none shows what another has posed or cast.
+// Prepared frames of several times, in any order: none shows another's pose or shadows.
 TEST(Moving, FramesOfSeveralTimesStayApart) {
     const Scene scene = loadScene("builtin:motion");
     using enum Shadows;
@@ -213,7 +213,7 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
     }
 }
 
-// The clipmap's pages are kept from one picture to the next; those that a moving caster reaches are not.
+// The clipmap caches pages between images, except those that a moving caster touches.
 TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
     const Scene scene = loadScene("builtin:motion");
     const int seen = static_cast<int>(gpu::DEBUG_shadow_visibility);
@@ -230,8 +230,8 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
     EXPECT_LT(second.counters.shadow_pages.drawn, second.counters.shadow_pages.resident);
 }
 
-// A masked square above a floor, whose cutoff rises above its alpha: it casts a shadow at first, then none.
-// Behind it an opaque one starts to let light through, and casts none then either.
+// A masked square above a floor: its cutoff rises above its alpha, so its shadow vanishes. Behind it an
+// opaque square becomes transmissive and stops casting a shadow as well.
 Scene vanishingCasters() {
     Scene scene;
     scene.materials.resize(3);
@@ -287,7 +287,7 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
     EXPECT_GT(differingPixels(first.channels.at(seen), second.channels.at(seen)), 100u);
 }
 
-// Another time of the same scene uploads a pose alone, and compiles nothing.
+// Another time of the same scene uploads only a pose and compiles nothing.
 TEST(Moving, ASecondTimeCompilesNothing) {
     const Scene scene = loadScene("builtin:motion");
     Renderer renderer(device(), scene);
@@ -297,7 +297,7 @@ TEST(Moving, ASecondTimeCompilesNothing) {
     EXPECT_EQ(renderer.pipelines(), compiled);
 }
 
-// A pass poses where something is deformed at the picture's time, and nowhere else.
+// The skinning pass runs only if something is deformed at the image's time.
 TEST(Moving, NothingIsPosedWhereNothingDeforms) {
     const auto passesOf = [](const std::string& name, Skinning skinning) {
         const Scene scene = loadScene(name);
@@ -313,14 +313,14 @@ TEST(Moving, NothingIsPosedWhereNothingDeforms) {
     };
     EXPECT_EQ(poses(passesOf("builtin:triangle", Skinning::compute)), 0);
     EXPECT_EQ(poses(passesOf("builtin:motion", Skinning::compute)), 1);
-    // Fresh tangents depend on neighbours, and are made by kernels all the same.
+    // Recomputed tangents depend on neighbours, so compute shaders make them in any case.
     EXPECT_EQ(poses(passesOf("builtin:motion", Skinning::vertex)), 1);
 }
 
 // ---- order and culling -------------------------------------------------------------------------------
 
-// Two blended squares, each on a joint of its own; the second one's moves from behind the first to before it,
-// and then out of the picture.
+// Two blended squares, each on its own joint. The second moves from behind the first to the front, then
+// out of view.
 Scene blendedSquares() {
     Scene scene;
     scene.materials.resize(1);
@@ -374,7 +374,7 @@ TEST(Moving, BlendedDrawsAreSortedAndCulledByTheLivePose) {
     EXPECT_EQ(drawnAt(2), (std::vector<std::uint32_t>{0}));
 }
 
-// Triangle by triangle the order on the host is that of the fragments on the device.
+// Triangles sorted on the host match fragments sorted on the device.
 TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
     UploadedScene& moving = uploaded("builtin:motion");
     Settings settings = movingPicture(0.7);
@@ -386,14 +386,14 @@ TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
     const Frame without = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
     const Image &a = triangles.channels.at(lit), &b = fragments.channels.at(lit);
     EXPECT_GT(differingPixels(a, without.channels.at(lit)), 50u);
-    // Both blend float32 one over the other; a fragment's part is rounded once more in a list.
+    // Both blend float32 back to front; a list rounds each fragment's contribution once more.
     for (std::size_t i = 0; i < a.data.size(); ++i)
         ASSERT_NEAR(a.data[i], b.data[i], 1e-5f * std::max(1.0f, std::abs(b.data[i]))) << i;
 }
 
-// ---- where the reference has it ----------------------------------------------------------------------
+// ---- positions of the reference ----------------------------------------------------------------------
 
-// The two silhouettes are of float32 and of double: they part where an edge passes a pixel's centre.
+// Silhouettes in float32 and in double differ only where an edge passes a pixel's centre.
 TEST_P(MovingParity, SilhouettesAreTheReferences) {
     UploadedScene* const moving = scene();
     if (moving == nullptr)
@@ -416,7 +416,7 @@ TEST_P(MovingParity, SilhouettesAreTheReferences) {
         for (std::size_t i = 0; i < a.data.size(); ++i)
             apart += std::abs(a.data[i] - b.data[i]) > 1e-4f * std::abs(b.data[i]);
         EXPECT_LE(apart, 3u) << time;
-        // A stale pose is far from it.
+        // Control: a stale pose is far off.
         settings.time = 0;
         const Frame stale = drawnOnce(moving->renderer, settings, Path::forward_plus, {lit});
         EXPECT_GT(differingPixels(stale.channels.at(lit), drawn.channels.at(lit)), 20u) << time;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which samples deferred lighting shades (--msaa-edges), held against lit of every sample.
+// The samples that deferred lighting shades (--msaa-edges), compared with shading every sample.
 #include "compare/picture/picture.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/lit_samples.h"
@@ -25,7 +25,7 @@ Settings sampled(Size size, MsaaEdges edges) {
     return settings;
 }
 
-// Pairs of samples of one pixel that differ where each is shaded, and those of them that were shaded as one.
+// Pairs of samples of one pixel that differ when each is shaded, and the number of them shaded as one.
 struct Recall {
     std::size_t pairs = 0, missed = 0;
     double share() const {
@@ -50,8 +50,7 @@ bool anyBit(const float* a, const float* b) {
     return !std::equal(a, a + 3, b);
 }
 
-// Whether two radiances are more than a level of a display of 8 bits apart, in the picture that is made of
-// them.
+// Whether two radiances differ by more than one 8-bit display level in the tone-mapped image of `samples`.
 class DisplayLevel {
 public:
     explicit DisplayLevel(const std::vector<Image>& samples) {
@@ -86,8 +85,8 @@ protected:
     }
 };
 
-// Exact shades whatever differs. Similar finds 99.9 % of what a display would show; where it or coverage has
-// another picture, fewer Surfaces were shaded, which the channel says.
+// `exact` shades every difference. `similar` finds 99.9 % of the visible ones. Wherever the image of
+// `similar` or `coverage` differs, fewer Surfaces were shaded, as the channel reports.
 TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
     if (!GetParam().starts_with("builtin:") && !std::filesystem::exists(assets() / GetParam()))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << assets() / GetParam()
@@ -101,8 +100,8 @@ TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
     EXPECT_EQ(exact.missed, 0u);
     EXPECT_GT(exact.pairs, 100u);
     const Recall similar = recallOf(all, scene.draw(sampled(size, MsaaEdges::similar)), seen);
-    // In the gallery lamps hang over flat tiles, and light changes within a pixel of them whose samples are
-    // equal in all that a G-buffer holds: with thresholds of 0 it is 0.998 there.
+    // The gallery's lamps hang over flat tiles: light varies within a pixel whose samples have equal
+    // G-buffer values. Even with thresholds of 0 the recall is 0.998 there.
     EXPECT_GE(similar.share(), GetParam() == "builtin:gallery" ? 0.996 : 0.999)
         << similar.missed << " of " << similar.pairs;
     RecordProperty("similar_missed", static_cast<int>(similar.missed));
@@ -132,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Msaa, MsaaEdgesOf,
                                          "flight_helmet/FlightHelmet.gltf", "sponza/Sponza.gltf"),
                          [](const auto& scene) { return testName(scene.param); });
 
-// Negative control: what finds edges by triangles that cover a part misses where two cross.
+// Negative control: detecting edges by partially covered triangles misses intersections of two triangles.
 TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
     SampledScene scene(crossingSquares());
     const std::vector<Image> all = scene.draw(sampled({32, 32}, MsaaEdges::all));
@@ -142,8 +141,7 @@ TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
     EXPECT_LT(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::coverage)), seen).share(), 0.9);
 }
 
-// On a fine mesh similar shades a pixel once where exact shades each of its triangles: that is what it is
-// for.
+// On a fine mesh `similar` shades a pixel once, where `exact` shades each of its triangles.
 TEST(MsaaEdges, SimilarSavesOnFineMeshes) {
     const Scene scene = fineMesh(96);
     Renderer renderer(device(), scene, pipelines());
@@ -159,8 +157,8 @@ TEST(MsaaEdges, SimilarSavesOnFineMeshes) {
     EXPECT_LE(surfaces(MsaaEdges::coverage), surfaces(MsaaEdges::exact));
 }
 
-// A square's two triangles over the whole picture: one Surface a pixel, two on the line between them, and
-// with all as many as samples. Nothing is shaded of the background.
+// A square's two triangles fill the image: one Surface per pixel, two along their common edge, and one per
+// sample with `all`. The background is not shaded.
 TEST(MsaaEdges, TheChannelCountsSurfaces) {
     const Scene scene = square();
     Renderer whole(device(), scene, pipelines());
@@ -175,12 +173,12 @@ TEST(MsaaEdges, TheChannelCountsSurfaces) {
     EXPECT_EQ(countsOf(whole, MsaaEdges::coverage), (std::array{0, 56, 8, 0, 0}));
     EXPECT_EQ(countsOf(whole, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
     Scene lower = square();
-    lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, which samples of 8 pixels cross
+    lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, through 8 pixels
     Renderer half(device(), lower, pipelines());
     EXPECT_EQ(countsOf(half, MsaaEdges::exact), (std::array{28, 36, 0, 0, 0}));
 }
 
-// forward+ has no such channel, and with one sample a pixel nobody has.
+// forward+ has no such channel, and neither path has it without MSAA.
 TEST(MsaaEdges, TheChannelIsOfDeferredWithSeveralSamples) {
     const Scene scene = square();
     Renderer renderer(device(), scene, pipelines());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several samples a pixel: deferred lighting shades what forward+ does, whichever samples it shades as one,
-// and both resolve alike.
+// MSAA: deferred lighting matches forward+ for any sample grouping, and both resolve alike.
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
 #include "tests/image/square.h"
@@ -31,7 +30,8 @@ Frame litOf(Renderer& renderer, Settings settings, Path path) {
     return drawnBy(path, renderer, std::move(settings), {lit});
 }
 
-// forward+ against deferred that shades every sample and deferred that shades those of one surface once.
+// Compares forward+ with deferred that shades every sample, and with deferred that shades each surface
+// once.
 void expectTheSame(Renderer& renderer, const Settings& settings, const std::string& what) {
     const Frame forward = litOf(renderer, settings, Path::forward_plus);
     EXPECT_EQ(forward.counters.unreproduced_pixels, 0u) << what;
@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(Msaa, MsaaBuiltin,
                                          "builtin:many_materials"),
                          [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
 
-// Real scenes with all that both paths do, at a time when what moves has moved: under a sky that is not the
-// same everywhere, in haze, with shadows of the sun and of lamps. A campaign draws every one.
+// Real scenes with every feature of both paths, at a time after animated parts have moved: under a
+// non-uniform sky, in haze, with shadows of the sun and of lamps. A campaign renders all of them.
 std::vector<std::string> sampledAssets() {
     if (isCampaign()) return assetScenes();
     return {"flight_helmet/FlightHelmet.gltf",
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Msaa, MsaaAsset, testing::ValuesIn(sampledAssets()), []
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// Every channel is the first sample's, of both paths.
+// Every channel is that of the first sample, in both paths.
 TEST(Msaa, EveryChannelIsTheSameInBothPaths) {
     for (const MsaaShading shading : shadings) {
         const std::vector<Frame> frames =
@@ -139,8 +139,8 @@ TEST(Msaa, WithShadowsHazeAndAnEnvironment) {
     }
 }
 
-// Light is lost nowhere: what a triangle that is partly hidden is shaded with may lie farther away than all
-// that is seen in its tile. Slanted and thin triangles before and behind each other make many such pixels.
+// No light is lost. A partly hidden triangle may be shaded at a point farther away than anything visible
+// in its tile. Slanted, thin triangles in front of each other make many such pixels.
 TEST(Msaa, ListsHoldEveryLightOfAPixel) {
     Scene scene = square();
     const Primitive leaf = scene.meshes[0].primitives[0];
@@ -179,7 +179,7 @@ TEST(Msaa, PicturesOfAnySize) {
         expectTheSame(uploaded("builtin:cutout").renderer, sampled(size), "");
 }
 
-// A packed G-buffer differs by its encoding alone, as with one sample.
+// A packed G-buffer differs only by its encoding, as without MSAA.
 TEST(Msaa, PackedDiffersByItsEncodingAlone) {
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
         Settings settings = sampled({96, 54});
@@ -190,12 +190,12 @@ TEST(Msaa, PackedDiffersByItsEncodingAlone) {
     }
 }
 
-// A triangle of one radiance, which no light reaches, before a black background: of each pixel k of 4 samples
-// are covered.
+// A triangle of constant radiance, without lights, on a black background: k of 4 samples of each pixel are
+// covered.
 TEST(Msaa, ResolvesAsItSays) {
     Scene scene = square();
     scene.meshes[0].primitives[0].indices = {0, 1, 2};
-    // Its long edge crosses samples of a pixel at one to four places.
+    // Its long edge crosses one to four samples of a pixel.
     scene.nodes[0].parent_from_node = glm::rotate(glm::dmat4(1.0), glm::radians(17.0), glm::dvec3(0, 0, 1));
     constexpr glm::vec3 light(0.75, 0.5, 0.125);
     scene.materials[0].unlit = true;
@@ -234,8 +234,8 @@ TEST(Msaa, CoverageMissesWhatInterpenetrates) {
     const Frame forward = litOf(renderer, sampled({32, 32}), Path::forward_plus);
     const Image& truth = forward.channels.at(lit);
     const float most = *std::max_element(truth.data.begin(), truth.data.end());
-    // By more than a 1/255 of what is brightest. Triangles of one square are similar: shaded as one they
-    // differ by what lies between the two places.
+    // By more than 1/255 of the maximum. The two triangles of a square are similar: shaded as one, they
+    // differ by the distance of the two shading points.
     const auto differing = [&](MsaaEdges edges) {
         Settings settings = sampled({32, 32});
         settings.msaa_edges = edges;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What 4 samples a pixel show of a scene, against the reference with 64: each resolve against its own truth.
+// Images with 4 samples a pixel against the reference with 64, each resolve against its own ground truth.
 #include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
 #include "tests/image/scenes.h"
@@ -21,7 +21,7 @@ Frame referenceLit(Renderer& renderer, Settings settings, int samples) {
     return renderer.draw(settings, options);
 }
 
-// As it is seen: in sRGB, by the tone curve.
+// As displayed: tone-mapped and in sRGB.
 Image shown(const Image& radiance, const Exposure& exposure) {
     Image picture = radiance;
     for (std::size_t i = 0; i + 2 < picture.data.size(); i += 3) {
@@ -35,8 +35,8 @@ Image shown(const Image& radiance, const Exposure& exposure) {
     return picture;
 }
 
-// Mean FLIP over the picture against the reference with 64 samples: of the paths with 4, and of the reference
-// with 4, which tells what so few samples can show at all.
+// Mean FLIP against the reference with 64 samples: of the paths with 4, and of the reference with 4, which
+// shows how much 4 samples can resolve.
 struct Flips {
     std::array<double, 2> paths;
     double reference;
@@ -65,9 +65,9 @@ Settings fourSamples(Resolve resolve, Size size = {112, 63}) {
 
 class MsaaTruth : public testing::TestWithParam<Resolve> {
 protected:
-    // Textures aside, which a path takes from mip levels that blur and the reference from one point a sample,
-    // 4 samples at the standard places, spread over columns and rows, are nearer to the truth than 4 of the
-    // reference's.
+    // Without textures, because paths filter mip levels and the reference takes one point per sample. The
+    // standard sample locations are spread over columns and rows: closer to the ground truth than 4
+    // samples of the reference.
     void expectNearAsFourSamplesCanBe(Scene scene) const {
         for (Material& m : scene.materials)
             for (TextureSlot* slot :
@@ -90,7 +90,7 @@ TEST_P(MsaaTruth, Sponza) {
     expectNearAsFourSamplesCanBe(loadScene(file.string()));
 }
 
-// With its textures, which hold little that is smaller than a pixel.
+// With its textures, which have little detail below a pixel.
 TEST_P(MsaaTruth, FlightHelmet) {
     const std::filesystem::path file = assets() / "flight_helmet/FlightHelmet.gltf";
     if (!std::filesystem::exists(file))
@@ -99,7 +99,7 @@ TEST_P(MsaaTruth, FlightHelmet) {
         EXPECT_LT(flip, 0.02);
 }
 
-// Negative control: the picture that one resolve makes is far from the other's truth.
+// Negative control: the image of one resolve is far from the other's ground truth.
 TEST(MsaaTruthNegativeControl, ResolvesDiffer) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene, pipelines());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a device makes of several samples a pixel, as both paths rely on it.
+// The device's MSAA behaviour that both paths rely on.
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
@@ -135,7 +135,7 @@ private:
 
 constexpr std::array<glm::dvec2, 4> places{{{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}}};
 
-// Edges are placed on 1/256 of a pixel: what is nearer to one than that may be in or out.
+// Vertices are snapped to 1/256 pixel: samples closer than that to an edge may be in or out.
 enum class Inside { no, yes, unsure };
 
 class Plane {
@@ -181,8 +181,8 @@ const Corners firstTriangle{
     secondTriangle{{glm::vec4(-0.7f, 0.1f, 0.9f, 0), {0.8f, -0.9f, 0.4f, 0}, {0.5f, 0.8f, 0.6f, 0}},
                    {3, 5, 7}};
 
-// gl_SampleMaskIn is what the triangle covers at the standard places, whatever depth tests leave of it, and
-// inputs and depth at the mean of these places are those of its plane.
+// gl_SampleMaskIn is the triangle's coverage of the standard locations, before depth tests. Inputs and
+// depth are those of its plane at the mean of the covered locations.
 TEST(Multisampled, AFragmentOfAPixelKnowsWhatItsTriangleCovers) {
     Multisampled samples;
     const Plane plane(firstTriangle);
@@ -207,8 +207,8 @@ TEST(Multisampled, AFragmentOfAPixelKnowsWhatItsTriangleCovers) {
             const bool covered = (mask >> s & 1u) != 0;
             EXPECT_EQ(texel.x, covered ? mask : 0u) << i << " sample " << s;
             if (!covered) continue;
-            // float32 interpolates values up to 4 and depths up to 1 over 16 pixels, from corners that are
-            // placed on 1/256 of a pixel: slopes of up to 0.3 and 0.1 a pixel.
+            // float32 interpolates values up to 4 and depths up to 1 over 16 pixels. Vertices snap to
+            // 1/256 pixel; slopes are up to 0.3 and 0.1 per pixel.
             EXPECT_NEAR(std::bit_cast<float>(texel.y), plane.value(mean), 3e-3) << i;
             EXPECT_NEAR(std::bit_cast<float>(texel.z), plane.depth(mean), 1e-3) << i;
             EXPECT_NEAR(drawn.depths[s][i], plane.depth(corner + places[s]), 1e-3) << i;
@@ -218,7 +218,7 @@ TEST(Multisampled, AFragmentOfAPixelKnowsWhatItsTriangleCovers) {
     EXPECT_GT(inner, 40u);
 }
 
-// A pre-pass takes samples from fragments, but nothing from what they know.
+// A pre-pass removes samples from fragments, but changes neither their mask nor their inputs.
 TEST(Multisampled, APrePassChangesNoFragment) {
     Multisampled samples;
     const Sampled alone = samples.draw({{firstTriangle}, {secondTriangle}}),
@@ -236,7 +236,7 @@ TEST(Multisampled, APrePassChangesNoFragment) {
     EXPECT_GT(shared, 20u) << "both triangles are in these pixels";
 }
 
-// With a fragment for every sample each knows its own sample alone, and its depth is the one that is stored.
+// With sample shading each fragment's mask has only its own sample, and its depth is the stored one.
 TEST(Multisampled, AFragmentOfASampleIsAtItsPlace) {
     Multisampled samples;
     const Sampled drawn = samples.draw({{.triangle = firstTriangle, .sample_shading = true},
@@ -255,7 +255,7 @@ TEST(Multisampled, AFragmentOfASampleIsAtItsPlace) {
     EXPECT_GT(covered, 400u);
 }
 
-// What gl_SampleMask leaves out is not written, depth neither.
+// Samples cleared in gl_SampleMask are not written, nor is their depth.
 TEST(Multisampled, AFragmentMayKeepSomeOfItsSamples) {
     Multisampled samples;
     Corners some = secondTriangle;

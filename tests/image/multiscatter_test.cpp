@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light between microfacets in both paths: the white furnace, and the reference.
+// Multiple scattering between microfacets in both paths: the white furnace, and the reference.
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 
@@ -24,7 +24,7 @@ Settings inFurnace(Multiscatter multiscatter) {
 }
 
 // builtin:furnace: white spheres, dielectrics below and metals above, at roughness 0, 0.1 ... 1, seen from
-// every angle, in light that is 1 from everywhere.
+// every angle, under uniform radiance 1.
 TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
     UploadedScene& scene = uploaded("builtin:furnace");
     for (const Multiscatter each : compensations)
@@ -55,7 +55,7 @@ TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
         }
 }
 
-// The table is there for direct light alone too.
+// The table also exists for direct light alone.
 TEST(MultiscatterDirect, NeedsNoAmbientLight) {
     UploadedScene& scene = uploaded("builtin:normals");
     const auto drawn = [&](Multiscatter multiscatter, float radiance) {
@@ -75,10 +75,9 @@ TEST(MultiscatterDirect, NeedsNoAmbientLight) {
     }
 }
 
-// Against the reference's own integrals, every channel of light, in scenes with mixed materials, coloured
-// layers and textures. The table's E is within 2e-5 of the integral: of what a smooth metal adds beside its
-// highlight, and of what a base gets of a layer that reflects nearly everything, it is a share of 1 - E, up
-// to 5e-3 of it.
+// Every channel of light against the reference's own integrals, in scenes with mixed materials, coloured
+// layers and textures. The table's E is within 2e-5 of the integral. For a smooth metal's compensation,
+// and for a base under a layer that reflects nearly everything, that is up to 5e-3 of 1 - E.
 class MultiscatterReference : public testing::TestWithParam<std::tuple<const char*, Multiscatter>> {};
 
 TEST_P(MultiscatterReference, BothPathsAreTheReference) {

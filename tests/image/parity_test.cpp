@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both paths draw the same picture: bit for bit with a float32 G-buffer; with a packed one they differ by
 // exactly the effect of its encoding.
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "shared/scene/load.h"
 #include "tests/image/scenes.h"
@@ -34,7 +35,8 @@ void expectExplainedLight(const std::vector<Frame>& frames) {
 
 void expectExplained(const std::vector<Frame>& frames) {
     expectExplainedLight(frames);
-    const Requirements all{.emission = true, .lightmap = true, .dielectric_specular = true};
+    Requirements all;
+    all.emission = all.lightmap = all.dielectric_specular = true;
     const Coverage covered = coverage(frames[0], frames[1]);
     for (const int mode : lightingFields())
         if (const auto use = encodingUse(debugMode(mode), FramePair{frames[0], frames[1], all, covered})) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every kind of pass that a list can run, drawn: blending, depth bias and clamping, resolved samples, levels
-// and layers, storage images, indirect dispatches and draws, memory that is shared, bands of rows, frames in
-// flight. Whatever barriers are missing the validation layer reports (validation_test.cpp).
+// Runs every kind of pass: blending, depth bias and clamping, resolves, levels and layers, storage images,
+// indirect dispatches and draws, aliased memory, bands of rows, frames in flight. The validation layer
+// reports missing barriers (validation_test.cpp).
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
@@ -25,7 +25,7 @@ constexpr VkFormat colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT, depthOnly = VK_F
 struct DrawnTriangle {
     std::array<float, 4> color{};
     float depth = 0.5f;
-    float corner = 3;  // 3: over the picture, 1: over its upper left half
+    float corner = 3;  // 3: covers the image; 1: its upper left half
 };
 
 std::vector<std::uint32_t> compiledTestShader(const std::string& name) {
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> compiledTestShader(const std::string& name) {
 
 constexpr VkShaderStageFlags triangleStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-// Triangles of one colour at one depth.
+// Triangles of constant colour and depth.
 class Triangles {
 public:
     explicit Triangles(Device& on = device())
@@ -51,7 +51,7 @@ public:
               return PipelineParts{&vertex_, key.colors.empty() ? nullptr : &fragment_, {}, {}};
           }) {}
 
-    // Commands that draw `triangle` by a pipeline of this key.
+    // Commands that draw `triangle` with a pipeline of this key.
     auto draw(const PipelineKey& key, const DrawnTriangle& triangle) {
         return [this, pipeline = pipelines_.get(key), triangle](VkCommandBuffer commands) {
             bind(commands, pipeline, triangle);
@@ -95,7 +95,7 @@ TEST(PassKinds, ColoursAreBlended) {
                           {Blend::through, [](float s, float d, float a) { return s + a * d; }}};
     for (const Case& row : cases) {
         PassList passes(device(), 3, 2);
-        // Another attachment beside it keeps its own rule.
+        // A second attachment keeps its own blend mode.
         const ImageRef first = passes.image("first", colorFormat);
         const PipelineKey key{.colors = {colorFormat}, .blends = {row.blend}};
         passes.draw("blend")
@@ -111,7 +111,7 @@ TEST(PassKinds, ColoursAreBlended) {
     }
 }
 
-// One unit of bias is the least step of a float at the depth's exponent: 2^-24 at 0.5.
+// One unit of bias is the float ULP at the depth's exponent: 2^-24 at 0.5.
 TEST(PassKinds, DepthIsBiasedAndClamped) {
     Triangles triangles;
     const auto drawn = [&](PipelineKey key, float depth) {
@@ -128,12 +128,12 @@ TEST(PassKinds, DepthIsBiasedAndClamped) {
     const float plain = drawn({}, 0.5f), biased = drawn({.depth_bias = {.constant = -1000}}, 0.5f);
     EXPECT_NEAR(plain, 0.5f, 1e-6f);
     EXPECT_NEAR(std::ldexp(biased - plain, 24), -1000, 1);
-    EXPECT_EQ(drawn({}, 1.5f), 0.25f);  // cut off: nothing is drawn
+    EXPECT_EQ(drawn({}, 1.5f), 0.25f);  // clipped
     EXPECT_EQ(drawn({.depth_clamp = true}, 1.5f), 1.0f);
 }
 
-// The hypotenuse of a triangle over half of the picture runs through the pixels of a diagonal,
-// two of whose four samples it covers. A depth that is resolved is that of one sample.
+// The hypotenuse of a triangle over half of the image crosses the pixels of a diagonal and covers two of
+// their four samples. A resolved depth is that of one sample.
 TEST(PassKinds, FourSamplesAreResolved) {
     Triangles triangles;
     constexpr std::uint32_t size = 8;
@@ -176,7 +176,7 @@ TEST(PassKinds, FourSamplesAreResolved) {
     EXPECT_EQ(partly, size);
 }
 
-// A pass has the extent of what it draws to; every level of every layer keeps its own contents.
+// A pass has the extent of its attachment; every level of every layer keeps its own contents.
 TEST(PassKinds, LevelsAndLayersAreDrawnTo) {
     Triangles triangles;
     PassList passes(device(), 5, 3);
@@ -199,7 +199,7 @@ TEST(PassKinds, LevelsAndLayersAreDrawnTo) {
                       std::vector<float>((16u >> level) * (8u >> level), value(level, layer)));
 }
 
-// A buffer that a copy pass fills says how large a dispatch is, whose storage image a third pass draws over.
+// A copy pass fills the dispatch size; the dispatch writes a storage image; a third pass draws over it.
 TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     Triangles triangles;
     constexpr std::uint32_t width = 8, height = 4;
@@ -221,7 +221,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
 
     constexpr std::uint32_t groups = 5;
     const std::array<std::uint32_t, 8> sizes{groups, height, 1, 0,
-                                             3,      1,      0, 0};  // VkDrawIndirectCommand: 4 on
+                                             3,      1,      0, 0};  // VkDrawIndirectCommand: from index 4
     passes.copy("sizes").uses(argumentsRef, access::transferWrite).record([&](VkCommandBuffer commands) {
         vkCmdUpdateBuffer(commands, arguments.handle(), 0, sizeof sizes, sizes.data());
     });
@@ -252,7 +252,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
         }
 }
 
-// Two transients of the same memory, each copied while it lives; and again in a second run.
+// Transients that share memory, each copied while alive; and again in a second run.
 TEST(PassKinds, TransientsOfOneMemoryKeepTheirContentsWhileTheyLive) {
     Triangles triangles;
     PassList passes(device(), 7, 5);
@@ -273,7 +273,7 @@ TEST(PassKinds, TransientsOfOneMemoryKeepTheirContentsWhileTheyLive) {
             .uses(sum, access::copiedToImage, {})
             .record([&passes, from = transients[i], sum, i](VkCommandBuffer commands) {
                 const VkImageSubresourceLayers layers{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-                const auto x = static_cast<std::int32_t>(i);  // a column each
+                const auto x = static_cast<std::int32_t>(i);  // one column each
                 const VkImageCopy copy{layers, {x, 0, 0}, layers, {x, 0, 0}, {1, 5, 1}};
                 vkCmdCopyImage(commands, passes.handle(from), access::copiedFromImage.layout,
                                passes.handle(sum), access::copiedToImage.layout, 1, &copy);
@@ -288,8 +288,8 @@ TEST(PassKinds, TransientsOfOneMemoryKeepTheirContentsWhileTheyLive) {
     EXPECT_EQ(passes.sharedBytes(), 2u * 7 * 5 * 16);
 }
 
-// What a draw says that it takes divides it where the device may not be kept busy for long. The bands
-// together are the picture: nothing is drawn twice, and nothing is cleared again.
+// A draw's estimated time splits it into bands on devices that must not be busy for long. Together the
+// bands give the whole image: nothing is drawn twice or cleared again.
 TEST(PassKinds, LongDrawsComeInBands) {
     Device patient{{.choice = "", .validate = true, .choices = ProfileChoices::gpu}};
     ASSERT_EQ(patient.profile().longest_submit_ms, 100);
@@ -317,8 +317,8 @@ TEST(PassKinds, LongDrawsComeInBands) {
     EXPECT_EQ(patient.validationMessages(), 0u) << patient.firstValidationMessage();
 }
 
-// Five frames of a list, two of them under way at a time. What the host writes for a frame stays until the
-// device has read it, because each slot has a buffer of its own; the device runs the frames in their order.
+// Five frames of a list, two in flight at a time. Host writes for a frame persist until the device has
+// read them, because each slot has its own buffer. The device runs the frames in order.
 TEST(PassKinds, TwoFramesAreInFlight) {
     constexpr std::uint32_t frames = 5, width = 16;
     PassList passes(device(), width, 1);
@@ -370,7 +370,7 @@ TEST(PassKinds, TwoFramesAreInFlight) {
         EXPECT_EQ(rows[i], static_cast<float>(i / width + 1)) << i;
 }
 
-// The hash covers every byte of the buffers that compute passes write, and no other buffer.
+// The hash covers every byte of buffers that compute passes write, and no other buffer.
 TEST(PassKinds, WhatKernelsLeaveIsHashed) {
     PassList passes(device(), 1, 1);
     constexpr VkDeviceSize bytes = 1024;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assignment per_object: its error with few lights per pixel, and that nothing pops.
+// Assignment per_object: its error with few lights per pixel, and that lights do not pop.
 #include "shared/light/per_object.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
@@ -45,7 +45,9 @@ std::pair<Frame, Frame> bothWays(const Scene& scene) {
     return {std::move(frames[0]), std::move(frames[1])};
 }
 
-// The mean of |a - b| over the mean of b.
+// Mean
+// a - b
+// divided by the mean of b.
 double meanError(const Image& a, const Image& b) {
     double error = 0, sum = 0;
     for (std::size_t i = 0; i < a.data.size(); ++i) {
@@ -84,8 +86,8 @@ TEST(PerObject, AsManyLightsAsAskedForAreShadedPerPixel) {
 }
 
 // The largest effect of one step of the scene on the difference between per_object and every, relative to
-// the local radiance: the brightest component of `every` at the pixel, but at least a hundredth of the
-// picture's mean (surfaces that face away from all lamps get a little light from harmonics).
+// local radiance. That is the largest component of `every` at the pixel, at least 1/100 of the image's
+// mean: surfaces facing away from all lamps get a little light from harmonics.
 double popOf(const Frame& every, const Frame& everyNext, const Frame& object, const Frame& objectNext) {
     const Image &a = every.channels.at(lit), &b = everyNext.channels.at(lit), &c = object.channels.at(lit),
                 &d = objectNext.channels.at(lit);
@@ -102,8 +104,8 @@ double popOf(const Frame& every, const Frame& everyNext, const Frame& object, co
     return largest;
 }
 
-// Twelve lamps a few metres above nine balls and a tiled floor. One of them is at (x, height, z), and
-// changes rank with all others as x changes.
+// Twelve lamps a few metres above nine balls and a tiled floor. One is at (x, height, z); its rank among
+// all lights changes with x.
 Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
     Scene scene = loadScene("builtin:spheres?lights=0");
     for (int i = 0; i < 12; ++i) {
@@ -118,7 +120,7 @@ Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
     return scene;
 }
 
-// Closer than two metres to a surface, its radiance itself changes by more than 1 % for each centimetre.
+// Within two metres of a surface, radiance itself changes by more than 1 % per centimetre.
 TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     double worst = 0;
     const glm::dvec2 above[] = {{1.2, 8.3}, {4.2, 8.3}, {7.2, 8.3}, {13.2, 8.3}, {16.2, 8.3}},
@@ -141,7 +143,7 @@ TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     std::printf("changes of per_object beside those of every: up to %.2f %% of the local radiance\n",
                 100 * worst);
     EXPECT_GT(worst, 0) << "it is not every that was drawn";
-    // Negative control: without the fade, a light that changes its group would show the whole difference
+    // Negative control: without the fade, a light that changes its group shows the whole difference
     // between the groups.
     const Scene scene = movingLamp(10.2);
     const Frame every = drawn(scene, Assignment::every, 0);
@@ -150,7 +152,6 @@ TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     EXPECT_GT(jump, 0.01);
 }
 
-// An object with a lightmap gets no harmonics.
 TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
     Scene scene = loadScene("builtin:lightmaps");
     for (int i = 0; i < 10; ++i) {
@@ -179,9 +180,9 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
     EXPECT_GT(diffuse(scene), 0) << "the base and the vertex lights are there";
 }
 
-// The light that a square reflects from vertex lights and harmonics, against the CPU's own lists: its
-// specular layer is off, so that radiance is albedo / pi times irradiance. The square and its camera rotate
-// together.
+// The light that a square reflects from vertex lights and harmonics, against lists made on the CPU.
+// Without a specular layer, radiance is albedo / pi times irradiance. The square and its camera rotate
+// together. Every second turn has --range-window squared and --spot-cone smoothstep.
 TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -199,19 +200,32 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
         scene.materials[0].base_color = glm::vec4(glm::vec3(albedo), 1);
         scene.materials[0].metallic = 0;
         scene.materials[0].specular = 0;
-        // Suns, of which the four brightest that no pixel shades are vertex lights: equal at all corners.
+        // Suns. The four brightest beyond the per-pixel lights are vertex lights, equal at all vertices.
         for (int i = 0; i < 14; ++i) {
             Light light;
             light.kind = i < 8 ? LightKind::directional : LightKind::point;
             light.direction = vec();
             light.position = (6.0 + i) * vec();
+            light.range = 25;
+            if (i >= 11) {  // aimed past the square, which is between their cones
+                light.kind = LightKind::spot;
+                light.direction = glm::normalize(0.3 * right - glm::normalize(light.position));
+                light.inner_cone = 0.1f;
+                light.outer_cone = 0.5f;
+            }
             light.intensity = i < 8 ? std::exp2(-0.5f * static_cast<float>(i)) : 4;
             light.color = glm::abs(glm::vec3(vec()));
             if (pixels == 0) light.importance = Importance::not_important;
             scene.lights.push_back(light);
         }
         const View view = makeView(scene, poseAt(scene, 0), "0", 4, 4);
-        const GpuLights lights = gpuLights(scene.lights, view.eye());
+        Settings settings = picture(Assignment::per_object, pixels, {4, 4});
+        GpuLights lights = gpuLights(scene.lights, view.eye());
+        if (pixels == 0) {
+            settings.range_window = RangeWindow::squared;
+            settings.spot_cone = SpotFalloff::smoothstep;
+            lights.falloff = {.squared_window = true, .smooth_cones = true};
+        }
         const ObjectPlace place{-view.eye(), glm::abs(right) + glm::abs(up)};
         const ObjectLightLists lists = objectLightLists(lights, std::span(&place, 1), pixels);
         const gpu::ObjectLights& object = lists.objects[0];
@@ -233,7 +247,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
                          squares = d(e.xx) * (n.x * n.x - n.z * n.z) + d(e.yy) * (n.y * n.y - n.z * n.z);
         const glm::dvec3 harmonics = glm::max(d(e.constant) + linear + squares + 2.0 * mixed, 0.0);
         const glm::dvec3 expected = albedo / glm::pi<double>() * (listed + harmonics);
-        const Frame frame = drawn(scene, Assignment::per_object, pixels, {4, 4});
+        const Frame frame = drawnAll(scene, {settings}).front();
         // 1e-5: a dozen float32 roundings of sums that partly cancel.
         for (const glm::ivec2 p : {glm::ivec2(0, 0), {2, 1}, {3, 3}})
             for (int c = 0; c < 3; ++c)
@@ -247,8 +261,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     EXPECT_GE(shares, 2) << "lights shaded per pixel of which the harmonics have a part";
 }
 
-// A double-sided square under a lamp that is shaded at its vertices is as bright from behind as from the
-// front.
+// A double-sided square under a vertex light is as bright from behind as from the front.
 TEST(PerObject, VertexLightsReachTheBackOfADoubleSidedMaterial) {
     Scene scene = square();
     scene.materials[0].double_sided = true;
@@ -258,7 +271,7 @@ TEST(PerObject, VertexLightsReachTheBackOfADoubleSidedMaterial) {
     lamp.intensity = 400;
     scene.lights = {lamp};
     const float front = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
-    scene.nodes[0].parent_from_node[0].x = scene.nodes[0].parent_from_node[2].z = -1;  // half a turn
+    scene.nodes[0].parent_from_node[0].x = scene.nodes[0].parent_from_node[2].z = -1;  // by 180 degrees
     const float back = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
     EXPECT_GT(front, 0.05f);
     EXPECT_NEAR(back, front, 1e-5f * front);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ground with balls of many clusters on it, for tests of what culling leaves out.
+// A ground with balls of many meshlets, for culling tests.
 #pragma once
 
 #include "tests/image/shadow_scenes.h"
@@ -13,7 +13,7 @@
 
 namespace diptych::tests {
 
-// A ball of clusters, and the same again in its place: whichever triangle comes last shows.
+// A ball of meshlets, twice in the same place: the last triangle drawn is visible.
 inline Primitive ballTwice(int of_material, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> part(-1, 1);
@@ -49,7 +49,7 @@ inline Primitive ballTwice(int of_material, std::uint32_t seed) {
     return ball;
 }
 
-// Mirrored, flattened, double-sided, within another, partly beyond the view, and coincident.
+// Mirrored, flattened, double-sided, nested, partly out of view, and coincident balls.
 inline Scene placedBalls(std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> part(-1, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the scene is drawn to and computed with: formats of depth and radiance, floats of 16 bits for light.
-// Each is held against the error that its own bits allow, and both paths are the same picture with each.
+// Formats of depth and radiance, and 16-bit floats for light. Each is compared with the error bound of its
+// bits, and both paths agree with each.
 #include "shared/scene/view.h"
 #include "tests/image/square.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int depthChannel = static_cast<int>(gpu::DEBUG_depth);
 
-// A floor from the near plane to the far one, 0.1 m to 1000 m, seen along it from 1 m above.
+// A floor from the near plane to the far plane, 0.1 m to 1000 m, seen at a grazing angle from 1 m above.
 Scene longFloor() {
     Scene scene = square();
     Primitive& p = scene.meshes[0].primitives[0];
@@ -37,13 +37,13 @@ Settings precise() {
     return settings;
 }
 
-// The largest relative error of the view depth over the floor's pixels. The floor lies 1 m below the eye: the
-// depth of a row is 1 / -y of its ray, exactly.
+// The largest relative error of view depth over the floor's pixels. The floor is 1 m below the eye: a
+// row's depth is exactly 1 / -y of its ray.
 double worstDepth(const Frame& frame) {
     const Image& depths = frame.channels.at(depthChannel);
     double worst = 0;
     for (int y = 0; y < depths.height; ++y) {
-        const double down = 2 * (y + 0.5) / depths.height - 1;  // of the ray at depth 1, as fov is 90 degrees
+        const double down = 2 * (y + 0.5) / depths.height - 1;  // of the ray at depth 1; fov is 90 degrees
         const double depth = 1 / down;
         if (down <= 0 || depth > 990) continue;
         for (int x = 0; x < depths.width; ++x) {
@@ -54,15 +54,15 @@ double worstDepth(const Frame& frame) {
     return worst;
 }
 
-// z = n f / (f - n) (1 / d - 1 / f): an error dz of it is one of d (f - n) / (n f) dz of d relative to d. The
-// farthest row of the picture lies at 240 m, where d / n is 2400.
+// z = n f / (f - n) (1 / d - 1 / f): an error dz gives a relative error of d (f - n) / (n f) dz in d. The
+// image's farthest row is at 240 m, where d / n is 2400.
 TEST(Precision, DepthIsAsExactAsItsFormat) {
     const Scene scene = longFloor();
     Renderer renderer(device(), scene, pipelines());
     struct Row {
         DepthFormat format;
-        double step;        // the most that the format rounds z by, at d = 240 m
-        double rasterised;  // and what a rasteriser's sum of three products does, where z is near 1
+        double step;        // maximum rounding of z at d = 240 m
+        double rasterised;  // plus the rasteriser's sum of three products, near z = 1
     };
     const double amplified = 240 * (1000 - 0.1) / (0.1 * 1000);
     for (const Row& row : {Row{DepthFormat::d32f_standard, 0x1p-25, 3 * 0x1p-24},
@@ -74,17 +74,17 @@ TEST(Precision, DepthIsAsExactAsItsFormat) {
             const double worst = worstDepth(drawnBy(path, renderer, settings, {depthChannel}));
             const std::string what = fmt::format("{}, {}: {:.3g}", nameOf(row.format), nameOf(path), worst);
             const double rounded = amplified * (row.step + row.rasterised);
-            // The floor's triangles are a thousand times as wide as the eye is high: that alone is 2e-5. What
-            // is relative to a distance that is too far is more by the square of the error.
+            // The floor's triangles are a thousand times wider than the eye's height, which alone gives
+            // 2e-5. Errors relative to an overestimated distance grow by their square.
             EXPECT_LT(worst, rounded + 2e-5 + 1.5 * rounded * rounded) << what;
-            // Few rows are as far away as the farthest, and each is rounded by chance.
+            // Few rows are as far away as the farthest, and each rounds randomly.
             EXPECT_GT(worst, 0.3 * amplified * row.step) << what;
         }
-    // Reversed floats keep the depth as well as the rasteriser does.
+    // Reversed float depth is as accurate as the rasteriser.
     EXPECT_LT(worstDepth(drawnBy(Path::deferred, renderer, precise(), {depthChannel})), 2e-5);
 }
 
-// With every format both paths draw one picture, of the same bits.
+// With every format both paths give the same bits.
 TEST(Precision, BothPathsAreEqualBitForBit) {
     const std::vector<int> shown{lit, depthChannel, static_cast<int>(gpu::DEBUG_lit_specular)};
     for (const char* name : {"builtin:cutout", "builtin:glass"})
@@ -110,7 +110,7 @@ TEST(Precision, BothPathsAreEqualBitForBit) {
         }
 }
 
-// The picture covers the same pixels, and an environment the rest, whichever way depth runs.
+// The same pixels are covered in either depth direction; the environment covers the rest.
 TEST(Precision, NothingIsLostToTheBackground) {
     for (const DepthFormat format : {DepthFormat::d32f_standard, DepthFormat::d24, DepthFormat::d16}) {
         Settings settings = smallPicture(GBufferEncoding::full);
@@ -131,8 +131,8 @@ TEST(Precision, NothingIsLostToTheBackground) {
     }
 }
 
-// Radiance is rounded once to a float of 10, 6 or 5 bits of mantissa: by half a step to nearest, by a whole
-// one where a device cuts, which Vulkan allows.
+// Radiance is rounded once to 10, 6 or 5 bits of mantissa: by half a ULP to nearest, or by a whole one if
+// a device truncates, as Vulkan allows.
 TEST(Precision, RadianceIsRoundedToItsFormat) {
     for (const auto& [format, bits] :
          {std::pair(LitFormat::fp16, std::array{10, 10, 10}), {LitFormat::b10g11r11, std::array{6, 6, 5}}}) {
@@ -145,7 +145,7 @@ TEST(Precision, RadianceIsRoundedToItsFormat) {
         for (std::size_t i = 0; i < exact.channels.at(lit).pixels(); ++i)
             for (std::size_t c = 0; c < 3; ++c) {
                 const double a = exact.channels.at(lit).pixel(i)[c], b = rounded.channels.at(lit).pixel(i)[c];
-                if (a < 1e-4) continue;  // 2^-14 is the least number with all bits
+                if (a < 1e-4) continue;  // 2^-14 is the smallest normal number
                 worst[c] = std::max(worst[c], std::abs(a - b) / a);
             }
         for (std::size_t c = 0; c < 3; ++c) {
@@ -155,8 +155,8 @@ TEST(Precision, RadianceIsRoundedToItsFormat) {
     }
 }
 
-// Floats of 16 bits have 11 bits of mantissa; directions and half vectors of them are off by 5e-4, which a
-// highlight of roughness 0.1 shows some fifty times larger. Where nothing shines, it is little.
+// Half floats have 11 significant bits: directions and half vectors err by 5e-4. A highlight of roughness
+// 0.1 magnifies that some fifty times; elsewhere the error is small.
 TEST(Precision, HalfShadingIsNearAndFinite) {
     Settings settings = smallPicture(GBufferEncoding::full);
     UploadedScene& scene = uploaded("builtin:spheres");

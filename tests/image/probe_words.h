@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The modules of tests/probe/shaders.
+// SPIR-V of the shaders in tests/probe/shaders.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The barriers of whole frames: that they are enough for what the passes do (hazards.h), and that Vulkan is
-// told them as they were planned: no source stage or access is lost on the way.
+// The barriers of whole frames: they suffice for the passes' uses (hazards.h), and Vulkan gets them as
+// planned, with every source stage and access.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
@@ -13,7 +13,7 @@
 namespace diptych::tests {
 namespace {
 
-// Every barrier that this program hands to Vulkan while a test listens.
+// Every barrier that this program passes to Vulkan while a test listens.
 struct Told {
     std::vector<VkMemoryBarrier2> memory;
     std::vector<VkBufferMemoryBarrier2> buffers;
@@ -24,7 +24,7 @@ std::vector<Told>* listening = nullptr;
 }  // namespace
 }  // namespace diptych::tests
 
-// Of this program rather than the loader's, which it calls.
+// Overrides the loader's function and calls it.
 extern "C" VKAPI_ATTR void VKAPI_CALL vkCmdPipelineBarrier2(VkCommandBuffer commands,
                                                             const VkDependencyInfo* info) {
     using diptych::tests::listening;
@@ -103,7 +103,7 @@ std::vector<std::string> hazardsOf(const std::vector<DeclaredUse>& uses,
 }
 
 struct Barriers {
-    std::vector<RecordedBarrier> first, again;  // of two runs, one after the other
+    std::vector<RecordedBarrier> first, again;  // of two successive runs
 };
 Barriers plannedOf(const PassList& passes) {
     Barriers planned{passes.plannedBarriers(1), passes.plannedBarriers(2)};
@@ -112,8 +112,8 @@ Barriers plannedOf(const PassList& passes) {
     return planned;
 }
 
-// Each write that something follows is waited for with its stages and accesses, and seen by what follows;
-// nothing is overwritten that is still read; the second frame waits for the first.
+// Each write that a later pass uses is waited for with its stages and accesses, and is visible to that
+// pass. Nothing is overwritten while it is being read; the second frame waits for the first.
 TEST(RecordedBarriers, OfEveryKindOfFrameAreEnough) {
     const std::vector<Settings> kinds = everyKindOfFrame();
     EXPECT_GE(kinds.size(), 20u);
@@ -128,7 +128,8 @@ TEST(RecordedBarriers, OfEveryKindOfFrameAreEnough) {
     }
 }
 
-// What kernels pose is waited for by every pass that draws it, and read no more when the next frame poses.
+// Every pass that draws deformed vertices waits for the skinning pass, which waits for the previous
+// frame's readers.
 TEST(RecordedBarriers, OfFramesThatPoseAreEnough) {
     for (const Path path : {Path::forward_plus, Path::deferred})
         for (const Skinning skinning : {Skinning::compute, Skinning::vertex})
@@ -149,7 +150,7 @@ TEST(RecordedBarriers, OfFramesThatPoseAreEnough) {
                     const std::vector<DeclaredUse> uses = frame.passes().declarations();
                     EXPECT_EQ(hazardsOf(uses, planned.first, planned.again), std::vector<std::string>{})
                         << settings.valueOf("path") << ", " << settings.valueOf("skinning");
-                    // Negative control: without the barriers of what is posed something is amiss.
+                    // Negative control: without the barriers of deformed vertices there are hazards.
                     const std::string posed =
                         skinning == Skinning::compute ? "posed positions" : "tangents of groups";
                     std::vector<RecordedBarrier> lacking = planned.again;
@@ -159,8 +160,8 @@ TEST(RecordedBarriers, OfFramesThatPoseAreEnough) {
                 }
 }
 
-// Negative control: a barrier that is left out, or lacks its source stages, source accesses or destination,
-// leaves a hazard. (Where readers alone are waited for, the destination's access means nothing.)
+// Negative control: omitting a barrier, its source stages, source accesses or destination leaves a hazard.
+// (If only readers are waited for, the destination access is irrelevant.)
 TEST(RecordedBarriers, EachOneIsNeededWithAllItsScopes) {
     for (const Path path : {Path::forward_plus, Path::deferred}) {
         WholeFrame frame(settingsOf(path, Assignment::tiled, LightKernel::gather, Switch::on));
@@ -171,7 +172,7 @@ TEST(RecordedBarriers, EachOneIsNeededWithAllItsScopes) {
             const auto leavesHazard = [&](const char* what, auto&& change) {
                 std::vector<RecordedBarrier> barriers = planned.again;
                 change(barriers);
-                // What the next frame waits for is of the third run.
+                // The third run has the next frame's waits.
                 Hazards hazards;
                 for (const auto& run : {planned.first, barriers, planned.again}) hazards.run(uses, run);
                 EXPECT_FALSE(hazards.found().empty()) << whole.pass << ": " << whole.resource << ": " << what;
@@ -182,7 +183,7 @@ TEST(RecordedBarriers, EachOneIsNeededWithAllItsScopes) {
                          [&](auto& all) { all[i].from.stages = VK_PIPELINE_STAGE_2_NONE; });
             leavesHazard("no destination stage",
                          [&](auto& all) { all[i].to.stages = VK_PIPELINE_STAGE_2_NONE; });
-            // A write leaves its stage's cache once: by the first of the barriers behind it.
+            // A write is flushed from its stage's cache once, by the first barrier after it.
             if (whole.from.access != 0)
                 leavesHazard("no source access", [&](auto& all) {
                     for (RecordedBarrier& barrier : all)
@@ -204,7 +205,7 @@ void expectScopes(const VulkanBarrier& told, const RecordedBarrier& planned) {
     EXPECT_EQ(told.dstAccessMask, planned.to.access) << what;
 }
 
-// The images' and the buffers' of each call are in the order in which they were planned.
+// In each call, images and buffers are in planned order.
 void expectTold(const std::vector<Told>& told, const std::vector<RecordedBarrier>& planned) {
     std::size_t next = 0;
     for (const Told& call : told) {
@@ -240,7 +241,7 @@ void expectTold(const std::vector<Told>& told, const std::vector<RecordedBarrier
     EXPECT_EQ(next, planned.size());
 }
 
-// What is read back waits for the frame, and the host for the copy.
+// A read-back waits for the frame, and the host for the copy.
 TEST(RecordedBarriers, VulkanIsToldThemWhole) {
     for (const Path path : {Path::forward_plus, Path::deferred}) {
         WholeFrame frame(settingsOf(path, Assignment::clustered, LightKernel::scatter, Switch::on));
@@ -249,8 +250,7 @@ TEST(RecordedBarriers, VulkanIsToldThemWhole) {
             frame.passes().run();
             const std::vector<RecordedBarrier> recorded = frame.passes().barriers();
             EXPECT_GT(recorded.size(), 5u);
-            // Passes of a frame may have barriers of their own inside, none of which is of an image or a
-            // buffer.
+            // Passes may also record barriers internally; those have neither images nor buffers.
             std::vector<Told> told;
             for (const Told& call : listen.told)
                 if (!call.images.empty() || !call.buffers.empty()) told.push_back(call);
@@ -277,8 +277,8 @@ TEST(RecordedBarriers, VulkanIsToldThemWhole) {
     }
 }
 
-// What is uploaded is there for every later command: each image is written, then read; buffers are behind a
-// barrier of all memory.
+// Uploads are visible to every later command: each image is written, then read; buffers have a global
+// memory barrier.
 TEST(RecordedBarriers, UploadsAreVisibleToWhatFollows) {
     Listening listen;
     const Scene scene = loadScene("builtin:emission");

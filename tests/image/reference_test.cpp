@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths against the reference, the reference's two modes against each other, and negative controls with
-// faults on either side.
+// Both paths against the reference, the reference's two modes against each other, and negative controls
+// with faults on either side.
 #include "compare/verdict/pair_reports.h"
 #include "shared/frame/made_channels.h"
 #include "shared/scene/load.h"
@@ -38,8 +38,8 @@ std::size_t nonfinite(const Frame& frame) {
 
 // ---- both paths --------------------------------------------------------------------------------------
 
-// Relative errors of at most 1e-4 on 99.9 % of the covered pixels: what float32 shading of a captured
-// surface achieves.
+// Relative errors of at most 1e-4 on 99.9 % of the covered pixels: the accuracy of float32 shading of a
+// captured surface.
 void expectAgreement(const Scene& scene, Settings settings) {
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
@@ -72,10 +72,10 @@ TEST(Reference, BothPathsDrawSponza) {
     expectAgreement(loadScene(file.string()), settings);
 }
 
-// ---- its two modes -----------------------------------------------------------------------------------
+// ---- the reference's two modes -----------------------------------------------------------------------
 
-// Pixels in which both modes show the same place. Of coplanar triangles either may be visible, and for
-// triangles of 200 km the depth of the rasterizer is exact to 6e-4 only.
+// Pixels where both modes show the same surface point. Either of two coplanar triangles may be visible.
+// The rasterizer's depth on triangles of 200 km is accurate only to 6e-4.
 Coverage samePlaces(const Frame& a, const Frame& b) {
     const Image &depth = a.channels.at(10), &other = b.channels.at(10);
     const Image &id = a.channels.at(8), &other_id = b.channels.at(8);
@@ -89,8 +89,8 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
     return same;
 }
 
-// The rasterizer snaps corners to 1/256 of a pixel, so a pixel's value may be off by 1/128 of the difference
-// to its neighbours. Beyond that, 1e-4 relative is allowed.
+// The rasterizer snaps vertices to 1/256 pixel, so a pixel may err by 1/128 of the difference to its
+// neighbours. 1e-4 relative is allowed beyond that.
 double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
     const Image &expected = traced.channels.at(mode), &image = surface.channels.at(mode);
     const PixelError error(Metric::relative, debugMode(mode).kind, expected, same);
@@ -130,7 +130,7 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
         }
     EXPECT_EQ(nonfinite(surface), 0u);
     EXPECT_EQ(nonfinite(traced), 0u);
-    // Without textures nothing is filtered: where both modes show the same place, the surface is the same.
+    // Without textures nothing is filtered: where both modes show the same point, the surface is the same.
     const std::size_t shown = coveredPixels(traced);
     if (!scene.textures.empty() || shown == 0) return;
     const Coverage same = samePlaces(traced, surface);
@@ -154,7 +154,7 @@ TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
 INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// ---- planted faults ----------------------------------------------------------------------------------
+// ---- injected faults ---------------------------------------------------------------------------------
 
 struct Fault {
     const char* name;

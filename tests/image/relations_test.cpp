@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Relations between pictures hold for both paths, and each is broken by a fault that it is there to find.
+// Metamorphic relations between images: they are met by both paths, and each detects the faults it is
+// meant for.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
 #include "compare/audit/relation_words.h"
@@ -52,7 +53,7 @@ TEST(RelationImages, AllHoldWhereThingsMove) {
     expectAllHold("motion", 6, {"moved", "turned", "mirrored", "scaled", "tiles_shifted", "draws_reversed"});
 }
 
-// Where they lie in one another, either is seen; where they blend, their edges are in no channel.
+// Of intersecting surfaces either may be visible; no channel shows the edges of blended ones.
 TEST(RelationImages, SurfacesInOneAnotherAreNoFault) {
     expectAllHold("coplanar", 20);
     expectAllHold("crossed", 27);
@@ -70,7 +71,7 @@ void stain(Case& of) {
     for (Material& material : of.scene.materials) material.base_color *= 0.98f;
 }
 
-// A small fault for each, of the kind that it is there to find.
+// A small fault for each relation, of the kind that it should detect.
 const std::map<std::string_view, std::function<void(Case&)>>& injectedFaults() {
     static const std::map<std::string_view, std::function<void(Case&)>> faults{
         {"lights_permuted", [](Case& of) { of.scene.lights.pop_back(); }},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verdict on materials and textures of a whole scene, from the reference's own: sound paths pass, and a
-// fault that both paths share fails in its channel.
+// The verdict on a scene's materials and textures, compared with the reference's own: correct paths pass,
+// and a fault in both paths fails in its channel.
 #include "compare/verdict/pair_reports.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/load.h"
@@ -28,7 +28,8 @@ Frame tracedReference(UploadedScene& scene) {
     return scene.renderer.draw(settings, options);
 }
 
-// What fails of the paths that draw `drawn`, against the reference of `scene`: "forward_plus roughness".
+// Failed channels of the paths that render `drawn`, against the reference of `scene`: "forward_plus
+// roughness".
 std::set<std::string> failuresAgainst(const Frame& reference, const std::vector<Frame>& drawn,
                                       const Scene& scene) {
     static const TextureSampling texels = probeTextures(device());
@@ -88,7 +89,7 @@ const SharedFault sharedFaults[] = {
      }},
 };
 
-// Both paths draw the changed scene alike, so that they agree with each other.
+// Both paths render the changed scene, so they agree with each other.
 TEST(SceneVerdictNegativeControl, FaultsOfBothPathsFailInTheirChannels) {
     UploadedScene& scene = uploaded("builtin:gallery");
     const Frame reference = tracedReference(scene);

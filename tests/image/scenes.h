@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes and the device for the picture tests.
+// Scenes and the device for the image tests.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -31,9 +31,9 @@ namespace diptych::tests {
 
 inline constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
 
-// Under the Khronos validation layers, so that whatever a test draws is validated too and no pipeline is
-// compiled twice, for pictures and for validation; validation_test.cpp fails a process that has had a
-// message. Only DIPTYCH_VALIDATE=0 leaves them out, as ctest has it for some suites (CMakeLists.txt).
+// With the Khronos validation layers: everything a test renders is validated, and no pipeline is compiled
+// twice. validation_test.cpp fails a process that got a message. DIPTYCH_VALIDATE=0 disables the layers,
+// as ctest does for some suites (CMakeLists.txt).
 inline Device& device() {
     const char* const asked = std::getenv("DIPTYCH_VALIDATE");
     const bool validate = isCampaign() || asked == nullptr || std::string_view(asked) != "0";
@@ -42,8 +42,8 @@ inline Device& device() {
     return theDevice;
 }
 
-// Compiled once for everything that is drawn on device(): on lavapipe compiling takes far longer than a small
-// picture.
+// Compiled once for everything rendered on device(): on lavapipe compilation takes far longer than a small
+// image.
 inline std::shared_ptr<PipelineSet> pipelines() {
     static const auto& set = *new std::shared_ptr<PipelineSet>(makePipelineSet(device()));
     return set;
@@ -55,7 +55,7 @@ inline std::vector<std::string> builtinScenes() {
     return names;
 }
 
-// Real scenes in a folder beside the repository; a test that needs one is skipped if it is absent.
+// Real scenes in a folder beside the repository; tests that need a missing one are skipped.
 inline const std::vector<std::string>& assetScenes() {
     static const std::vector<std::string> names{
         "cesium_man/CesiumMan.gltf",
@@ -139,13 +139,13 @@ inline std::vector<Frame> bothPaths(const Scene& scene, const Settings& settings
     return bothPaths(renderer, settings, channels);
 }
 
-// A scene on device(), uploaded once for all tests that draw it, with what they draw alike.
+// A scene on device(), uploaded once for all tests, with cached Frames of both paths.
 class UploadedScene {
 public:
     explicit UploadedScene(const std::string& name)
         : scene(loadScene(name)), renderer(device(), scene, pipelines()) {}
 
-    // As bothPaths() above; drawn once for equal Settings.
+    // As bothPaths() above; rendered once for equal Settings.
     const std::vector<Frame>& bothPaths(const Settings& settings) {
         for (const auto& [drawn, frames] : frames_)
             if (drawn == settings) return frames;
@@ -159,12 +159,12 @@ private:
     std::deque<std::pair<Settings, std::vector<Frame>>> frames_;
 };
 
-// The scene of a name or a file. It is kept until several others have been requested after it.
+// The scene of a name or a file, in a cache of the most recently requested.
 inline UploadedScene& uploaded(const std::string& name) {
     constexpr std::size_t most = 12;
     pipelines();  // created first, with the device, because they must outlive the scenes
     static auto& scenes =
-        *new std::list<std::pair<std::string, UploadedScene>>;  // the one asked for last is first
+        *new std::list<std::pair<std::string, UploadedScene>>;  // most recently requested first
     const auto found = std::ranges::find(scenes, name, [](const auto& entry) { return entry.first; });
     if (found != scenes.end()) {
         scenes.splice(scenes.begin(), scenes, found);
@@ -176,14 +176,14 @@ inline UploadedScene& uploaded(const std::string& name) {
     return scenes.front().second;
 }
 
-// What tests draw, without shadows unless a test is about them: they would cost every other one a third more.
+// Default settings of tests: shadows would take a third more time where they are not the subject.
 inline Settings unshadowed() {
     Settings settings;
     settings.shadows = Shadows::off;
     return settings;
 }
 
-// What every test draws the asset scenes with, so that the suites share Frames.
+// Common settings for asset scenes, so that the suites share Frames.
 inline Settings assetPicture(GBufferEncoding gbuffer) {
     Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
@@ -199,14 +199,14 @@ inline Settings smallPicture(GBufferEncoding gbuffer) {
     return settings;
 }
 
-// Pixels that differ. On a CPU device they must be the same bits; a GPU's compiler may contract two
-// shaders differently: there 16 ULP of the pixel's largest component are the same.
+// Number of differing pixels: bitwise on a CPU device. A GPU's compiler may contract two shaders
+// differently: there, values within 16 ULP of the pixel's largest component are equal.
 inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().profile().bit_exact) {
     if (a.width != b.width || a.height != b.height || a.components != b.components) return a.pixels() + 1;
     return unequalPixels(a, b, bits ? 0 : gpuUlps);
 }
 
-// Every channel that both Frames have must be the same, and they must have `least` in common.
+// Every common channel must be the same, and there must be at least `least` of them.
 inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t least = 14) {
     std::size_t compared = 0;
     for (const auto& [mode, image] : a.channels) {

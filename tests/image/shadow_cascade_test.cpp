@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cascades of the sun's shadow map: where shadows begin, what a moving camera changes, and the seams.
+// Cascades of the sun's shadow map: contact shadows, stability of a moving camera, and seams.
 #include "shared/contract/debug_mode.h"
 #include "shared/shadow/cascades.h"
 #include "tests/image/shadow_scenes.h"
@@ -40,20 +40,20 @@ Frame drawnCascades(const Scene& scene, const Settings& settings) {
     return drawnCascades(renderer, settings);
 }
 
-// A board leans over the ground at 45 degrees, away from the sun, and touches it along x = 0: it casts, but
-// shows the camera above it its back, which is not drawn. So the whole picture is ground, dark from the line
+// A board leans over the ground at 45 degrees, away from the sun, touching it along x = 0. It casts a
+// shadow, but the camera above sees only its culled back. So the whole image is ground, dark from the line
 // of contact on.
 struct Contact {
     double degrees = 45;  // of the sun above the ground
     int kernel = 3, texels = 1024;
-    int cascades = 4, serving = 0;  // which of them the ground in the picture is in
+    int cascades = 4, serving = 0;  // `serving`: the cascade of the ground in the image
     double padding = 0;             // m of depth behind the ground
 };
 
 struct Gap {
-    double texels = 0;  // between the line of contact and the shadow, across the light: the mean of all rows
-    double least = 1;   // visibility on the sun's side, more than the filter's radius and 1.5 texels away
-    double farthest = 0;  // from the line, of what is more than half lit behind it; texels
+    double texels = 0;    // from the line of contact to the shadow, in light space: mean of all rows
+    double least = 1;     // visibility on the sun's side, beyond the filter's radius and 1.5 texels
+    double farthest = 0;  // largest distance behind the line with visibility over a half; texels
 };
 
 Gap gapOf(const Contact& contact) {
@@ -79,11 +79,11 @@ Gap gapOf(const Contact& contact) {
     const double height = (begin + end) / 2;
     camera.world_from_camera =
         glm::inverse(glm::lookAt(glm::dvec3(0, height, 0), glm::dvec3(0), glm::dvec3(0, 0, -1)));
-    // The picture is wide enough for the filter's radius and 1.75 texels on both sides of the line, across
-    // the light; a cascade is about as wide as the sphere around the picture and its depths.
+    // The image is wide enough for the filter's radius and 1.75 texels on both sides of the line, in light
+    // space. A cascade is about as wide as the bounding sphere of its part of the frustum.
     const glm::dvec3 to_light = -sun.direction;
-    const double across = to_light.y / std::sqrt(1 - to_light.z * to_light.z);        // light space by ground
-    const double part = 2 * (contact.kernel / 2.0 + 1.75) / across / contact.texels;  // of a cascade's side
+    const double across = to_light.y / std::sqrt(1 - to_light.z * to_light.z);  // light space per ground
+    const double part = 2 * (contact.kernel / 2.0 + 1.75) / across / contact.texels;  // of a cascade's width
     camera.ymag =
         part * (end - begin) / 2 / std::sqrt(std::max(1 - part * part, 0.05)) * size.height / size.width;
     Settings settings = cascaded(size, contact.texels, contact.cascades);
@@ -94,7 +94,7 @@ Gap gapOf(const Contact& contact) {
     Gap gap;
     int rows = 0;
     for (int y = 0; y < size.height; ++y) {
-        std::optional<double> begins;  // where the visibility falls to a half, going away from the line
+        std::optional<double> begins;  // where visibility falls to a half, going away from the line
         for (int x = size.width - 1; x >= 0; --x) {
             EXPECT_EQ(frame.channels.at(idMode).at(x, y), 0);
             const auto serves = static_cast<std::size_t>(frame.channels.at(cascadeMode).at(x, y));
@@ -114,13 +114,13 @@ Gap gapOf(const Contact& contact) {
     return gap;
 }
 
-// Neither acne nor a gap, however the sun grazes the ground.
+// Neither acne nor a gap at any grazing angle.
 TEST(ShadowContactGap, IsAtMostOneAndAHalfTexelsAndTheFiltersRadius) {
     for (const double degrees : {0.1, 1.0, 10.0, 45.0, 80.0, 89.9})
         for (const int kernel : {1, 3, 7}) {
             Contact contact{.degrees = degrees, .kernel = kernel};
             if (degrees < 1) {
-                contact.cascades = 1;  // one large map: a texel is 573 times as long on the ground
+                contact.cascades = 1;  // one large map: a texel is 573 times longer on the ground
                 contact.texels = kernel == 7 ? 8192 : 4096;
             }
             const Gap gap = gapOf(contact);
@@ -130,7 +130,7 @@ TEST(ShadowContactGap, IsAtMostOneAndAHalfTexelsAndTheFiltersRadius) {
         }
 }
 
-// In texels it is the same in every cascade, and whatever lies far behind.
+// In texels the gap is the same in every cascade and for any depth range.
 TEST(ShadowContactGap, IsTheSameInEveryCascadeAndAtEveryDepth) {
     for (const double degrees : {1.0, 20.0, 60.0})
         for (const int kernel : {3, 7}) {
@@ -147,8 +147,8 @@ TEST(ShadowContactGap, IsTheSameInEveryCascadeAndAtEveryDepth) {
         }
 }
 
-// A camera that moves by whole pixels and along its view sees the same points of the ground at the same or at
-// neighbouring pixels; their shadow stays, but for what rounding moves: the camera is the origin.
+// A camera moving by whole pixels and along its view sees the same ground points at the same or
+// neighbouring pixels. Their shadow is stable up to rounding: the camera is the origin.
 TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
     constexpr Size size{160, 90};
     constexpr int steps = 100;
@@ -202,8 +202,8 @@ TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
     RecordProperty("changed", std::to_string(changed));
 }
 
-// A shadow's straight edge runs from cascade to cascade. Where it lies in a row of pixels moves from row to
-// row by what the maps' texels make of it; between cascades it does not by more than twice that.
+// A shadow's straight edge crosses the cascades. From row to row it moves by the maps' texel size; between
+// cascades by at most twice that.
 TEST(ShadowSeams, AreNoWiderThanTexels) {
     constexpr Size size{320, 240};
     Scene scene = groundUnder(sunAt(45), {}, 25);
@@ -218,7 +218,7 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
     const Frame frame = drawnCascades(scene, settings);
     struct Row {
         int cascade;
-        double edge, texel;  // where the visibility rises to a half, m; m
+        double edge, texel;  // where visibility rises to a half, m; m
     };
     std::vector<Row> rows;
     for (int y = size.height - 1; y >= 0; --y) {
@@ -240,7 +240,7 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
         if (row) rows.push_back(*row);
     }
     ASSERT_GT(rows.size(), 60u);
-    std::vector<double> inside(4, 0);  // the greatest step within each cascade
+    std::vector<double> inside(4, 0);  // the largest step within each cascade
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].cascade == rows[i - 1].cascade) {
             double& most = inside[static_cast<std::size_t>(rows[i].cascade)];

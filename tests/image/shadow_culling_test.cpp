@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casters that are left out of shadow maps change no bit of what is read of these.
+// Culling shadow casters changes no bit of a shadow map that is sampled.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -26,7 +26,7 @@ Settings shadowedBy(Shadows shadows, int size, int kernel) {
     return settings;
 }
 
-// Draws with what is needed alone and with every caster.
+// Compares culled casters with all casters.
 void expectSame(Renderer& forNeeded, Renderer& forAll, Settings settings, const std::string& name) {
     RenderOptions options;
     options.channels = {lit, sunMode, localMode};
@@ -38,13 +38,13 @@ void expectSame(Renderer& forNeeded, Renderer& forAll, Settings settings, const 
         EXPECT_EQ(differingPixels(needed.channels.at(mode), all.channels.at(mode)), 0u)
             << name << " " << debugMode(mode).name;
 }
-// By renderers of their own: pages of a clipmap stay.
+// With separate renderers: clipmap pages are cached.
 void expectSame(const Scene& scene, const Settings& settings, const std::string& name) {
     Renderer needed(device(), scene, pipelines()), all(device(), scene, pipelines());
     expectSame(needed, all, settings, name);
 }
 
-// Small boards all over the ground and beyond, in one primitive of many clusters.
+// Small boards all over the ground and beyond, in one primitive of many meshlets.
 Primitive manyBoards(int material, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> part(-1, 1);
@@ -65,10 +65,10 @@ Primitive manyBoards(int material, std::uint32_t seed) {
     return boards;
 }
 
-// Wherever what is read of a map ends, some boards cast.
+// Some boards cast at every border of the sampled part of a map.
 Scene boardsUnder(const Light& sun, std::uint32_t seed) {
     Scene scene = groundUnder(sun, {manyBoards(1, seed), manyBoards(2, seed + 100)});
-    // Low, so that a part of the ground is beside the picture.
+    // Low, so that part of the ground is out of view.
     scene.cameras.front().world_from_camera =
         glm::inverse(glm::lookAt(glm::dvec3(2, 1.2, 3), glm::dvec3(-1, 0.4, -1), {0, 1, 0}));
     return scene;
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowCullingOf,
                                          "builtin:deep", "builtin:far_away"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// Fewer triangles are drawn where they need not be.
+// Fewer triangles are drawn into the shadow maps.
 TEST(ShadowCulling, LeavesOutMostOfWhatIsNotSeen) {
     const auto triangles = [](Settings settings) {
         const Scene scene = boardsUnder(sunAt(60), 5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Filters of the sun's shadow beside percentage-closer filtering: the same bits in both paths, edges as wide
-// as they should be, and maps that cover what the picture shows.
+// Shadow filters of the sun other than PCF: equal bits in both paths, correct edge widths, and maps that
+// cover everything in view.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
@@ -43,7 +43,7 @@ Frame drawnOnce(const Scene& scene, const Settings& settings, const std::vector<
     return drawnOnce(renderer, settings, channels);
 }
 
-// Every sun has a disc, which --shadows pcss alone minds.
+// Every sun has an angular size; only --shadows pcss uses it.
 Scene withDiscs(Scene scene, float angle) {
     for (Light& light : scene.lights)
         if (light.kind == LightKind::directional) light.angle = angle;
@@ -55,12 +55,12 @@ class ShadowFilters : public testing::TestWithParam<std::string> {};
 TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
     const Scene scene = withDiscs(loadScene(GetParam()), 0.05f);
     Renderer renderer(device(), scene, pipelines());
-    // How the normal is packed does not depend on the filter: each encoding with two filters.
+    // The normal's encoding does not depend on the filter: each encoding with two filters.
     const std::pair<Shadows, GBufferEncoding> filters[] = {{Shadows::evsm, GBufferEncoding::full},
                                                            {Shadows::evsm4, GBufferEncoding::standard},
                                                            {Shadows::msm4, GBufferEncoding::full},
                                                            {Shadows::pcss, GBufferEncoding::standard}};
-    // Every filter of the gallery would compile the pipelines of its many materials four times over.
+    // All filters would compile the gallery's many materials four times.
     const std::size_t count = GetParam() == "builtin:gallery" ? 1 : std::size(filters);
     for (const auto& [shadows, encoding] : std::span(filters).first(count)) {
         const std::vector<Frame> frames = bothPaths(renderer, filteredBy(shadows, encoding), {lit, sunSeen});
@@ -74,7 +74,7 @@ TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
     }
 }
 
-// Bounds are those of the channel depth, no pixel is without a cascade, and the last is no coarser.
+// The bounds are those of the depth channel, every pixel has a cascade, and the last is no coarser.
 TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     const Scene scene = loadScene(GetParam());
     SharedResources shared(device(), scene, pipelines());
@@ -103,7 +103,7 @@ TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     EXPECT_LE(prepared.shadow.sun.reach().back().reach, standard.shadow.sun.reach().back().reach);
     const auto& notes = frames[0].notes;
     EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
-        return note.find("over 8 steps of a texel") != std::string::npos;
+        return note.find("in 8 steps of a texel") != std::string::npos;
     }));
 }
 
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowFilters,
                                          "builtin:far_away"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// Without an angle the sun is a point, and its soft shadow is pcf's.
+// A sun without angular size is a point: its soft shadow is that of pcf.
 TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
     Renderer& renderer = uploaded("builtin:gallery").renderer;
     const auto by = [&](Shadows shadows) {
@@ -127,8 +127,8 @@ TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
     }));
 }
 
-// Ground, 8 m x 8 m, and a roof `height` above its half with negative x, or z, under a sun at the zenith;
-// seen from below the roof's height.
+// Ground of 8 m x 8 m, and a roof `height` above its half with negative x or z, under a sun at the zenith.
+// Seen from below the roof.
 Scene underARoof(double height, float angle, bool along_z = false, double fov = 0.5) {
     Scene scene;
     scene.name = "roof";
@@ -155,7 +155,7 @@ Scene underARoof(double height, float angle, bool along_z = false, double fov = 
     return scene;
 }
 
-// The ground's visibility by its distance from the roof's edge, m: positive in the open.
+// The ground's visibility by distance from the roof's edge, m: positive in the open.
 struct Crossed {
     double at, visibility, edge_distance;
 };
@@ -171,15 +171,15 @@ std::vector<Crossed> across(const Frame& frame, bool along_z = false) {
     return all;
 }
 
-// What is seen of a disc of angle `angle` `at` m beyond an edge that is `height` above: the part of a circle
-// beyond a chord.
+// Visible fraction of a disc of angular size `angle`, `at` m beyond an edge `height` m above: the segment
+// of a circle beyond a chord.
 double seenOfDisc(double at, double height, double angle) {
     const double t = std::clamp(at / (height * std::tan(angle / 2)), -1.0, 1.0);
     return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
 }
 
-// A penumbra is 2 tan(angle / 2) times as wide as what casts it is high, and has the profile of a disc:
-// within a texel, everywhere. The reference traces the disc itself.
+// A penumbra is 2 tan(angle / 2) times as wide as its caster is high, with the profile of a disc, to
+// within a texel. The reference traces the disc itself.
 TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
     for (const bool along_z : {false, true})
         for (const float angle : {0.03f, 0.09f})
@@ -207,8 +207,8 @@ TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
             }
 }
 
-// A board just above the ground, beside a high roof's penumbra: its depth is in the square that is searched,
-// yet it blocks nothing of the disc, so that the penumbra is as wide as the roof alone makes it.
+// A board just above the ground, beside a high roof's penumbra. Its depth is in the blocker search region,
+// but it occludes none of the disc: the penumbra keeps the roof's width.
 TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
     constexpr float angle = 0.09f;
     constexpr double height = 1, edge = 0.12, low = 0.05, texel = 0.0095;
@@ -221,7 +221,7 @@ TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
     settings.size = {320, 180};
     int penumbra = 0;
     for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places}))) {
-        if (c.at > edge - low * std::tan(double{angle} / 2) - 2 * texel) continue;  // the board's own shadow
+        if (c.at > edge - low * std::tan(double{angle} / 2) - 2 * texel) continue;  // the board's shadow
         EXPECT_GE(c.visibility, seenOfDisc(c.at - texel, height, double{angle}) - 0.02) << c.at;
         EXPECT_LE(c.visibility, seenOfDisc(c.at + texel, height, double{angle}) + 0.02) << c.at;
         penumbra += c.visibility > 0.01 && c.visibility < 0.99;
@@ -229,7 +229,7 @@ TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
     EXPECT_GT(penumbra, 250);
 }
 
-// A blur makes an edge wider, along both axes of the map, and leaves it in its place.
+// Blurring widens an edge along both axes of the map without shifting it.
 TEST(ShadowMoments, AreBlurredAcrossAndDown) {
     for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4})
         for (const bool along_z : {false, true}) {
@@ -256,13 +256,13 @@ TEST(ShadowMoments, AreBlurredAcrossAndDown) {
                 width[kernel] = (to - from) / texel;
                 EXPECT_NEAR(middle / pixels, 0, texel) << nameOf(shadows) << " " << kernel;
             }
-            // 0.05 to 0.95 of one texel between two; of a Gaussian of 1.4 texels.
+            // Range 0.05 to 0.95: linear over one texel; a Gaussian of 1.4 texels.
             EXPECT_NEAR(width[1], 0.9, 0.4) << nameOf(shadows) << along_z;
             EXPECT_NEAR(width[7], 4.7, 0.8) << nameOf(shadows) << along_z;
         }
 }
 
-// With either precision a plane under a grazing sun is lit.
+// A plane under a grazing sun is lit, with either precision.
 TEST(ShadowMoments, OfAPlaneLeaveItLit) {
     for (const EvsmPrecision precision : {EvsmPrecision::fp32, EvsmPrecision::fp16})
         for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4, Shadows::msm4}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sun, the ground and what stands on it, of whose shadow is known where it lies.
+// A sun, the ground and objects on it, with known shadow positions.
 #pragma once
 
 #include "tests/image/scenes.h"
@@ -16,7 +16,7 @@
 
 namespace diptych::tests {
 
-// A sun that stands `degrees` above the ground, towards +X and a little +Z.
+// A sun `degrees` above the horizon, towards +X and a little +Z.
 inline Light sunAt(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     Light sun;
@@ -27,7 +27,7 @@ inline Light sunAt(double degrees) {
     return sun;
 }
 
-// The ground, 8 m x 8 m around the origin, and what stands on it, seen from above.
+// The ground, 8 m x 8 m around the origin, with objects on it, seen from above.
 inline Scene groundUnder(const Light& sun, std::vector<Primitive> standing = {}, double scale = 1) {
     Scene scene;
     scene.name = "ground";
@@ -49,7 +49,8 @@ inline Scene groundUnder(const Light& sun, std::vector<Primitive> standing = {},
     return scene;
 }
 
-// An upright board over the origin, as wide as the ground and 1 m high: its foot lies on the ground's middle.
+// An upright board above the origin, as wide as the ground and 1 m high; its foot is on the ground's
+// centre line.
 inline Primitive board(int material = 0) {
     return rectangle({0, 0, 4}, {0, 0, -8}, {0, 1, 0}, material);
 }

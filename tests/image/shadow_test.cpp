@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sun's shadow: the same bits in both paths, against the rays of the reference, and planes of which what
-// is right is known.
+// The sun's shadow: equal bits in both paths, comparison with the reference's rays, and planes with known
+// results.
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/shadow_scenes.h"
@@ -33,8 +33,7 @@ Frame drawn(const Scene& scene, const Settings& settings,
     return drawAll(scene, {settings}, options).front();
 }
 
-// Over the pixels of the ground that a test's predicate of position accepts: the least and the most
-// visibility.
+// Minimum and maximum visibility over the covered pixels that a predicate of position accepts.
 struct Seen {
     float least = 1, most = 0;
     int pixels = 0;
@@ -56,7 +55,7 @@ Seen seenWhere(const Frame& frame, const Where& where) {
 class ShadowPaths : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShadowPaths, SeeTheSame) {
-    // Every pair of both would compile twice the pipelines, and the gallery's many materials the most.
+    // All pairs would compile twice the pipelines, most of them for the gallery's many materials.
     const std::pair<GBufferEncoding, int> kernels[] = {
         {GBufferEncoding::compact, 1}, {GBufferEncoding::standard, 5}, {GBufferEncoding::full, 7}};
     const std::size_t first = GetParam() == "builtin:gallery" ? 2 : 0;
@@ -71,8 +70,8 @@ TEST_P(ShadowPaths, SeeTheSame) {
     }
 }
 
-// A path's picture against rays: beyond the filter's reach and a texel from an edge, what is shown lit is
-// lit, and what is shown dark is dark, but for one pixel in 2,000.
+// A path's image against rays: outside the filter's radius and a texel from an edge, visibility is
+// correct. At most one pixel in 2,000 is falsely lit, and as many falsely dark.
 TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
     Settings settings = shadowed(smallPicture(GBufferEncoding::full));
     settings.size = {320, 180};
@@ -118,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowPaths,
                                          "builtin:far_away"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// A plane never shadows itself, however the sun grazes it, with any filter.
+// A plane never shadows itself at any grazing angle, with any filter.
 TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
     for (const double degrees : {0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 35.0, 50.0, 70.0, 89.0, 89.9})
         for (const int kernel : {1, 3, 5, 7}) {
@@ -136,7 +135,7 @@ TEST(ShadowPlane, IsDarkWhereTheSunIsBelowIt) {
     EXPECT_EQ(seenWhere(frame, [](int, int) { return true; }).most, 0);
 }
 
-// Scenes of any size, and a sun straight above or below.
+// Scenes of any size, also with the sun at the zenith.
 TEST(ShadowPlane, IsFullyLitAtEveryScale) {
     for (const double scale : {1e-3, 1.0, 1e4})
         for (const double degrees : {5.0, 45.0, 90.0}) {
@@ -147,8 +146,8 @@ TEST(ShadowPlane, IsFullyLitAtEveryScale) {
         }
 }
 
-// The board's shadow lies on the side away from the sun, without a gap at its foot, and does not reach the
-// other. It covers 1 / tan(degrees) of ground.
+// The board's shadow is on the side away from the sun, without a gap at its foot, and not on the other
+// side. It covers 1 / tan(degrees) of ground.
 TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
     for (const double degrees : {20.0, 45.0, 70.0}) {
         Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
@@ -157,7 +156,7 @@ TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
         const Frame frame = drawn(scene, settings, {visibility, depth, ids, int{gpu::DEBUG_position}});
         const Image& position = frame.channels.at(int{gpu::DEBUG_position});
         const double length = std::cos(0.3) / std::tan(degrees * std::numbers::pi / 180);
-        // A texel is about 6 mm of ground across; the filter reaches three.
+        // A texel covers about 6 mm of ground; the filter's radius is three.
         const double gap = 0.03;
         const auto onGround = [&](double from, double to) {
             return [&, from, to](int x, int y) {
@@ -178,7 +177,7 @@ TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
     }
 }
 
-// Holes of an alpha mask let the sun through; what is blended casts nothing.
+// The sun shines through holes of an alpha mask; blended surfaces cast nothing.
 TEST(ShadowCasters, FollowTheirAlphaMode) {
     const auto darkest = [](AlphaMode mode, float alpha) {
         Scene scene = groundUnder(sunAt(45), {board(1)});
@@ -194,7 +193,8 @@ TEST(ShadowCasters, FollowTheirAlphaMode) {
     EXPECT_EQ(darkest(AlphaMode::blend, 1.0f), 1);
 }
 
-// With lights by object, where none of them need be shaded per pixel, the sun that casts is, and is shadowed.
+// With per-object lights and no per-pixel lights, the casting sun is still shaded per pixel, with its
+// shadow.
 TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     const Scene scene = groundUnder(sunAt(45), {board(1)});
     Settings settings = shadowed(smallPicture(GBufferEncoding::full));
@@ -211,7 +211,7 @@ TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     EXPECT_GT(dark, 500u) << "of the ground";
 }
 
-// Of several suns the brightest casts; without any nothing does, and no pass is drawn.
+// Of several suns the brightest casts. Without a sun there is no shadow and no pass.
 TEST(ShadowCasters, AreOfTheBrightestSun) {
     Scene scene = groundUnder(sunAt(45), {board(1)});
     const Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
@@ -231,8 +231,8 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
     EXPECT_TRUE(none.shadow_reach.empty());
 }
 
-// Of a camera that sees the ground between 1.5 and 4 m the cascades for less and for more are not drawn;
-// where nothing casts, none is, and what is turned from the sun is dark all the same.
+// A camera that sees the ground from 1.5 to 4 m renders no cascades nearer or farther. Without casters no
+// cascade is rendered; surfaces facing away from the sun are dark all the same.
 TEST(ShadowMapsOfNothing, AreNotDrawn) {
     const auto says = [](const Frame& frame, const std::string& words) {
         return std::ranges::any_of(frame.notes,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Optimisations that skip work on the device (uniforms gathered for each pixel, inputs that are not read,
-// normals of triangles) change no bit of the picture.
+// Optimisations that skip work on the device (gathered uniforms, unread inputs, triangle normals) change
+// no bit of the image.
 #include "compare/render/frame_facts.h"
 #include "shared/scene/load.h"
 #include "tests/image/changed_view.h"
@@ -45,7 +45,7 @@ TEST(SkippedWork, TheViewIsTheSameFromEverySource) {
         }
 }
 
-// A texture transform needs all inputs; one on a material without texture has no effect.
+// A texture transform needs all inputs; without a texture it has no effect.
 TEST(SkippedWork, FewerInputsBringTheSamePictureAsAll) {
     std::size_t scene = 0;
     for (const std::string& name : builtinScenes())
@@ -56,7 +56,7 @@ TEST(SkippedWork, FewerInputsBringTheSamePictureAsAll) {
                    });
 }
 
-// The timed frame computes no normals of triangles; a frame whose normals are captured is drawn again.
+// The timed frame computes no triangle normals; a frame with captured normals is rendered again.
 TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
     const Scene scene = loadScene("builtin:gallery");
     for (const Path path : {Path::deferred, Path::forward_plus})
@@ -74,7 +74,7 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
         }
 }
 
-// Overdraw is counted in a small picture, whose counts are scaled to the whole.
+// Overdraw is counted in a small image and scaled to the whole.
 TEST(SkippedWork, OverdrawIsThatOfEverySize) {
     const Scene scene = loadScene("builtin:triangle");
     for (const Size size : {Size{160, 90}, Size{640, 360}, Size{1280, 720}}) {
@@ -95,8 +95,8 @@ TEST(SkippedWork, OverdrawIsThatOfEverySize) {
     }
 }
 
-// Nearest objects are drawn first: hidden fragments then fail the depth test before they are shaded. This
-// also holds for an orthographic camera, whose w is always 1.
+// Objects are drawn front to back: hidden fragments then fail the depth test before shading. This also
+// holds for an orthographic camera, whose w is always 1.
 TEST(SkippedWork, DrawsGoFromNearToFar) {
     for (const char* name : {"builtin:spheres", "builtin:ortho"}) {
         const Scene scene = loadScene(name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Specular anti-aliasing in both paths: the roughness that a known change of the normal gives, surfaces
-// without any, normal maps, several samples a pixel, and the reference that shades what was filtered.
+// Specular anti-aliasing in both paths: roughness for a known change of the normal, flat surfaces, normal
+// maps, MSAA, and the reference shading the filtered surface.
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/builtin/shapes.h"
 #include "tests/image/square.h"
@@ -27,15 +27,16 @@ Settings fullPicture(Size size = {160, 90}) {
     return settings;
 }
 
-// What the shader's formula is of one pixel whose normal changes by the squares' sum `change` to the next.
+// The shader's formula for a pixel; `change`: sum of the squared differences of the normal to its
+// neighbours.
 double expectedRoughness(double roughness, double change, double variance = paper_variance,
                          double limit = paper_limit) {
     const double kernel = std::min(2 * variance * change, limit);
     return std::pow(std::min(std::pow(roughness, 4) + kernel, 1.0), 0.25);
 }
 
-// The square, seen straight on from where it fills the picture, with normals at its left and right that turn
-// by the angle whose tangent is +-`slope`: those of a cylinder about y.
+// The square, filling the image. Its normals at the left and right edges tilt by atan(-+`slope`), as on a
+// cylinder about y.
 Scene cylindrical(float slope, float rough) {
     Scene scene = square();
     const glm::vec3 left = glm::normalize(glm::vec3(-slope, 0, 1)),
@@ -45,8 +46,8 @@ Scene cylindrical(float slope, float rough) {
     return scene;
 }
 
-// Interpolation is linear in the picture, so the normal of every pixel is known; a derivative is the
-// difference within a pair of pixels.
+// Interpolation is linear in the image, so every pixel's normal is known. A derivative is the difference
+// within a pair of pixels.
 TEST(SpecularAa, OfAKnownCurvature) {
     constexpr int pixels = 32;
     for (const float slope : {0.05f, 0.5f, 8.0f})
@@ -66,8 +67,7 @@ TEST(SpecularAa, OfAKnownCurvature) {
         }
 }
 
-// As three.js has it: perceptual roughness and the largest component, along the picture's axes, by which the
-// normal changes.
+// As in three.js: perceptual roughness plus the normal's largest component change along the image's axes.
 TEST(SpecularAa, BySlopeItIsTheLargestChange) {
     constexpr int pixels = 32;
     for (const float slope : {0.05f, 0.5f, 8.0f})
@@ -115,8 +115,7 @@ TEST(SpecularAa, TakesItsTwoNumbersFromTheSettings) {
     }
 }
 
-// A sphere of radius 1 seen from far: in its middle the normal turns by the size of a pixel in both
-// directions.
+// A distant sphere of radius 1: at its centre the normal turns by a pixel's size in both directions.
 TEST(SpecularAa, OfASphereAtAKnownDistance) {
     constexpr int pixels = 64;
     Scene scene = square();
@@ -127,19 +126,19 @@ TEST(SpecularAa, OfASphereAtAKnownDistance) {
     camera.ymag = 2;
     camera.far = 10;
     camera.world_from_camera[3] = {0, 0, 5, 1};
-    const double pixel = 2 * camera.ymag / pixels;  // m, of radius 1
+    const double pixel = 2 * camera.ymag / pixels;  // m; the radius is 1
     for (const Frame& frame : bothPaths(scene, filtered(fullPicture({pixels, pixels})), {roughness}))
         for (const int at : {pixels / 2 - 1, pixels / 2}) {
             const double kernel = std::pow(double{frame.channels.at(roughness).at(at, at, 0)}, 4) - 1e-4;
-            // Normals interpolated over segments of 1.4 degrees are chords: up to 1 % from the arc's change,
-            // twice that when squared.
+            // Normals interpolated over segments of 1.4 degrees are chords: up to 1 % off the arc's
+            // change, twice that when squared.
             EXPECT_NEAR(kernel / (2 * double{paper_variance} * 2 * pixel * pixel), 1, 0.03) << frame.name;
         }
 }
 
-// ---- surfaces that do not curve ----------------------------------------------------------------------
+// ---- flat surfaces -----------------------------------------------------------------------------------
 
-// Whatever the interpolation rounds, up to the horizon, and however wide the filter.
+// Despite the rounding of interpolation, up to the horizon and for any filter width.
 TEST(SpecularAa, AFlatSurfaceKeepsItsRoughnessBitForBit) {
     for (const double degrees : {0.0, 37.0, 80.0, 89.9}) {
         Scene scene = square();
@@ -166,7 +165,7 @@ TEST(SpecularAa, AFlatSurfaceKeepsItsRoughnessBitForBit) {
 
 // ---- normal maps -------------------------------------------------------------------------------------
 
-// Waves of normals on a plane, in a texture that a pixel magnifies.
+// Waves of normals on a plane, in a magnified texture.
 Scene wavy(float scale, int cells) {
     Scene scene = square();
     scene.meshes[0].primitives[0] = quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, cells, cells);
@@ -193,7 +192,7 @@ TEST(SpecularAa, OfANormalMapWhereThatIsAskedFor) {
         for (const float value : frame.channels.at(roughness).data) ASSERT_EQ(value, 0.2f) << frame.name;
     for (const Frame& frame :
          bothPaths(wavy(1, 1), filtered(settings, SpecularNormals::mapped), {roughness, normals})) {
-        // The normals that both paths show are those whose changes are filtered.
+        // The filter uses the differences of the normals that both paths show.
         const Image &shown = frame.channels.at(normals), &drawn = frame.channels.at(roughness);
         const auto normalAt = [&](int x, int y) {
             return glm::dvec3(shown.at(x, y, 0), shown.at(x, y, 1), shown.at(x, y, 2));
@@ -211,8 +210,8 @@ TEST(SpecularAa, OfANormalMapWhereThatIsAskedFor) {
     }
 }
 
-// Pixels of a quad that a triangle does not cover know the map's scale too: fine triangles filter as one
-// does.
+// Helper pixels of a quad, outside the triangle, also get the map's scale: fine triangles filter like a
+// single one.
 TEST(SpecularAa, OfANormalMapAtTheEdgesOfTriangles) {
     const Settings settings = filtered(fullPicture({64, 64}), SpecularNormals::mapped);
     for (const float scale : {0.5f, -0.7f}) {
@@ -269,10 +268,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, SpecularAaBuiltin,
                          testing::Values("builtin:gallery", "builtin:normals", "builtin:spheres"),
                          [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
 
-// Several samples: derivatives are of the pixels' middles, wherever in a pixel its samples are shaded, also
-// along the diagonal, where triangles cover parts of pixels. lavapipe takes the middle half a pixel aside,
-// where this curve's roughness is 1.5e-4 another; differences between places where samples are shaded would
-// be 5e-3.
+// MSAA: derivatives are taken at pixel centres, wherever the samples are shaded, also along the diagonal,
+// where triangles cover pixels partly. lavapipe's centre is half a pixel off, which changes this curve's
+// roughness by 1.5e-4. Differences between shading locations would change it by 5e-3.
 TEST(SpecularAa, SeveralSamplesFilterAlike) {
     Settings settings = filtered(fullPicture({64, 64}));
     const Scene scene = cylindrical(1, 0.2f);
@@ -287,7 +285,7 @@ TEST(SpecularAa, SeveralSamplesFilterAlike) {
     EXPECT_GT(*std::ranges::max_element(four.data), 0.208f);
 }
 
-// The reference in mode surface shades what was filtered: it judges shading alone.
+// The reference in mode surface shades the filtered surface: it checks shading alone.
 TEST(SpecularAa, TheReferenceShadesWhatWasFiltered) {
     UploadedScene& scene = uploaded("builtin:normals");
     const Settings settings = filtered(fullPicture({96, 54}));

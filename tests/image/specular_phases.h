@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene from cameras whose picture is moved by parts of a pixel.
+// A scene with cameras that shift its image by fractions of a pixel.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -12,10 +12,10 @@
 
 namespace diptych::tests {
 
-inline constexpr int phases = 64;  // 8 x 8 places of a pixel
+inline constexpr int phases = 64;  // 8 x 8 positions in a pixel
 
-// The scene's view of `size`, and after its own cameras `phases` more: about the same eye, turned by as much
-// as moves the picture's middle by -1/2 to 1/2 pixel in both directions. What a point shows does not change.
+// Appends `phases` cameras to the scene's own: the same eye, rotated so that the image's centre moves by
+// -1/2 to 1/2 pixel in both directions. The visible surfaces do not change.
 inline Scene withPhases(Scene scene, Size size) {
     const View view = makeView(scene, poseAt(scene, 0), "", size.width, size.height);
     const double pixel = 2 * std::tan(view.camera.yfov / 2) / size.height;  // m per metre of depth
@@ -32,7 +32,7 @@ inline Scene withPhases(Scene scene, Size size) {
     return scene;
 }
 
-// A metal sheet of 1 m with bumps of `bumps` a side, smooth from afar, under a sun.
+// A metal sheet of 1 m with `bumps` x `bumps` bumps that look smooth from afar, under a sun.
 inline Scene displacedSheet(int bumps = 4, double slope = 0.5, int cells = 192) {
     Scene scene;
     scene.name = "sheet";
@@ -77,10 +77,10 @@ inline Scene displacedSheet(int bumps = 4, double slope = 0.5, int cells = 192) 
     return scene;
 }
 
-// Radiance over `phases` pictures: how it flickers and its mean, of a channel in the pixels that show one
-// material in all of them.
+// Flicker and mean of a channel's radiance over `phases` images, in the pixels that show one material in
+// all of them.
 struct Shimmer {
-    double rmse = 0;  // root of the mean over pixels and components of the variance over the phases
+    double rmse = 0;  // root of the mean variance over the phases, of pixels and components
     double mean = 0;
     std::size_t pixels = 0;
 };

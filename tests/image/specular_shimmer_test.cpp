@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What specular anti-aliasing is for: over 64 places of a pixel highlights flicker half as much or less, and
-// the mean of the light stays what samples of the scene have, whatever the resolution.
+// The effect of specular anti-aliasing: over 64 subpixel positions highlights flicker half as much or
+// less. Mean light stays that of supersampling, at any resolution.
 #include "shared/contract/debug_mode.h"
 #include "tests/image/specular_phases.h"
 
@@ -31,7 +31,7 @@ struct OverPhases {
     double mean = 0;     // of all light
 };
 
-// Both paths have the same bits (SpecularAaBuiltin): one is drawn.
+// Both paths give the same bits (SpecularAaBuiltin): one is rendered.
 OverPhases overPhases(Renderer& renderer, std::size_t first, const Settings& settings) {
     OverPhases result;
     Flicker flicker;
@@ -48,9 +48,9 @@ OverPhases overPhases(Renderer& renderer, std::size_t first, const Settings& set
 
 struct Shimmer {
     const char* name;
-    int samples;  // of the reference, a pixel: as many as take some seconds
+    int samples;  // of the reference, per pixel: a few seconds' worth
     float variance;
-    double energy;  // what the mean may be off by
+    double energy;  // tolerance of the mean
 };
 
 class SpecularShimmer : public testing::TestWithParam<Shimmer> {};
@@ -84,17 +84,17 @@ TEST_P(SpecularShimmer, HalvesAndKeepsTheLight) {
     RecordProperty("energy", std::to_string(on.mean / expected));
 }
 
-// The helmet's normals, roughness and colours are textures, whose mip maps alone bring 3 % more light than
-// samples have; the filter brings 3 % more. What flickers in its highlights are those textures too: at the
-// usual variance of 1 / (2 pi) it is 1.84 times less, at a quarter, a deviation of half a pixel, 2.06 times.
+// The helmet's normals, roughness and colours are textures, whose mip maps alone add 3 % light over
+// supersampling. The filter adds 3 % more. The textures cause part of the flicker: at the default variance
+// of 1 / (2 pi) the filter reduces it 1.84 times; at 1/4, a deviation of half a pixel, 2.06 times.
 INSTANTIATE_TEST_SUITE_P(Of, SpecularShimmer,
                          testing::Values(Shimmer{"sheet", 1024, Settings().spec_aa_variance, 0.05},
                                          Shimmer{"gallery", 8, Settings().spec_aa_variance, 0.05},
                                          Shimmer{"helmet", 64, 0.25f, 0.07}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The filter is in pixels: twice as many of them narrow it, and the light stays. So it does with four
-// samples.
+// The filter's width is in pixels: doubling the resolution narrows it, and the light stays the same. So
+// does 4x MSAA.
 TEST(SpecularEnergy, DoesNotDependOnResolutionOrSamples) {
     const Scene sheet = displacedSheet();
     Renderer renderer(device(), sheet, pipelines());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The square whose pixels are known by hand, and helpers to draw and check it.
+// The square whose pixels are known by hand, and helpers to render and check it.
 #pragma once
 
 #include "tests/image/scenes.h"
@@ -24,7 +24,7 @@ inline Scene square() {
     scene.meshes.push_back({"square", {p}});
     scene.nodes.push_back({"square", -1, glm::dmat4(1.0), 0});
     scene.materials.push_back({});
-    // Texels: red, green above blue, grey (linear slots see the bytes over 255, colour slots sRGB).
+    // Texels: red, green above blue, grey (linear slots read bytes / 255, colour slots decode sRGB).
     scene.images.push_back(
         {"four", 2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 255}});
     Sampler nearest;
@@ -38,7 +38,7 @@ inline Scene square() {
     return scene;
 }
 
-// The same square of cells x cells squares, two triangles each.
+// The same square split into cells x cells squares, two triangles each.
 inline Scene fineMesh(std::uint32_t cells) {
     Scene scene = square();
     Primitive& p = scene.meshes[0].primitives[0];
@@ -60,8 +60,8 @@ inline Scene fineMesh(std::uint32_t cells) {
     return scene;
 }
 
-// Two squares that cross, of two colours: every pixel of the line is covered by both, and only which is
-// behind the other differs from sample to sample.
+// Two intersecting squares of different colours. Both cover every pixel of the line; only their depth
+// order differs between samples.
 inline Scene crossingSquares() {
     Scene scene = square();
     scene.nodes.push_back(

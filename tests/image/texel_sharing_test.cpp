@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is not sampled has the bits of what is: images of one colour are factors, slots that read one image in
-// the same way share a sample; and how far --textures packed is from them.
+// Skipped texture samples leave the bits unchanged: images of one colour become factors, and slots that
+// read one image alike share a sample. Also the error of --textures packed.
 #include "shared/material/materials.h"
 #include "shared/scene/model/material_slots.h"
 #include "tests/image/square.h"
@@ -20,8 +20,8 @@ TextureImage noiseOf(int width, int height, std::uint32_t seed) {
     return image;
 }
 
-// The square turned, so that mip levels change across it, under a lamp and light from everywhere. Every slot
-// reads texture 0, whose image is `image`, with trilinear filters, and has factors of its own.
+// The square rotated, so that mip levels vary across it, lit by a lamp and ambient light. Every slot reads
+// texture 0 (`image`) with trilinear filtering, and has its own factors.
 Scene turnedSquare(const TextureImage& image) {
     Scene scene = square();
     scene.nodes[0].parent_from_node = glm::rotate(glm::dmat4(1.0), glm::radians(65.0), glm::dvec3(1, 0.3, 0));
@@ -52,7 +52,7 @@ Settings litPicture(TexturePrecision textures = TexturePrecision::device) {
     return settings;
 }
 
-// Where the slots of a scene's first material find their texels.
+// Texel sources of the slots of a scene's first material.
 SlotTexels texelsOnDevice(const Scene& scene, TexturePrecision textures = TexturePrecision::device) {
     Uploader uploader(device());
     const Materials onDevice(device(), uploader, scene, textures);
@@ -72,7 +72,7 @@ void expectSamePictures(const Scene& a, const Scene& b, const Settings& settings
     }
 }
 
-// Beside the same image again, which is then sampled once more.
+// Compared with a copy of the image, which is then sampled separately.
 TEST(TexelSharing, OneSampleHasTheBitsOfTwo) {
     Scene shared = turnedSquare(noiseOf(64, 32, 3));
     Material& m = shared.materials[0];
@@ -92,7 +92,7 @@ TEST(TexelSharing, OneSampleHasTheBitsOfTwo) {
     }
 }
 
-// Beside an image that has another colour where nothing reads it, and is sampled.
+// Compared with an image that has another colour at an unread texel and is therefore sampled.
 TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
     constexpr int side = 16;
     std::uint32_t state = 11;
@@ -104,7 +104,7 @@ TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
                     state = state * 1664525u + 1013904223u;
                     color.push_back(static_cast<std::uint8_t>(state >> 24));
                 }
-                color[2] |= 128;  // a normal that faces out
+                color[2] |= 128;  // a normal that faces outwards
                 TextureImage image{"one", side, side, {}};
                 for (int i = 0; i < side * side; ++i)
                     image.rgba.insert(image.rgba.end(), color.begin(), color.end());
@@ -127,7 +127,7 @@ TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
             }
 }
 
-// A mask of one alpha, in every pass that cuts and with several samples a pixel, whose coverage is made of
+// A mask of uniform alpha, in every pass that tests it, and with MSAA, whose coverage depends on
 // differences of alpha.
 TEST(TexelSharing, AMaskOfOneColorCutsAlike) {
     for (const int alpha : {100, 180}) {
@@ -157,7 +157,7 @@ TEST(TexelSharing, AMaskOfOneColorCutsAlike) {
     }
 }
 
-// Highlights widened by what a mapped normal changes by, which is a difference from pixel to pixel.
+// Highlights are widened by the mapped normal's change, a difference between pixels.
 TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
     TextureImage image{"one", 4, 4, {}};
     for (int i = 0; i < 16; ++i) image.rgba.insert(image.rgba.end(), {90, 160, 220, 255});
@@ -176,10 +176,10 @@ TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
     expectSamePictures(one, sampled, settings);
 }
 
-// Roughness and metallic that are as large as the other textures: what two linear samples of 8 bits hold
-// alike is the same to the bit, and metallic, which an sRGB sample filters in floats, is off by what rounding
-// of 8 bits does. Half as large: where their texels are magnified they are smoothed, by an eighth of what the
-// next ones differ by at most; seen from afar it is the same.
+// Roughness and metallic of the other textures' size: channels that both linear 8-bit samples store are
+// equal bit for bit. Metallic comes from an sRGB sample filtered in floats, so it differs by 8-bit
+// rounding. At half size, magnified texels are smoothed by at most 1/8 of the difference to their
+// neighbours; from afar they are equal.
 TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
     struct Case {
         int width, height;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels in pixels: 16 bit images exact to a single step, filters and wrap modes.
+// Texels in pixels: 16-bit images exact to a single step, filters and wrap modes.
 #include "shared/material/textures.h"
 #include "tests/image/square.h"
 
@@ -9,7 +9,7 @@
 namespace diptych::tests {
 namespace {
 
-// Two texels side by side, the right one a 16 bit step above the left one in every component.
+// Two texels side by side; the right one is one 16-bit step above the left one in every component.
 Scene deepSquare(std::uint16_t code) {
     Scene scene = square();
     TextureImage& image = scene.images[0];
@@ -22,7 +22,7 @@ double linearFromSrgb(double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// A linear slot: code / 65535, and one step more. R16G16B16A16_UNORM is exact to a float's rounding.
+// A linear slot: code / 65535, and one step more. R16G16B16A16_UNORM is exact to float rounding.
 TEST(Textures, SixteenLinearBitsReachThePixel) {
     for (const int code : {0, 1, 1000, 32767, 65534}) {
         Scene scene = deepSquare(static_cast<std::uint16_t>(code));
@@ -36,8 +36,8 @@ TEST(Textures, SixteenLinearBitsReachThePixel) {
     }
 }
 
-// A colour slot: the sRGB curve of code / 65535, where a dark step is 1.2e-6: 8 bits would show 3.0e-4, and
-// 16 linear bits 1.5e-5.
+// A colour slot: the sRGB curve of code / 65535. A dark step is 1.2e-6; 8 bits would give 3.0e-4, and 16
+// linear bits 1.5e-5.
 TEST(Textures, SixteenBitsOfSrgbReachThePixel) {
     for (const int code : {0, 1, 2650, 32896, 65534}) {
         Scene scene = deepSquare(static_cast<std::uint16_t>(code));
@@ -46,22 +46,22 @@ TEST(Textures, SixteenBitsOfSrgbReachThePixel) {
         for (const Frame& frame : draw(scene))
             for (const int x : {0, 3}) {
                 const auto expected = static_cast<float>(linearFromSrgb((code + (x == 3)) / 65535.0));
-                // rounding of the value to float
+                // Float rounding of the value.
                 expectColor(colorAt(frame, albedo, x, 0), glm::vec3(expected), 1e-7f, frame.name);
                 expectColor(colorAt(frame, emission, x, 0), glm::vec3(expected), 1e-7f, frame.name);
             }
     }
 }
 
-// Between the texels' centres: the mean of the linear values, at half a step of 16 bits. The device's weights
-// have 8 bits at least (subTexelPrecisionBits).
+// Between the texels' centres: the weighted mean of the linear values, at half a 16-bit step. The device's
+// weights have at least 8 bits (subTexelPrecisionBits).
 TEST(Textures, SixteenBitsAreFilteredInLinearLight) {
     Scene scene = deepSquare(0);
     scene.images[0].rgba16 = {1000, 1000, 1000, 65535, 3000, 3000, 3000, 65535};
     scene.textures[0].sampler = {Wrap::clamp_to_edge, Wrap::clamp_to_edge, true, true, false, false};
     scene.materials[0].base_color_texture.texture = scene.materials[0].metallic_roughness_texture.texture = 0;
     const double a = linearFromSrgb(1000 / 65535.0), b = linearFromSrgb(3000 / 65535.0);
-    // 8 pixels over 2 texels: pixel 3 lies 3/8 of the way from the left centre to the right one.
+    // 8 pixels over 2 texels: pixel 3 is 3/8 of the way from the left centre to the right one.
     for (const Frame& frame : draw(scene, 8)) {
         EXPECT_NEAR(colorAt(frame, albedo, 3, 4).x, a + (b - a) * 3 / 8, (b - a) / 256) << frame.name;
         EXPECT_NEAR(colorAt(frame, roughness, 3, 4).x, (1000 + 2000 * 3 / 8.0) / 65535, 2000 / 65535.0 / 256)
@@ -69,8 +69,8 @@ TEST(Textures, SixteenBitsAreFilteredInLinearLight) {
     }
 }
 
-// Formats are chosen by what the device can filter; half floats, which every device can, come with a note on
-// lost bits.
+// Formats are chosen by what the device can filter. Half floats, which every device can filter, add a note
+// on lost bits.
 TEST(Textures, FormatsGiveWayInOrder) {
     const auto with = [](std::set<VkFormat> filtered) {
         return [filtered](VkFormat format) { return filtered.contains(format); };
@@ -97,11 +97,12 @@ TEST(Textures, FormatsGiveWayInOrder) {
     EXPECT_EQ(format(true, true, {unorm, floats}, exact), std::pair(floats, true));
 }
 
-// All pairs of wrap modes: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 1 texture, nearest.
-// The texels left of 0 and right of 1 are known by hand.
+// All pairs of wrap modes: 4 x 4 pixels over uv -1 to 2 (scale 3, offset -1) of a 3 x 3 texture, nearest.
+// Texels outside 0 to 1 are known by hand.
 TEST(Textures, WrapsOfEveryPair) {
     Scene scene = square();
-    // Texel (x, y) has red 60 x and green 60 y, read through the linear roughness (G) and metallic (B) slots.
+    // Texel (x, y) has green 60 y and blue 60 x, read through the linear roughness (G) and metallic (B)
+    // slots.
     TextureImage image{"three", 3, 3, {}};
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x)
@@ -129,8 +130,8 @@ TEST(Textures, WrapsOfEveryPair) {
 }
 
 // Magnified: nearest takes the texel, linear the mean of two. Minified by 4, with a texture whose texels
-// alternate between 0 and 1 in columns of two (so that level 1 does too): which level is read, and what is
-// between levels.
+// alternate between 0 and 1 in columns of two (so level 1 does too): checks the selected level and the
+// interpolation between levels.
 TEST(Textures, FiltersOfEveryKind) {
     Scene scene = square();
     TextureImage image{"columns", 16, 16, {}};
@@ -151,20 +152,20 @@ TEST(Textures, FiltersOfEveryKind) {
         return value;
     };
     constexpr Wrap r = Wrap::repeat;
-    // A quarter of the texture over 8 pixels, two pixels a texel: pixel 3 lies in texel 1 (0), a quarter from
-    // its right edge: linear takes a quarter of texel 2 (1).
+    // A quarter of the texture over 8 pixels, two pixels a texel. Pixel 3 is in texel 1 (0), a quarter
+    // from its right edge: linear takes a quarter of texel 2 (1).
     EXPECT_EQ(at({r, r, false, true, true, true}, 0.25, 8, 3), 0.0f);
     EXPECT_NEAR(at({r, r, true, false, false, false}, 0.25, 8, 3), 0.25f, 1.0f / 256);
-    // Two texels a pixel: level 1, which alternates 0, 1. Without mip levels, level 0: nearest takes texel 2x
-    // or 2x + 1, which are alike; linear their mean.
+    // Two texels a pixel: level 1, which alternates 0, 1. Without mip levels, level 0: nearest takes texel
+    // 2x or 2x + 1, which are equal; linear their mean.
     for (const bool linear : {false, true}) {
         EXPECT_EQ(at({r, r, true, linear, false, false}, 1, 8, 0), 0.0f);
         EXPECT_EQ(at({r, r, true, linear, false, false}, 1, 8, 1), 1.0f);
         EXPECT_NEAR(at({r, r, true, linear, true, false}, 1, 8, 1), 1.0f, 1.0f / 256);
         EXPECT_NEAR(at({r, r, true, linear, true, true}, 1, 8, 1), 1.0f, 1.0f / 256);
     }
-    // Four texels a pixel: level 2, grey all over; without mip levels the pixel's centre lies between texels
-    // 1 and 2: nearest takes 2, linear the mean.
+    // Four texels a pixel: level 2, uniformly grey. Without mip levels the pixel's centre is between
+    // texels 1 and 2: nearest takes 2, linear the mean.
     const float grey2 = 128 / 255.0f;
     for (const bool linear : {false, true})
         for (const bool between : {false, true})
@@ -172,14 +173,14 @@ TEST(Textures, FiltersOfEveryKind) {
                 << linear << between;
     EXPECT_EQ(at({r, r, true, false, false, false}, 1, 4, 1), 1.0f);
     EXPECT_NEAR(at({r, r, true, true, false, false}, 1, 4, 1), 0.5f, 1.0f / 256);
-    // Three texels a pixel, log2(3) = 1.585: the nearer level is 2 (grey); between the two lies 0.585 of it.
-    // At pixel 1, u = 4.5 / 16, level 1 has texel 2 (0) at its nearest.
+    // Three texels a pixel, log2(3) = 1.585: the nearest level is 2 (grey), and the blend has 0.585 of it.
+    // At pixel 1, u = 4.5 / 16, level 1's nearest texel is 2 (0).
     EXPECT_NEAR(at({r, r, true, false, true, false}, 0.75, 4, 1), grey2, 1.0f / 256);
-    // Drivers approximate the logarithm; linear in the mantissa it is off by up to 0.086.
+    // Drivers approximate the logarithm; if linear in the mantissa it is off by up to 0.086.
     EXPECT_NEAR(at({r, r, true, false, true, true}, 0.75, 4, 1), 0.585f * grey2, 0.086f * grey2 + 0.004f);
 }
 
-// Coordinates far beyond any texture still give numbers, the same in both paths.
+// Coordinates far outside the texture still give finite values, the same in both paths.
 TEST(Textures, EndlessCoordinatesGiveNumbers) {
     constexpr float most = std::numeric_limits<float>::max();
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})

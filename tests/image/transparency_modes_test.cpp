@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ways to put blended fragments together, against the exact order in double.
+// The transparency modes, compared with exact sorting in double.
 #include "shared/scene/builtin/builder.h"
 #include "tests/image/changed_view.h"
 
@@ -29,9 +29,9 @@ Settings pictureOf(Transparency transparency, Path path = Path::forward_plus) {
 
 void nothing(PreparedView&) {}
 
-// Stacks of layers, one in each cell of a grid that a camera without perspective sees: of random colours, at
-// random depths in slabs that do not overlap. Columns are drawn in groups, each in a random order of its own.
-// What is behind them emits at random, too.
+// Stacks of layers, one per cell of a grid, seen by an orthographic camera: random colours at random
+// depths in disjoint slabs. Columns are drawn in groups, each in its own random order. The background
+// emits randomly, too.
 struct Stacks {
     static constexpr int columns = 32, rows = 18, groups = 8;
     struct Layer {
@@ -121,7 +121,7 @@ Stacks stacks(int layers, float opacity, unsigned seed) {
     return made;
 }
 
-// The table of shared/transparent/MEASURED.md, printed as it stands there.
+// The table of shared/transparent/MEASURED.md, printed in its format.
 TEST(TransparencyModes, ErrorsAreThoseOfTheTable) {
     std::map<std::tuple<Transparency, int, float>, double> errors;
     constexpr float opacities[] = {0.1f, 0.2f, 0.5f, 0.9f, 1.0f, 0.0f};
@@ -149,8 +149,8 @@ TEST(TransparencyModes, ErrorsAreThoseOfTheTable) {
             EXPECT_LT(of(Transparency::sorted), 1e-6) << where;
             EXPECT_LT(of(Transparency::triangles), 1e-6) << where;
             if (layers == 1) {
-                // The mean of one layer is that layer; exp and log of float32 stand in between, and moments
-                // let e^-10 through what is opaque.
+                // The mean of one layer is that layer, up to float32's exp and log. Moments transmit e^-10
+                // through opaque layers.
                 EXPECT_LT(of(Transparency::weighted), 1e-6) << where;
                 EXPECT_LT(of(Transparency::moments), opacity == 1 ? 5e-5 : 1e-6) << where;
             } else if (opacity != 0.1f && opacity != 0.2f) {
@@ -158,7 +158,7 @@ TEST(TransparencyModes, ErrorsAreThoseOfTheTable) {
                 EXPECT_LT(of(Transparency::moments), 0.75 * of(Transparency::weighted)) << where;
             }
         }
-    // The figures of the field at 4 layers of random opacity: 0.178, 0.083, 0.033.
+    // Published errors at 4 layers of random opacity: 0.178, 0.083, 0.033.
     EXPECT_NEAR((errors[{Transparency::unsorted, 4, 0.0f}]), 0.178, 0.02);
     EXPECT_LT((errors[{Transparency::weighted, 4, 0.0f}]), 0.083);
     EXPECT_LT((errors[{Transparency::moments, 4, 0.0f}]), 0.040);
@@ -168,7 +168,7 @@ struct Fragment {
     std::uint64_t key;
     glm::vec4 value;  // radiance times opacity, opacity
 };
-// Of each pixel the fragments that its list holds, from near to far.
+// The fragments in each pixel's list, near to far.
 std::vector<std::vector<Fragment>> listed(const FragmentLists& lists, std::size_t pixels) {
     const FragmentLists::Contents contents = lists.contents();
     std::vector<std::vector<Fragment>> all(pixels);
@@ -222,7 +222,7 @@ TEST(TransparencyModes, ListIsTheExactBlendingOfItsFragments) {
     }
 }
 
-// With room for 3, those are the nearest 3 of all; the rest is counted, and is blended as one layer.
+// With a capacity of 3, lists keep the nearest 3; the rest is counted and blended as one layer.
 TEST(TransparencyModes, AListWithoutRoomKeepsTheNearest) {
     const Stacks scene = stacks(9, 0.0f, 5);
     Settings settings = Stacks::settings(Transparency::list, 16);
@@ -268,8 +268,8 @@ TEST(TransparencyModes, AListWithoutRoomKeepsTheNearest) {
     EXPECT_LT(worst, 2e-6);
 }
 
-// Lists that no buffer holds for the whole picture are made a part of its rows at a time; what found no room
-// in any part is counted.
+// If no buffer holds the lists of the whole image, they are built for some rows at a time; overflow is
+// counted in every part.
 TEST(TransparencyModes, WhatFindsNoRoomIsCountedInEveryPart) {
     constexpr int listed_layers = 256, blended_layers = listed_layers + 3;
     Builder b;
@@ -280,7 +280,7 @@ TEST(TransparencyModes, WhatFindsNoRoomIsCountedInEveryPart) {
     b.scene.materials.back().unlit = true;
     b.scene.materials.back().alpha_mode = AlphaMode::blend;
     b.scene.materials.back().base_color.a = 0.5f;
-    // A few pixels at the top of the picture and a few at its bottom.
+    // A few pixels at the top of the image and a few at the bottom.
     for (int layer = 0; layer < blended_layers; ++layer)
         for (const double y : {-0.95, 0.9})
             b.add("layer", quad({0, y, layer * 1e-3}, {0.05, 0, 0}, {0, 0.05, 0}), blended, glm::dvec3(0.0));
@@ -339,7 +339,7 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
     }
 }
 
-// The negative control: shuffled draws do make another picture where their order counts.
+// The negative control: shuffled draws give another image where their order matters.
 TEST(TransparencyModes, TheOrderOfDrawsChangesUnsorted) {
     const Scene scene = stacks(6, 0.5f, 3).scene;
     const Image first = litWith(scene, pictureOf(Transparency::unsorted), nothing),
@@ -350,7 +350,8 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesUnsorted) {
     EXPECT_GT(differingPixels(first, turned), first.pixels() / 2);
 }
 
-// What lies behind a layer of opacity 1: list and sorted show nothing of it, the others say how much.
+// Light from behind a layer of opacity 1: list and sorted show none of it; for the others the leak is
+// measured.
 TEST(TransparencyModes, WhatAnOpaqueLayerHides) {
     Stacks scene = stacks(5, 0.5f, 11);
     // The third of five hides two others.
@@ -397,7 +398,7 @@ TEST(TransparencyModes, BothPathsAreEqualBitForBit) {
         }
 }
 
-// Radiance beyond what a half holds, and next to nothing; opacities of 0 and 1; 32 layers at one depth.
+// Radiance beyond the range of half floats, and nearly zero; opacities of 0 and 1; 32 layers at one depth.
 TEST(TransparencyModes, ExtremesStayNumbers) {
     for (const float radiance : {1e-20f, 1.0f, 1e6f, 1e15f}) {
         Builder b;
@@ -413,14 +414,14 @@ TEST(TransparencyModes, ExtremesStayNumbers) {
         for (const Transparency mode : allModes) {
             const Image made = litWith(b.scene, pictureOf(mode), nothing);
             EXPECT_EQ(nonfinitePixels(made), 0u) << nameOf(mode) << " " << radiance;
-            // All layers send the same: whatever the order, that is what is seen.
+            // All layers emit the same radiance, so every order gives that.
             EXPECT_NEAR(double{made.at(48, 27, 0)} / double{radiance}, 1, 1e-4)
                 << nameOf(mode) << " " << radiance;
         }
     }
 }
 
-// Whose weights would all be nothing in float32, and whose optical depths would be beyond it.
+// All weights underflow float32, and the optical depths overflow it.
 TEST(TransparencyModes, ManyOpaqueLayersAtOneDepthAreSeen) {
     Builder b;
     b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
@@ -433,7 +434,7 @@ TEST(TransparencyModes, ManyOpaqueLayersAtOneDepthAreSeen) {
         EXPECT_NEAR(litWith(b.scene, pictureOf(mode), nothing).at(48, 27, 0), 0.5f, 1e-5f) << nameOf(mode);
 }
 
-// A picture that needs more than a device binds in one buffer is made in parts.
+// An image that needs more than the largest bindable buffer is rendered in parts.
 TEST(TransparencyModes, PartsOfAPictureJoin) {
     const Scene scene = loadScene("builtin:crossed");
     Settings settings = pictureOf(Transparency::list);
@@ -446,7 +447,7 @@ TEST(TransparencyModes, PartsOfAPictureJoin) {
     EXPECT_EQ(differingPixels(whole, parts), 0u);
 }
 
-// Whatever is drawn in batches elsewhere cannot be where something is blended: an error says so.
+// Light lists that would need several draws are an error where something is blended.
 TEST(TransparencyModes, ListsThatOneDrawDoesNotWalkAreAnError) {
     Settings settings = pictureOf(Transparency::sorted);
     settings.assign = Assignment::every;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Blended surfaces over either path's opaque picture: against closed forms, the reference and each other.
+// Blended surfaces over either path's opaque image: compared with closed forms, the reference and each
+// other.
 #include "compare/verdict/pair_reports.h"
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"
@@ -20,8 +21,8 @@ Settings blendedPicture() {
     return settings;
 }
 
-// Squares that emit `colors` alone, each nearer to the camera than the one before; the first is opaque. All
-// cover the picture.
+// Unlit squares with radiance `colors`, each nearer to the camera than the one before; the first is
+// opaque. All fill the image.
 Scene layers(const std::vector<glm::vec4>& colors) {
     Builder b;
     b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
@@ -117,7 +118,7 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
     }
 }
 
-// The G-buffer's channels are of what is opaque.
+// The G-buffer's channels show the opaque surfaces.
 TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
     Scene scene = loadScene("builtin:glass"), opaque = scene;
     for (Mesh& mesh : opaque.meshes)
@@ -139,12 +140,12 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
         EXPECT_GT(most(lit), 0.1) << nameOf(path);
         EXPECT_EQ(most(channels[1]), 0) << nameOf(path);
         EXPECT_EQ(most(channels[2]), 0) << nameOf(path);
-        // What blends is unlit in part, for which F0 is read, not a constant.
+        // F0 is then read, not a constant: some blended materials are unlit.
         EXPECT_LT(most(channels[3]), 1e-6) << nameOf(path);
     }
 }
 
-// Whatever is asked for: no pass, no memory and no constant of blending where nothing blends.
+// For every mode: no pass, no memory and no constant of blending without blended surfaces.
 TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
     RenderOptions options;
     options.channels = {lit};
@@ -182,7 +183,7 @@ TEST(Transparent, WithoutBlendingThereIsNoPass) {
     }
 }
 
-// What fails of both paths against the reference.
+// Failures of both paths against the reference.
 std::vector<std::string> failures(const Scene& scene, Renderer& renderer, const Settings& settings) {
     Settings truth = settings;
     truth.path = Path::reference;
@@ -226,8 +227,8 @@ TEST(Transparent, AnotherOrderFails) {
     for (const std::string& each : failed) EXPECT_EQ(each.substr(0, 4), "lit:");
 }
 
-// Two rows of panes, each one draw, one row's panes between the other's: their centres do not say which is in
-// front. In both the nearer panes come first.
+// Two rows of panes, one draw each, interleaved in depth: their centres do not give the order. In both the
+// nearer panes come first.
 Scene interleavedRows() {
     Builder b;
     b.camera("front", {0.6, 0.9, 6}, {0, 0, 0}, 30, 0.1, 100);
@@ -270,7 +271,7 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
     EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
     const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
     EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
-    // One order more of the same draws: their lists of lights stay theirs.
+    // Another order of the same draws: their light lists stay the same.
     Settings every = settings, object = settings;
     every.assign = Assignment::every;
     object.assign = Assignment::per_object;
@@ -284,19 +285,19 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
               0u);
 }
 
-// Balls seen from outside and from inside, 32 layers in a row, one draw's backs before its fronts.
+// Balls seen from outside and inside, 32 layers in a row, a draw's back faces before its front faces.
 TEST(Transparent, TrianglesAreRightWhereDrawsAre) {
     Settings settings = blendedPicture();
     settings.transparency = Transparency::triangles;
     EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{});
     settings.camera = "inside";
     EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "from inside of a ball";
-    // Panes through each other.
+    // Intersecting panes.
     settings.camera = Settings().camera;
     EXPECT_EQ(failures("builtin:crossed", settings).size(), 2u);
 }
 
-// A pane before a wall that emits (1, 2, 3), with nothing else that lights what the camera sees.
+// A pane before a wall that emits (1, 2, 3), without other light towards the camera.
 Scene paneOf(const glm::vec3& color, float transmission, float metallic = 0) {
     Builder b;
     b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
@@ -309,8 +310,8 @@ Scene paneOf(const glm::vec3& color, float transmission, float metallic = 0) {
     return std::move(b.scene);
 }
 
-// From in front the layer reflects 0.04; of the rest what the base neither scatters nor absorbs passes, with
-// the luminance of its colour, and a metal absorbs all. Nothing lights the pane.
+// From the front the layer reflects 0.04. The base transmits what it neither scatters nor absorbs, times
+// the luminance of its colour; a metal absorbs all. No light reaches the pane's front.
 TEST(Transmission, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
     struct Case {
         glm::vec3 color;
@@ -322,7 +323,7 @@ TEST(Transmission, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
                           {{0.5f, 0.25f, 1}, 1, 0, 0.96 * (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722)},
                           {{1, 1, 1}, 1, 0.5f, 0.48},
                           {{1, 1, 1}, 1, 1, 0},
-                          {{3, 3, 3}, 1, 0, 1}};  // no file has it; nothing is amplified
+                          {{3, 3, 3}, 1, 0, 1}};  // impossible in a file; nothing is amplified
     for (const Case& c : cases)
         for (const Path path : rasterPaths) {
             const glm::dvec3 made =
@@ -332,7 +333,8 @@ TEST(Transmission, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
         }
 }
 
-// Panes one behind the other: whole, half covering, cut out, rough, half metal; lit, before floor and sky.
+// Panes one behind the other: whole, partly covering, masked, rough, half metal; lit, before floor and
+// sky.
 Scene panes() {
     Builder b;
     b.camera("front", {0.6, 1.2, 5}, {0, 0.6, 0}, 40, 0.1, 100);
@@ -369,7 +371,7 @@ TEST(Transmission, IsTheReferences) {
     settings.haze = true;
     settings.haze_density = 2000;
     EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{}) << "in haze";
-    settings.shadows = Shadows::pcf;  // panes throw none
+    settings.shadows = Shadows::pcf;  // panes cast none
     settings.reference_mode = ReferenceMode::scene;
     EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{}) << "with shadows";
 }
@@ -387,8 +389,8 @@ TEST(Transmission, BothPathsAreEqualBitForBit) {
     }
 }
 
-// One pane at a time: no order is asked for, and every mode must leave what passes it and what it reflects as
-// they are. Sums round to float32 a few times more.
+// One pane at a time: order is irrelevant, and every mode must keep its transmission and reflection. Sums
+// round to float32 a few more times.
 TEST(Transmission, OnePaneIsTheSameInEveryMode) {
     for (const float metallic : {0.0f, 0.5f}) {
         Scene scene = paneOf({0.5f, 0.8f, 1}, 0.9f, metallic);
@@ -408,7 +410,7 @@ TEST(Transmission, OnePaneIsTheSameInEveryMode) {
     }
 }
 
-// Lists are in the reference's order whatever is masked or covers in part.
+// Lists match the reference's order, also with masked or partly covering panes.
 TEST(Transmission, ListsAreTheReferences) {
     const Scene scene = panes();
     Renderer renderer(device(), scene, pipelines());
@@ -417,8 +419,8 @@ TEST(Transmission, ListsAreTheReferences) {
     EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
 }
 
-// Every material without holes is of this mode, with this opacity everywhere: alpha of textures and vertices
-// is 1.
+// Sets the alpha mode and opacity of every material without a mask; alpha of textures and vertices becomes
+// 1.
 Scene allOf(AlphaMode mode, float opacity, Scene scene) {
     for (Material& material : scene.materials) {
         if (material.alpha_mode == AlphaMode::mask) continue;
@@ -439,9 +441,9 @@ Scene allOf(AlphaMode mode, float opacity, Scene scene) {
 
 class BlendedScene : public testing::TestWithParam<std::string> {};
 
-// Textures and their transforms, both UV sets, vertex colours, lightmaps, emission, what is unlit, every kind
-// of light: blended with an opacity of 1 a surface is what it is opaque, bit for bit. What is blended casts
-// no shadow.
+// Textures and their transforms, both UV sets, vertex colours, lightmaps, emission, unlit materials, every
+// type of light. Blended with opacity 1, a surface equals its opaque version within 2e-7. Blended surfaces
+// cast no shadow.
 TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     const Scene scene = loadScene(GetParam());
     Settings settings = blendedPicture();
@@ -463,7 +465,7 @@ TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     }
 }
 
-// Half as opaque, all of them in each other's way: alike in both paths, and a number everywhere.
+// Opacity 1/2 with all surfaces overlapping: equal in both paths, and finite everywhere.
 TEST(Transparent, WhereEverythingBlendsBothPathsAreAlikeInEveryMode) {
     for (const char* each : {"builtin:vertex_colors", "builtin:lightmaps"}) {
         const Scene scene = allOf(AlphaMode::blend, 0.5f, loadScene(each));
@@ -486,8 +488,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, BlendedScene,
                                          "builtin:areas", "builtin:deep"),
                          [](const auto& scene) { return testName(scene.param.substr(8)); });
 
-// What is blended is dimmed by the air before it, not by that before what it is in front of: level rays, no
-// sun and no other light in the air, so that e^(-extinction distance) of each surface is all there is.
+// A blended surface is attenuated by the air in front of it, not by that up to the surface behind. Level
+// rays without sun or other light in the air: e^(-extinction distance) of each surface is the whole
+// effect.
 TEST(Transparent, HazeIsThatOfItsOwnDepth) {
     constexpr double near = 100, far = 400;
     Builder b;
@@ -506,7 +509,7 @@ TEST(Transparent, HazeIsThatOfItsOwnDepth) {
     for (const int steps : {0, 32})
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
             Settings settings = blendedPicture();
-            settings.size = {97, 55};  // of which the middle pixel looks straight ahead
+            settings.size = {97, 55};  // its middle pixel looks straight ahead
             settings.transparency = transparency;
             settings.haze = true;
             settings.haze_density = 100;
@@ -518,7 +521,7 @@ TEST(Transparent, HazeIsThatOfItsOwnDepth) {
             const glm::dvec3 expected = transparency == Transparency::off ? seen : 0.5 * hazed + 0.5 * seen;
             for (const Path path : rasterPaths) {
                 const glm::dvec3 made = pixelOf(picture(path, scene, settings), 48, 27);
-                // A march adds up the optical depths of two kinds of air, in float32.
+                // Ray marching sums the optical depths of two media in float32.
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(made[c], expected[c], steps > 0 ? 1e-5 : 2e-6)
                         << name << " " << nameOf(path) << " " << steps;
@@ -526,8 +529,7 @@ TEST(Transparent, HazeIsThatOfItsOwnDepth) {
         }
 }
 
-// The near plane cuts a pane that leans towards the camera: what is nearer is not there, and the sky is seen
-// through the rest.
+// The near plane clips a pane that leans towards the camera: the sky is visible where it is clipped.
 TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
     for (const Transparency transparency :
          {Transparency::sorted, Transparency::list, Transparency::moments}) {
@@ -538,7 +540,7 @@ TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
         b.scene.materials.back().alpha_mode = AlphaMode::blend;
         b.scene.materials.back().base_color.a = 0.5f;
         b.scene.materials.back().double_sided = true;
-        // From 4 m before the camera, below the horizon, to behind it.
+        // From 4 m in front of the camera, below the horizon, to behind it.
         b.add("pane", quad({-20, -2, -4}, {40, 0, 0}, {0, 3, 4.5}), material, glm::dvec3(0.0));
         b.scene.environment = {"sky", Image(8, 4, 3, 2.0f)};
         Settings settings = blendedPicture();
@@ -546,7 +548,7 @@ TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
         for (const Path path : rasterPaths) {
             const Frame frame = picture(path, b.scene, settings);
             EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
-            // 1 m before the camera it is at the horizon's height, -2 + 3 (3 / 4.5) = 0.
+            // 1 m in front of the camera it is at the horizon's height, -2 + 3 (3 / 4.5) = 0.
             const glm::dvec3 below = pixelOf(frame, 48, 40), above = pixelOf(frame, 48, 2);
             EXPECT_NEAR(below.x, 0.5 * 0.25 + 0.5 * 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);
             EXPECT_NEAR(above.x, 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);

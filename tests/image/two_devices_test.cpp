@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both paths on one device twice, and on a second one where something is wrong: its textures, their curve,
-// its lights, its geometry. Each fault is named by what it is in.
+// Both paths on a device and on a second one with a fault in its textures, their curve, its lights or its
+// geometry. Each fault is attributed to its cause.
 #include "compare/explain/two_devices.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
@@ -43,7 +43,7 @@ std::vector<Frame> drawn(Renderer& renderer) {
     return frames;
 }
 
-// The device that is right.
+// The correct device.
 struct Right {
     UploadedScene& uploaded = tests::uploaded(name);
     SceneViews views{uploaded.scene};
@@ -55,7 +55,7 @@ Right& right() {
     return instance;
 }
 
-// The same device as another one, of whose scene or Frames something is changed.
+// The same device in place of a second one, with a modified scene or Frames.
 Report against(const std::function<void(Scene&)>& plant, const std::function<void(Frame&)>& after = {}) {
     Right& here = right();
     Scene scene = here.uploaded.scene;
@@ -77,7 +77,7 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
                             std::move(across));
 }
 
-// The failures of each path on both devices: deferred, forward+.
+// The failures of each path across both devices: deferred, forward+.
 std::array<std::string, 2> faults(const Report& report) {
     std::array<std::string, 2> text;
     for (const std::size_t path : {0, 1}) {
@@ -121,7 +121,7 @@ TEST(TwoDevices, TexelsThatAreOneCodeOffAreFound) {
 
 TEST(TwoDevices, AWrongCurveIsFound) {
     const Report report = against([](Scene& scene) {
-        // A code that a display's power of 2.2 decodes, as a code of sRGB's curve.
+        // Codes decoded with a power of 2.2, re-encoded as sRGB.
         eachBaseColorTexel(scene, [](int c) {
             const double linear = std::pow(c / 255.0, 2.2);
             return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
@@ -167,7 +167,7 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
         words += fmt::format("{}: {:.3g}; ", share.name, share.share);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
-    // Vertices are granted first what a sub-pixel step may change.
+    // Vertex snapping is first attributed the change that a sub-pixel step may cause.
     EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << words;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_unlit: a pixel shows the base colour, factor x texture x COLOR_0, whatever the lights and
-// other parameters are.
+// KHR_materials_unlit: a pixel shows the base colour, factor x texture x COLOR_0, for any lights and other
+// parameters.
 #include "tests/image/square.h"
 
 namespace diptych::tests {
 namespace {
 
-// The square, unlit, with extreme values for everything that an unlit material ignores, under a sun and a
-// lamp.
+// The square, unlit, lit by a sun and a lamp, with extreme values for everything that an unlit material
+// ignores.
 Scene unlitSquare() {
     Scene scene = square();
     Material& m = scene.materials[0];
@@ -55,7 +55,7 @@ TEST(Unlit, TheSameMaterialLitIsAnother) {
         EXPECT_NE(colorAt(frame, lit, 0, 1), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
 }
 
-// The green texel (0, 1, 0) and the grey one, through factors and COLOR_0 (1, 0.5, 0.25).
+// The green texel (0, 1, 0) and the grey one, times factor and COLOR_0 (1, 0.5, 0.25).
 TEST(Unlit, TextureAndVertexColourMultiply) {
     Scene scene = unlitSquare();
     scene.materials[0].base_color_texture.texture = 0;
@@ -81,7 +81,7 @@ TEST(Unlit, MaskCutsByFactorTextureAndVertexAlpha) {
     }
 }
 
-// The back is visible only if the material is double-sided.
+// The back face is visible only if the material is double-sided.
 TEST(Unlit, DoubleSidednessCounts) {
     Scene scene = unlitSquare();
     scene.nodes[0].parent_from_node = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1);
@@ -91,7 +91,8 @@ TEST(Unlit, DoubleSidednessCounts) {
         EXPECT_EQ(colorAt(frame, lit, 0, 0), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
 }
 
-// A black unlit surface emits nothing and must also reflect nothing, although it has a specular attachment.
+// A black unlit surface emits nothing and must also reflect nothing, although it has a specular
+// attachment.
 TEST(Unlit, BlackStaysBlackUnderAnyLight) {
     Scene scene = unlitSquare();
     scene.materials[0].base_color = {0, 0, 0, 1};
@@ -104,7 +105,7 @@ TEST(Unlit, BlackStaysBlackUnderAnyLight) {
     }
 }
 
-// In the packed encodings the colour is nine bits of 9.9.9.e5: 0.5, 0.25 and 0.125 are exact.
+// Packed encodings store the colour in the nine bits of 9.9.9.e5: 0.5, 0.25 and 0.125 are exact.
 TEST(Unlit, PackedEncodingsKeepThePowersOfTwo) {
     for (const GBufferEncoding encoding : {GBufferEncoding::compact, GBufferEncoding::standard}) {
         Settings settings = smallPicture(encoding);

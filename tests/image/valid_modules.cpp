@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every module that a test's pipelines are made of is valid by SPIRV-Tools, also where no validation layer is
-// on: the linker sends calls of vkCreateShaderModule here.
+// Validates every shader module of the tests' pipelines with SPIRV-Tools, even without validation layers:
+// the linker redirects vkCreateShaderModule here.
 #include <gtest/gtest.h>
 #include <vulkan/vulkan_core.h>
 #include <spirv-tools/libspirv.hpp>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The Khronos validation layers, including synchronization validation, report nothing while any test of this
-// program runs.
+// The Khronos validation layers, including synchronization validation, report nothing while any test of
+// this program runs.
 #include "tests/image/scenes.h"
 
 namespace diptych::tests {
 namespace {
 
-// The tests of this program draw on device(), which is validated but for suites that draw again what others
-// have: parity tests draw every built-in scene in all encodings with and without a pre-pass, and tests of
-// light lists in all assignments. A test fails that the layers said something during.
+// Fails a test during which the layers reported something. Tests render on device(), with validation
+// except in suites that repeat others' work. For those, parity tests render every built-in scene in all
+// encodings with and without a pre-pass, and light list tests use all assignments.
 class NoMessages : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         const std::uint64_t now = device().validationMessages();

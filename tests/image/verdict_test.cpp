@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verdict that users see: every built-in scene passes at the tolerances derived from its encoding, and
-// changing one constant in what one path draws fails the channel that shows it.
+// The verdict that users see: every built-in scene passes at the tolerances of its encoding. Changing one
+// constant in one path's scene fails the channel that shows it.
 #include "compare/verdict/pair_reports.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), 
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
-// A scene that is added to the folder must be drawn, too. The one that is excluded here requires an
-// extension that no longer exists; its error is tested with the loader.
+// A scene added to the folder must be rendered, too. The excluded one requires an extension that no longer
+// exists; the loader's test checks its error.
 TEST(AssetScenes, AreAllThatThereAre) {
     if (!std::filesystem::exists(assets())) GTEST_SKIP() << "NO ASSETS at " << assets();
     std::set<std::string> found, listed(assetScenes().begin(), assetScenes().end());
@@ -73,14 +73,14 @@ TEST(AssetScenes, AreAllThatThereAre) {
     EXPECT_EQ(found, listed);
 }
 
-// One changed constant for the tolerance of each channel.
+// A changed constant for each channel's tolerance.
 struct NegativeControl {
     const char* channel;
     void (*change)(Scene&);
     Rgb ambient = {};
     const char* scene = "builtin:gallery";
-    int shadows = -1;  // that many points and spots cast, and the sun; below 0 nothing does
-    float haze = 0;    // its density; 0: none
+    int shadows = -1;  // number of casting point and spot lights, besides the sun; below 0: none cast
+    float haze = 0;    // density; 0: none
 };
 
 void PrintTo(const NegativeControl& control, std::ostream* out) {
@@ -204,7 +204,7 @@ const NegativeControl negativeControls[] = {
      {},
      "builtin:glass",
      -1,
-     5},  // in thicker air nothing of the sun arrives
+     5},  // no sunlight passes through thicker air
     {"transmittance", nudge, {}, "builtin:suns", -1, 1000},
     {"lit_environment",
      [](Scene& s) {
@@ -215,7 +215,7 @@ const NegativeControl negativeControls[] = {
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),
                          [](const auto& control) { return std::string(control.param.channel); });
 
-// Every channel that both paths make has a negative control here.
+// Every channel that both paths support has a negative control here.
 TEST(VerdictNegativeControls, CoverEverySharedChannel) {
     for (const DebugMode& mode : debugModes()) {
         const bool controlled =

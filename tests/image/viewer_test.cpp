@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window's drawing thread hands out is what the other commands draw, and it outlives what goes
-// wrong.
+// The window's drawing thread produces the same results as the other commands, and it survives errors.
 #include "compare/explain/pixel_words.h"
 #include "compare/picture/picture.h"
 #include "compare/render/frame_facts.h"
@@ -37,7 +36,7 @@ Order orderOf(const std::string& scene, int width = 64, int height = 36) {
     return order;
 }
 
-// Waits for it; the limit is only exceeded by a thread that hangs.
+// Waits for it; only a thread that hangs exceeds the limit.
 template <class Condition>
 bool soon(const Condition& condition) {
     for (const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -46,7 +45,7 @@ bool soon(const Condition& condition) {
     return false;
 }
 
-// Asks, and waits until all that was asked for is there.
+// Sends a request and waits for its complete result.
 bool isDrawn(DrawingThread& drawing, const Order& order) {
     const std::uint64_t number = drawing.ask(order);
     return soon([&] {
@@ -85,14 +84,14 @@ TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
         EXPECT_FALSE(shown->paths.at(i).passes.empty());
         EXPECT_GT(shown->paths.at(i).ms, 0);
     }
-    // The verdict is there too, on every channel, and says that both agree.
+    // There is also a verdict on every channel: both paths agree.
     const auto judged = drawing.judged();
     ASSERT_TRUE(judged);
     EXPECT_TRUE(judged->report.passed());
-    // But shaded_samples, which needs several samples a pixel.
+    // Without shaded_samples, which needs MSAA.
     EXPECT_EQ(judged->report.comparisons.at(0).channels.size(), debugModes().size() - 1);
     EXPECT_FALSE(shown->plan.empty());
-    // What a drag orbits is known with the picture: by its depth, where the channel of positions has it.
+    // The drag pivot is known with the image: from depth, equal to the position channel.
     const Image& position = judged->report.frames.at(0).channels.at(static_cast<int>(gpu::DEBUG_position));
     std::size_t seen = 0;
     for (int y = 0; y < position.height; y += 3)
@@ -122,7 +121,7 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
     Device device({});
     const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {lit});
     EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(lit).data);
-    // Both paths are judged against it, and against each other.
+    // Both paths are compared with it and with each other.
     ASSERT_TRUE(soon([&] { return drawing.judged() && drawing.judged()->report.comparisons.size() == 3; }));
     EXPECT_TRUE(drawing.judged()->report.passed());
 }
@@ -160,7 +159,7 @@ TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {
         drawing.ask(order);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    // Orders that come faster than pictures do not starve them.
+    // Requests faster than images do not starve them.
     ASSERT_TRUE(soon([&] { return drawing.shown() != nullptr; }));
     order.moving = false;
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
@@ -184,8 +183,8 @@ TEST(DrawingThread, ASceneThatCannotBeReadLeavesTheOldOne) {
     EXPECT_TRUE(drawing.status().error.empty()) << drawing.status().error;
 }
 
-// A device that is lost is made anew, and the picture drawn after all; one that is lost again and again is
-// given up, and the next order tries anew.
+// A lost device is recreated and the image rendered after all. If it is lost repeatedly, the request is
+// given up; the next request tries again.
 TEST(DrawingThread, ALostDeviceIsMadeAnew) {
     std::atomic<int> losses{1};
     DrawingOptions options = validated();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switch of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is whether the environment variable
-// DIPTYCH_MUTANT is 7. In shaders a specialization constant says so, which whoever makes a module of Vulkan
-// sets.
+// Selects one of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment
+// variable DIPTYCH_MUTANT is 7. Shaders use a specialization constant, which is set when a Vulkan module
+// is created.
 #ifndef DIPTYCH_TESTS_MUTANT_H
 #define DIPTYCH_TESTS_MUTANT_H
 #ifndef __cplusplus
@@ -23,7 +23,7 @@ inline std::uint32_t diptychChosen() {
     static const auto chosen = static_cast<std::uint32_t>(number ? std::atoi(number) : 0);
     return chosen;
 }
-// Sets an edit's byte in the file DIPTYCH_REACHED, which has it also where the process is killed.
+// Marks an edit as reached in the file DIPTYCH_REACHED, which keeps it even if the process is killed.
 inline void diptychReach(std::uint32_t n) {
     static auto* const bytes = [] {
         const char* const file = std::getenv("DIPTYCH_REACHED");
@@ -40,7 +40,7 @@ inline bool diptychMutant(std::uint32_t n) {
 }
 #define DIPTYCH_MUTANT(n) ::diptychMutant(n)
 
-// The module with the switch as an ordinary constant. All edits that it has are within reach.
+// Replaces the switch by an ordinary constant. Marks all edits of the module as reached.
 inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {
     std::vector<std::uint32_t> words;
     std::map<std::uint32_t, std::uint32_t> constants;

@@ -37,10 +37,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("compare", "deferred", "forward_plus", "shaders/lib", "shaders/pass", "shared")
 GLSL = (".glsl", ".vert", ".frag", ".comp")
 KINDS = ("unit", "probe", "image", "tool")
-SPARE = 1.4  # drawn for one that is wanted: some do not compile
-M = "\0"     # the switch, in Edit.switched
+SPARE = 1.4  # candidates drawn per wanted edit: some do not compile
+M = "\0"  # the switch, in Edit.switched
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
-# Where Vulkan or what cuts modules down is given one, and what sets the switch there.
+# Calls that pass a module to Vulkan or strip it, and their replacements that set the switch.
 SETTERS = (("vkCreateShaderModule(", "diptychCreateShaderModule("),
            ("Specializer(module, value, outputs)", "Specializer(diptychModule(module), value, outputs)"))
 
@@ -55,7 +55,7 @@ TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|\#(?:\\\n|[^\n])*|\s+)
   |(?P<number>\.?\d(?:[eE][+-]|['\w.])*)|(?P<name>[A-Za-z_]\w*)
   |(?P<op><=>|<<=|>>=|\.\.\.|->|::|\+\+|--|&&|\|\||\^\^|[-+*/%&|^<>=!]=|<<|>>|.)""", re.X | re.S)
 ASSIGN = {op + "=" for op in ("", *"+-*/%&|^", "<<", ">>")}
-# Binary operators, by how little they bind; what ends a name's own expression.
+# Binary operators, from weakest to strongest binding; they end an operand's expression.
 LEVELS = [{"||", "^^"}, {"&&"}, {"&", "|", "^"}, {"==", "!="}, {"<", "<=", ">", ">="}, {"<<", ">>"}, {"+", "-"}, {"*", "/", "%"}]
 BINARY = set().union(*LEVELS)
 CHAIN = ASSIGN | BINARY
@@ -69,12 +69,13 @@ TURNED = {"<": "> <=", "<=": "< >=", ">": "< >=", ">=": "> <=", "==": "!=", "!="
 NAMES = dict(pair.split("/") for pair in """min/max fmin/fmax floor/ceil sin/cos any/all any_of/all_of front/back true/false
     lower_bound/upper_bound min_element/max_element lessThan/lessThanEqual greaterThan/greaterThanEqual""".split())
 NAMES.update({other: name for name, other in NAMES.items()})
-ALIKE = re.compile(r"[iu]?vec\d|mix|pow|atan|clamp|(smooth)?step|(cross|reflect)\w*")  # in GLSL others seldom take arguments of one type
+# GLSL functions whose arguments may be swapped: others seldom take arguments of one type.
+ALIKE = re.compile(r"[iu]?vec\d|mix|pow|atan|clamp|(smooth)?step|(cross|reflect)\w*")
 NEXT = str.maketrans("xyzwrgba", "yxyzgrgb")  # components
 
 
 class Source:
-    """A file's tokens: text, kind and span; which brackets match, what they are inside; `dead`: what no edit touches."""
+    """A file's tokens: text, kind, span, matching and enclosing brackets. `dead`: tokens that no edit may touch."""
 
     def __init__(self, path, text, enums):
         self.path, self.text, self.enums, self.glsl = path, text, enums, path.endswith(GLSL)
@@ -123,13 +124,13 @@ class Source:
         return self.at[i] == "{" and (not self.space(i) or self.at[i - 1] in ("=", "return", ",", "("))
 
     def ends(self, i, stops):
-        """clang-format sets binary operators between spaces; of templates and pointers none has both."""
+        """Whether an expression ends here. clang-format puts spaces on both sides of binary operators only."""
         t = self.at[i]
         return t in (",", ";", "?", ":", "(", "[", "{", "}", ")", "]", "") or t in WORDS or (
             t in stops and i not in self.dead and (t not in BINARY or self.space(i) and self.text[self.spans[i][1]].isspace()))
 
     def region(self, i, stops):
-        """The first and last token of the expression around token i that operators of `stops` end; None: it has a body."""
+        """First and last token of the expression around token i, ended by operators of `stops`; None if it has a body."""
         first = last = i
         while first > 0:
             t, before = self.at[first - 1], self.match.get(first - 1, 0)
@@ -154,11 +155,11 @@ class Source:
 
     @functools.cache
     def head(self, brace):
-        """What stands before a brace."""
+        """The tokens of the statement before a brace."""
         return self.at[self.statement(brace):brace]
 
     def body(self, i):
-        """What stands before the body of the function that token i is in; None: it is in none, or in a lambda's."""
+        """The head of the function whose body has token i; None outside functions and in lambdas."""
         brace = self.inside[i]
         while brace >= 0:
             words = self.head(brace)
@@ -175,10 +176,10 @@ class Source:
                    for k in range(first, last))
 
 
-# --- operators: (name, first position, end, what stands there then, how that is switched where it is no choice) ---
+# --- operators: (name, first position, end, replacement, how it is switched if it is no expression) ---
 
 def number(text, rng):
-    """Off by one, or by 1 %."""
+    """The number off by one, or by 1 %."""
     if whole := re.fullmatch(r"(0x[\da-f]+|\d+)([ulz]*)", text.replace("'", ""), re.I):
         value = int(whole[1], 16 if "x" in whole[1].lower() else 10)
         return f"{value + (rng.choice((1, -1)) if value else 1)}{whole[2]}"
@@ -188,7 +189,7 @@ def number(text, rng):
 
 
 def of_token(source, i, rng):
-    """The operator's name, what takes the token's place, and the region that is switched."""
+    """Yields the operator's name, the token's replacement, and the region to switch."""
     t, before, after = source.at[i], source.at[i - 1], i + 1
     if t in TURNED and source.ends(i, {t}):
         stops = set() if t in ASSIGN else ASSIGN.union(*LEVELS[:next(k for k, level in enumerate(LEVELS) if t in level)])
@@ -212,7 +213,7 @@ def of_token(source, i, rng):
 
 
 def of_call(source, i, rng):
-    """An argument and the next in each other's place, or the last one dropped."""
+    """Swaps two adjacent arguments, or drops the last one."""
     name, close, text = source.at[i], source.match.get(i + 1, 0), source.text
     cuts = [k for k in range(i + 2, close) if source.at[k] == "," and source.inside[k] == i + 1 and k not in source.dead]
     region = source.region(i, CHAIN) if cuts and source.kind[i] == "name" and source.at[i + 1] == "(" else None
@@ -227,7 +228,7 @@ def of_call(source, i, rng):
 
 
 def of_statement(source, i, rng):
-    """Dropped, or not come to: an early return."""
+    """Drops a statement, or returns before it."""
     before, brace, end, words = source.at[i - 1], source.match.get(i - 1, 0), i, source.body(i)
     begins = before in (";", "{", "}") and source.at[source.inside[i]] == "{" and not source.group(brace) and not source.group(i - 1)
     control = before == "else" or before == ")" and source.at[brace - 1] in ("if", "for", "while")
@@ -251,7 +252,7 @@ def of_statement(source, i, rng):
 
 
 def edits_of(source, i, rng):
-    """All that may be done at a token."""
+    """All edits that are possible at a token."""
     text, close = source.text, source.match.get(i + 1, 0)
     for name, new, region in of_token(source, i, rng):
         if region and new and not (source.glsl and source.at[region[1] + 1] in ASSIGN):
@@ -266,7 +267,7 @@ def edits_of(source, i, rng):
 
 
 def constness(source, i):
-    """Where `constexpr` stands of what token i is part of, and what takes its place: it is switched at run time."""
+    """Replacements of `constexpr` around token i: a switched value is computed at run time."""
     changes, brace = [], i
     while brace >= 0:
         outer, head = source.inside[brace], source.head(brace)
@@ -290,7 +291,7 @@ def applied(edit, text):
 
 
 def draw(files, count, seed, changed=None):
-    """Edits in each folder in turn: of a random line one that it may have. None overlaps another."""
+    """Draws edits from each folder in turn: a random edit of a random line. No two overlap."""
     rng, enums, folders, edits = random.Random(seed), {}, collections.defaultdict(list), []
     for text in files.values():
         for name, values in re.findall(r"\benum (?:class )?(\w+)[^{;()]*\{([^{}]*)\}", re.sub(r"//[^\n]*", "", text)):
@@ -318,10 +319,10 @@ def draw(files, count, seed, changed=None):
 
 
 def switched(path, text, edits):
-    """A file with its edits, each switched, and one line more, which has the switch."""
+    """The file's text with all its edits, each behind its switch, and an include of the switch."""
     changes = {(e.start, e.end): e.switched.replace(M, f"DIPTYCH_MUTANT({e.number}u)") for e in edits}
     changes.update({(start, end): new for e in edits for start, end, new in e.const})
-    # In shaders below the extensions, and what is included whatever is defined.
+    # Shaders: inserted after extensions and unconditional includes.
     at = re.match(r"((//.*|#(ifndef|define) \w+_GLSL|#(version|extension|include) .*)?\n)*", text).end() if path.endswith(GLSL) else 0
     for (start, end), new in sorted(changes.items(), reverse=True):
         text = text[:start] + new + text[end:]
@@ -329,12 +330,12 @@ def switched(path, text, edits):
 
 
 def blamed(said, edits, tree):
-    """The edits on lines that a compiler's errors name, or notes to an error that names none."""
+    """The edits on lines named by compiler errors, or by the notes of an error that names none."""
     places = {(e.file, line + 1): e.number for e in edits for line in range(e.lines[0], e.lines[1] + 1)}
     bad, unexplained = set(), False
     for path, line, text in re.findall(r"^(?:ERROR: )?([^\s:]+):(\d+):(.*)$", said, re.M):
         file, error = os.path.relpath(tree / "build" / path, tree), "error: " in text or "' : " in text
-        below = range(int(line), int(line) + (12 if "declared here" in text else 1))  # in the function that is declared there
+        below = range(int(line), int(line) + (12 if "declared here" in text else 1))  # in the function declared there
         edit = next((places[file, at] for at in below if (file, at) in places), None)
         if error or "note: " in text and unexplained:
             bad |= {edit} - {None}
@@ -374,7 +375,7 @@ class Run:
         return [e for e in self.edits if e.by != "compiler"][:self.plan["number"]]
 
     def draw(self):
-        """The edits of this run, drawn or known; the sources that they are of."""
+        """Sets the edits of this run, drawn or loaded, and their sources."""
         o, head = self.options, git(self.root, "rev-parse", "HEAD").strip()
         plan = {"number": o.number, "seed": o.seed, "paths": o.paths, "since": o.since}
         if self.plan and not (o.all or o.again or o.report) and self.plan != plan:
@@ -401,7 +402,7 @@ class Run:
     def clone(self):
         if not self.tree.exists():
             call("git", "clone", "-q", self.root, self.tree)
-        mark = self.tree / ".git" / "mutants"  # what has it may be overwritten
+        mark = self.tree / ".git" / "mutants"  # this program may overwrite a clone with this mark
         if not mark.exists() and git(self.tree, "status", "--porcelain", "-uno"):
             raise SystemExit(f"{self.tree} has changes that are not committed: give a clone without any")
         mark.touch()
@@ -412,7 +413,7 @@ class Run:
             call("cmake", "-S", self.tree, "-B", self.tree / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
 
     def put(self):
-        """Writes what is to differ from what is there: a build goes on where it ended."""
+        """Writes only the files that change, so that builds are incremental."""
         by_file = collections.defaultdict(list)
         for edit in self.edits:
             if edit.by != "compiler":
@@ -443,12 +444,12 @@ class Run:
             self.save()
 
     def start(self, suite, limit, **environment):
-        """The tests that failed, and seconds."""
+        """Runs a suite; returns the tests that failed, and seconds."""
         folder, begun, code = self.work / "tmp" / str(threading.get_ident()), time.monotonic(), "late"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         with self.locks[suite["name"]], open(folder / "said", "w+", encoding="utf-8", errors="replace") as said:
-            # An edit may well ask for all the memory or disk that there is.
+            # A mutant may request all memory or disk.
             process = subprocess.Popen(["sh", "-c", 'ulimit -d 8000000; ulimit -f 8000000; exec "$@"', "sh", *suite["command"]], stdout=said, stderr=said,
                                        cwd=suite["folder"], start_new_session=True,
                                        env={**os.environ, "TMPDIR": str(folder), **suite["environment"], **environment})
@@ -463,7 +464,7 @@ class Run:
         return [] if code == 0 else sorted(set(failed)) or [f"({code})"], time.monotonic() - begun
 
     def record(self, suite):
-        """What a suite comes by without an edit, and how long it takes. What fails is left out."""
+        """Records the edits that a suite reaches without any edit, and its time. Skips suites that fail."""
         reached = self.work / "tmp" / f"{suite['name'].replace('/', '-')}.reached"
         for _ in range(3):
             reached.write_bytes(bytes(1 << 16))
@@ -478,12 +479,12 @@ class Run:
         self.save()
 
     def known(self):
-        """The suites of ctest that this run may use, in the order in which they are tried."""
+        """The ctest suites that this run may use, in the order of use."""
         new = []
         every, kinds = self.options.all, self.options.kinds.split(",")
         tier = {} if every else {"DIPTYCH_TIER": "default"}
         for test in json.loads(call("ctest", "--test-dir", self.tree / "build", "--show-only=json-v1",
-                                    env={**os.environ, "DIPTYCH_TESTS": ".", **tier}))["tests"]:  # a suite each
+                                    env={**os.environ, "DIPTYCH_TESTS": ".", **tier}))["tests"]:  # one suite each
             has = {p["name"]: p["value"] for p in test["properties"]}
             kind = next((k for k in KINDS if k in has.get("LABELS", ())), None)
             if kind in kinds and "FIXTURES_REQUIRED" not in has and (every or "longer" not in has["LABELS"]):
@@ -511,7 +512,7 @@ class Run:
         say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {edit.by} {edit.test or ''}")
 
     def equivalent(self, edit):
-        """Whether machine code or modules are the original's. WORK/alone is looked into first: edited files as they were."""
+        """Whether object code or modules equal the original's. WORK/alone, with unedited copies, is searched first."""
         alone, build, result = self.work / "alone", self.tree / "build", self.work / "alone" / "result"
         for name in {e.file for e in self.edits}:
             (alone / name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What mutate.py promises, on sources that are made up here and on the product's; nothing is built."""
+"""Tests of mutate.py on synthetic sources and on the product's; nothing is built."""
 import argparse
 import collections
 import json
@@ -22,7 +22,7 @@ ENUMS = {"Kind": ["first", "second", "third"]}
 
 
 def made(statement, path="shared/x.cpp", rounds=20, around=FUNCTION):
-    """operator -> what a statement may become"""
+    """operator -> possible edits of a statement"""
     text, found = around.format(statement), collections.defaultdict(set)
     for seed in range(rounds):
         source, rng = mutate.Source(path, text, ENUMS), random.Random(seed)
@@ -43,14 +43,14 @@ class Operators(unittest.TestCase):
         self.expect("operator", "return a + b * a;", "return a - b * a;", "return a + b / a;")
         self.expect("operator", "return a && b;", "return a || b;")
         self.expect("operator", "a += b;", "a -= b;")
-        self.expect("operator", 'text = "a" + name;')  # texts have no difference
+        self.expect("operator", 'text = "a" + name;')  # strings cannot be subtracted
         self.expect("constant", "return 2u;", "return 1u;", "return 3u;")
         self.expect("constant", "return 0;", "return 1;")
         self.expect("constant", "return 0.5f;", "return 0.505f;", "return 0.495f;")
         self.expect("constant", "return true;", "return false;")
         self.expect("function", "return std::min(a, b);", "return std::max(a, b);")
         self.expect("swizzle", "return v.xyz;", "return v.yxy;", **glsl)
-        self.expect("swizzle", "v.x = a;", **glsl)  # GLSL assigns to no choice
+        self.expect("swizzle", "v.x = a;", **glsl)  # GLSL cannot assign to a conditional expression
         self.expect("enumerator", "return kind == Kind::second;", "return kind == Kind::first;", "return kind == Kind::third;")
         self.expect("dropped", "++a; go(b); return a;", "; go(b); return a;", "++a; ; return a;")
         self.expect("dropped", "int c = a; std::vector<int> d(a); auto e = go(b); EACH(c) { go(b) } return c;")
@@ -112,7 +112,7 @@ class Drawn(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
-    """Of two suites: the first comes by edits 1 and 2 and notices 1, the second by all and is late for 3."""
+    """Two suites: the first reaches edits 1 and 2 and detects 1; the second reaches all and times out at 3."""
     SCRIPT = 'echo "$DIPTYCH_MUTANT" >> tried; test "$DIPTYCH_MUTANT" != {} || {}'
 
     def test_each_edit_is_tried_by_what_comes_by_and_results_stay(self):
@@ -130,7 +130,7 @@ class Runs(unittest.TestCase):
             self.assertEqual((work / "tried").read_text().split(), ["1", "2", "2", "3"])
             self.assertEqual(again.edits[2].test, "probe (late)")
             self.assertEqual(json.loads((work / "results.json").read_text())["edits"][1]["tried"], ["unit", "probe"])
-            again.attempt(again.edits[1], again.suites.values())  # goes on with other suites alone
+            again.attempt(again.edits[1], again.suites.values())  # continues only with other suites
             self.assertEqual(len((work / "tried").read_text().split()), 4)
 
 

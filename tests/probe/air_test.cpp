@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shipped closed form and march of haze against the reference's quadrature.
+// Closed form and ray march of haze in the shaders, compared with the reference's quadrature.
 #include "compare/reference/haze.h"
 #include "shared/contract/features.h"
 #include "shared/environment/haze.h"
@@ -24,14 +24,14 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr std::size_t airWidth = 36;
 
-// A ray through air: where it begins, over height 0, its direction and its length, m.
+// Ray through the medium: height of its origin (m), direction, length (m).
 struct Ray {
     double height;
     glm::dvec3 away;
     double reach;
 };
 
-// Rays of one feature, shaded together.
+// Rays that share one feature value, shaded in one dispatch.
 class AirProbe {
 public:
     void add(const Settings& settings, const Light* sun, const Ray& ray) {
@@ -68,8 +68,8 @@ double apart(const glm::dvec3& a, const glm::dvec3& b) {
     return std::isnan(d.x + d.y + d.z) ? endless : most;
 }
 
-// Everything that a scene may ask for: thin and thick air, from below height 0 to far above it, up, down,
-// level and as good as level, a millimetre to a thousand kilometres and endlessly.
+// Rays of thin and thick air, from below height 0 to far above, up, down, level and almost level, from a
+// millimetre to a thousand kilometres and infinite.
 std::vector<Ray> raysOf(double height_scale, int count, std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1), place(-1, 8), turn(0, 6.28);
     std::vector<Ray> rays;
@@ -100,7 +100,7 @@ Settings settingsOf(const Medium& medium) {
     settings.haze_g = medium.g;
     return settings;
 }
-// Over which sources are below 1 W/(sr m^2), of which 1e-6 is meant.
+// Irradiance of the sun: source radiance stays below 1 W/(sr m^2), so absolute errors of 1e-6 are relevant.
 constexpr float modestSun = 0.3f;
 
 TEST(Air, ClosedFormIsTheIntegral) {
@@ -122,7 +122,7 @@ TEST(Air, ClosedFormIsTheIntegral) {
                                                  rays[i].height, rays[i].away.y, rays[i].reach);
             EXPECT_LT(apart(hazed[i].transmittance, truth.transmittance), 1e-6) << what;
             EXPECT_LT(apart(hazed[i].scattered, truth.scattered), 1e-6) << what;
-            // However little there is of it.
+            // Relative to the scattered radiance, however small it is.
             EXPECT_LT(apart(hazed[i].scattered, truth.scattered),
                       1e-5 * std::max({truth.scattered.x, truth.scattered.y, truth.scattered.z}) + 1e-30)
                 << what;
@@ -145,7 +145,7 @@ TEST(Air, TwoStretchesLetThroughWhatTheWholeDoes) {
             probe.add(settings, nullptr, {ray.height, ray.away, whole});
             probe.add(settings, nullptr, {ray.height, ray.away, first});
             probe.add(settings, nullptr, {ray.height + ray.away.y * first, ray.away, whole - first});
-            // From where a float32 height is exact enough to say how thick the air is.
+            // Reverse the ray only if the density at its end is exact enough for a float32 height.
             const double end = ray.height + ray.away.y * whole;
             const bool known = std::abs(end) < 10 * double{medium.mie_height};
             back.push_back(known);
@@ -164,7 +164,7 @@ TEST(Air, TwoStretchesLetThroughWhatTheWholeDoes) {
     }
 }
 
-// From a millionth of a degree below the horizon to as much above it, level itself among them.
+// From 1e-3 below the horizon to 1e-3 above it, including exactly level.
 TEST(Air, ThereIsNoBandAtTheHorizon) {
     const Light sun = sunTowards({0.3, -0.6, -1}, modestSun);
     for (const double reach : {1e3, 1e5, endless})
@@ -181,7 +181,7 @@ TEST(Air, ThereIsNoBandAtTheHorizon) {
             }
             const std::vector<reference::Hazed> hazed = probe.run();
             for (std::size_t i = 1; i < hazed.size(); ++i) {
-                // Light changes by less than its own size over 5 degrees.
+                // Radiance changes by less than its own magnitude over 5 degrees.
                 const double most = 1e-6 + 10 * (ups[i] - ups[i - 1]);
                 EXPECT_LT(apart(hazed[i].scattered, hazed[i - 1].scattered), most)
                     << reach << " " << steps << " " << ups[i];
@@ -195,7 +195,7 @@ TEST(Air, ThereIsNoBandAtTheHorizon) {
         }
 }
 
-// Where the source is the same all along the ray, one step is the closed form.
+// If the source is constant along the ray, one step equals the closed form.
 TEST(Air, AMarchThroughEvenAirIsTheClosedForm) {
     std::mt19937 random(8);
     for (const Medium& medium : media) {
@@ -219,8 +219,8 @@ TEST(Air, AMarchThroughEvenAirIsTheClosedForm) {
     }
 }
 
-// What it lets through is exact, what it scatters comes nearer to the integral with more steps. Rays that go
-// deep below height 0, where steps lie less well, are left out.
+// Transmittance is exact; scattered radiance converges to the integral with more steps. Skips rays that go
+// deep below height 0, where the step distribution is worse.
 TEST(Air, AMarchComesToTheIntegral) {
     std::mt19937 random(9);
     const Light sun = sunTowards({0.3, -0.6, -1}, modestSun);
@@ -255,8 +255,8 @@ TEST(Air, AMarchComesToTheIntegral) {
     }
 }
 
-// A ray that goes down ever so little has no end, and its steps end where nothing comes through any more: a
-// fifth of a scale height to one lower, wherever it begins.
+// A ray that descends very slowly is infinite, and the march ends where transmittance is negligible: 0.2
+// to 1 scale height below the origin.
 TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
     const Light sun = sunTowards({0.3, -0.6, -1}, modestSun);
     for (const Medium& medium : {media[0], media[2]}) {
@@ -264,7 +264,7 @@ TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
         settings.ambient = {0.1f, 0.1f, 0.1f};
         settings.haze_march_steps = 64;
         const reference::Air air = airOfSettings(settings, &sun);
-        // Air, in metres of that at height 0, of which a ray meets no more.
+        // Largest depth of an infinite ray, in metres of air at height 0.
         const HazeNumbers numbers = hazeNumbers(settings, &sun, {0, 0, 0});
         const double most = double{gpu::HAZE_ENDLESS_DEPTH} / double{numbers.haze.extinction.x},
                      scale = 1 / double{numbers.haze.inverse_height};
@@ -272,7 +272,7 @@ TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
         std::vector<reference::Hazed> truth;
         for (const double height : {0.0, 1.0, 2.0, 4.0})
             for (const double fall : {0.2, 0.5, 1.0, 1.5}) {
-                // What has met `most` on its way down to a density e^fall times that where it began.
+                // Slope for which a ray accumulates `most` while density grows by e^fall.
                 const double up = -std::exp(-height) * std::expm1(fall) * scale / most;
                 const glm::dvec3 away(glm::vec3(std::sqrt(1 - up * up), up, 0));
                 const Ray ray{double{static_cast<float>(height * scale)}, away, endless};

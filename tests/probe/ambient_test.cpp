@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the shaders take of light from everywhere without a table, against the reference's integrals.
+// Analytic ambient terms of the shaders (no table), compared with the reference's integrals.
 #include "compare/reference/ambient.h"
 #include "shared/environment/directional_albedo.h"
 #include "tests/probe/probe.h"
@@ -13,7 +13,7 @@
 namespace diptych {
 namespace {
 
-// Roughness and n.v of each row, and what the shader makes of them.
+// Roughness and n.v of each row, and the shader's output.
 struct AlbedoRows {
     std::vector<double> roughness, n_dot_v;
     std::vector<float> out;  // three a row
@@ -34,7 +34,8 @@ AlbedoRows albedoRows() {
     return rows;
 }
 
-// 4.3e-6 between polynomial and integral, 4e-6 of the reference's quadrature, and float32's rounding.
+// Tolerance: 4.3e-6 between polynomial and integral, 4e-6 of the reference's quadrature, and float32
+// rounding.
 TEST(AmbientShader, TheMeanOfSchlicksWeightIsTheReferences) {
     const AlbedoRows rows = albedoRows();
     for (std::size_t i = 0; i < rows.n_dot_v.size(); ++i) {
@@ -49,8 +50,7 @@ TEST(AmbientShader, TheMeanOfSchlicksWeightIsTheReferences) {
     }
 }
 
-// How far off a fit is that many use, which was made for another masking function. Of F0 0.04 the worst is
-// known as 0.082.
+// Error of a widely used fit, made for another masking function. The known maximum for F0 = 0.04 is 0.082.
 TEST(AmbientShader, TheFitIsOffByWhatIsSaid) {
     const AlbedoRows rows = albedoRows();
     double worst = 0, white = 0, grazing = 0, sum = 0;

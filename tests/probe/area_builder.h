@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Area lights for the probe area.comp, and the expected results: by the reference, and by the table alone.
+// Area lights for the probe area.comp, with expected results from the reference and from the table alone.
 #pragma once
 
 #include "compare/reference/lighting.h"
@@ -25,7 +25,7 @@ namespace diptych::tests {
 
 constexpr std::size_t areaWidth = 35;
 
-// A surface at the origin with the normal +Z.
+// Surface at the origin with normal +Z.
 struct Receiver {
     double roughness = 0.5, metallic = 1, albedo = 1, f0 = 0.04, f90 = 1;
     glm::dvec3 to_viewer{0, 0, 1};
@@ -52,7 +52,7 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
     push(cell.magnitude, cell.fresnel);
 }
 
-// Each row's {diffuse, specular} radiance for a light of radiance 1.
+// {diffuse, specular} radiance of each row for a light of radiance 1.
 inline std::vector<std::array<double, 2>> shadeArea(Probes& probes, const std::vector<float>& input,
                                                     bool points = false, gpu::uint multiscatter = 0) {
     const std::vector<float> out =
@@ -79,9 +79,9 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
 }
 
-// The outline of an area light as seen from the origin. That of a tube consists of two lines along its side
-// and, at each end, of half a rim: the far half if the end's face is visible, otherwise the near half; seen
-// from beyond an end, within the tube's radius, it is that end's rim.
+// Outline of an area light seen from the origin. A tube's outline has two lines along its side and, at
+// each end, half a rim: the far half if the end's face is visible, otherwise the near half. From beyond an
+// end, within the tube's radius, it is that end's rim.
 inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     if (light.kind == LightKind::rect) return reference::cornersOf(light);
     std::vector<glm::dvec3> outline;
@@ -110,8 +110,8 @@ inline std::vector<glm::dvec3> outlineOf(const Light& light) {
     return outline;
 }
 
-// The integral of p over a light's directions p under the transformed cosine, over pi, in its frame:
-// Lambert's formula, in double, for its outline transformed corner by corner and clipped at the horizon.
+// Integral of p / pi over the light's directions p under the transformed cosine, in its frame. Lambert's
+// formula in double: the outline is transformed vertex by vertex and clipped at the horizon.
 inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
     const bool flat = light.kind != LightKind::tube;
     if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return {};
@@ -133,13 +133,13 @@ inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const gl
     }
     return sum * ((sum.z < 0 ? -1 : 1) / (2 * reference::pi));
 }
-// The share of a sky that a light has under it.
+// Fraction of the transformed cosine that the light covers.
 inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
     const glm::dvec3 factor = factorOf(light, t, to_viewer);
     return std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
 }
 
-// F0 and F90 of the mix by `metallic`.
+// F0 and F90, interpolated by `metallic`.
 inline glm::dvec2 fresnelOf(const Receiver& r) {
     return {std::lerp(r.f0, r.albedo, r.metallic), std::lerp(r.f90, 1.0, r.metallic)};
 }
@@ -147,8 +147,8 @@ inline ltc::Transform transformOf(const LtcCell& cell, const Receiver& r) {
     const glm::dvec2 f = fresnelOf(r);
     return ltc::transformOf(cell.lobe(f.x, f.y), r.roughness * r.roughness, r.nDotV());
 }
-// What the shader makes of a share, whose mean direction under the transformed cosine is l (in the lobe's
-// frame): the lobe itself for a small light, what a sky sends for a large one.
+// Specular result of the shader for a covered fraction, with mean direction l under the transformed cosine
+// (in the lobe's frame): the lobe's own value for a small light, the sky's reflection for a large one.
 inline double specularOf(double share, const glm::dvec3& l, const LtcCell& cell, const Receiver& r) {
     const glm::dvec2 f = fresnelOf(r);
     const ltc::Lobe::Value value = ltc::Lobe(r.roughness * r.roughness, r.nDotV())(l);

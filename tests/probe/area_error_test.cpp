@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The errors of both ways of shading area lights against the reference: the table of shared/light/MEASURED.md
-// is measured here, and written to the file that DIPTYCH_AREA_TABLE names.
+// Errors of both area-light methods relative to the reference. Measures the table of
+// shared/light/MEASURED.md and writes it to the file named by DIPTYCH_AREA_TABLE.
 #include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
@@ -24,14 +24,14 @@ constexpr std::array sizes{0.3, 1.0};
 struct AreaCase {
     LightKind kind;
     double roughness, angle, distance, size;
-    bool dielectric;  // or a metal with F = 1
-    // {diffuse, specular}, as shadeArea().
+    bool dielectric;  // false: a metal with F = 1
+    // {diffuse, specular}, as shadeArea() returns them.
     std::array<double, 2> reference, ltc, points;
-    double sky;  // specular, of a sky of the same radiance
+    double sky;  // specular radiance under a uniform sky of the same radiance
 };
 
-// A light of a given size (m) at a given distance (m): at the mirror image of the viewer, beside it, and
-// above the surface.
+// Lights of a given size (m) at a given distance (m): in the mirror direction of the viewer, beside it,
+// and above the surface.
 std::vector<Light> placesOf(LightKind kind, double angle, double distance, double size) {
     std::vector<Light> lights;
     const glm::dvec3 mirrored = viewAt(angle, reference::pi);
@@ -80,8 +80,8 @@ double seen(const std::array<double, 2>& shaded) {
     return shaded[0] + shaded[1];
 }
 
-// Of |shaded - reference|: the mean, relative to the reference's mean, and the largest, relative to a sky as
-// bright.
+// |shaded - reference|: mean, relative to the reference's mean, and maximum, relative to a sky of the same
+// radiance.
 struct Error {
     double sum = 0, reference = 0, most = 0;
     void add(double shaded, double expected, double sky) {
@@ -94,7 +94,7 @@ struct Error {
     }
 };
 
-// What is seen of a dielectric is its diffuse base and its layer; of a metal, its specular lobe.
+// `dielectric`: diffuse base plus layer. `metal`, `layer`: specular lobe alone.
 struct Figures {
     Error metal, layer, dielectric, points;
     void add(const AreaCase& c) {
@@ -123,11 +123,11 @@ std::string roughnessAndAngle(const AreaCase& c) {
     return fmt::format("{:.2f}, {:.0f}", c.roughness, c.angle);
 }
 
-// Of what is seen the mean error stays below 5 % at every roughness and angle, on dielectrics and on metals
-// up to 75 degrees, by a tenth for the next device's rounding; at 85 degrees a metal's reaches what the fit
-// leaves there (shared/light/MEASURED.md). The
-// largest error of any light, relative to a sky of the same radiance, is bounded by half the distance between
-// lobe and transformed cosine (total variation), with 2 % for the table's interpolation and half floats.
+// The mean error stays below 5 % at every roughness and angle, for dielectrics and for metals up to 75
+// degrees, plus a tenth for other devices' rounding. At 85 degrees a metal has the fit's residual error
+// (shared/light/MEASURED.md).
+// The largest error of any light, relative to a sky of the same radiance, is at most half the total
+// variation between lobe and transformed cosine, plus 2 % for table interpolation and half floats.
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
     const std::vector<AreaCase> cases = measured(probes);

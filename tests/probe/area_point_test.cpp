@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Area lights by one point each, against their definition in double: the nearest point to a ray of each lobe
-// (Karis 2013, "Real Shading in Unreal Engine 4"; Drobot 2014, GPU Pro 5), the solid angle, and the lowered
-// peak. And against what does not depend on that definition: small lights have the irradiance of their solid
+// Representative-point area lights compared with their definition in double: the point nearest to each
+// lobe's ray (Karis 2013, "Real Shading in Unreal Engine 4"; Drobot 2014, GPU Pro 5), the solid angle, and
+// the lowered peak. Independently of that definition, small lights must have the irradiance of their solid
 // angle.
 #include "compare/reference/brdf.h"
 #include "tests/probe/area_builder.h"
@@ -22,10 +22,11 @@ using reference::pi;
 struct PointOfLight {
     glm::dvec3 diffuse_at, specular_at;  // from the surface, m
     double solid_angle;
-    glm::dvec2 half_size;  // what the lobe is widened by, m
+    glm::dvec2 half_size;  // widens the lobe, m
 };
 
-// Where the ray meets the light's plane, or a place a thousand distances along it.
+// Intersection of the ray with the light's plane; if there is none, the point 1000 times the light's
+// distance along the ray.
 glm::dvec3 onPlaneOf(const Light& light, const glm::dvec3& ray) {
     const glm::dvec3& c = light.position;
     const double towards = glm::dot(ray, light.direction), away = glm::dot(c, light.direction);
@@ -46,7 +47,7 @@ glm::dvec3 nearestOf(const Light& light, const glm::dvec3& ray) {
         const double far = glm::length(from);
         return far > double{light.radius} ? c + from * (double{light.radius} / far) : c + from;
     }
-    // By search: the place on the axis whose distance from the ray's line is the least.
+    // Ternary search for the point of the axis nearest to the ray's line.
     const auto apart = [&](double s) {
         const glm::dvec3 p = c + light.axis * s;
         return glm::length(p - ray * glm::dot(p, ray));
@@ -63,7 +64,7 @@ glm::dvec3 nearestOf(const Light& light, const glm::dvec3& ray) {
     return p + to_ray * std::min(double{light.radius} / std::max(way, 1e-12), 1.0);
 }
 
-// No light is larger than half of the sky under the cosine.
+// At most pi sr, the cosine-weighted solid angle of a hemisphere.
 double solidAngle(double area, double square) {
     return area / (square + area / pi);
 }
@@ -92,13 +93,13 @@ PointOfLight pointOf(const Light& light, const Receiver& r) {
     const bool rect = light.kind == LightKind::rect;
     p.solid_angle = solidAngle(rect ? width * height : pi * radius * radius, square) *
                     std::abs(glm::dot(l, light.direction));
-    // An ellipse of a rectangle's area: pi a b = width x height.
+    // Ellipse with the rectangle's area: pi a b = width x height.
     p.half_size = rect ? glm::dvec2(width, height) / std::sqrt(pi) : glm::dvec2(radius);
     return p;
 }
 
-// Radiance of both lobes: that of a light without extent at each place, of the solid angle's irradiance; the
-// specular one lowered by the share of the widened lobe.
+// Radiance of both lobes: a punctual light at each point with the irradiance of the solid angle; the
+// specular one scaled by the peak ratio of the widened lobe.
 std::array<double, 2> byDefinition(const Light& light, const Receiver& r) {
     const PointOfLight p = pointOf(light, r);
     reference::Surface s;
@@ -141,9 +142,9 @@ Light shining(std::mt19937& random, LightKind kind) {
 
 class AreaPoints : public testing::TestWithParam<LightKind> {};
 
-// The shader rounds to float32: of the lobe, whose slope is 1 / alpha^2 of it a radian, half a dozen
-// roundings; where two places of a light are nearly as near to the ray, its whole width lies between them,
-// but the light's radiance there is alike.
+// Tolerances cover float32 rounding: some six roundings in a lobe with relative slope 1 / alpha^2 per
+// radian. If two points of a light are almost equally near to the ray, the choice moves by the light's
+// whole width, but its radiance there is about the same.
 TEST_P(AreaPoints, FollowTheirDefinition) {
     Probes probes;
     std::mt19937 random(21);
@@ -155,7 +156,7 @@ TEST_P(AreaPoints, FollowTheirDefinition) {
         const Light light = shining(random, GetParam());
         Receiver r{.roughness = 0.15 + 0.85 * unit(random), .metallic = expected.size() % 2 == 0 ? 1.0 : 0.0};
         r.to_viewer = viewAt(85 * unit(random), 6.28 * unit(random));
-        // Inside a tube, it lights nothing.
+        // Inside a tube, the light is zero.
         const double along = glm::dot(light.position, light.axis);
         if (light.kind == LightKind::tube &&
             glm::length(light.position - light.axis * along) < 1.01 * double{light.radius})
@@ -176,8 +177,8 @@ TEST_P(AreaPoints, FollowTheirDefinition) {
     EXPECT_GT(glossy, 30);
 }
 
-// Lights a hundredth of their distance large have the irradiance of their solid angle, whatever point stands
-// for them: diffuse radiance is solid angle x cosine / pi, within the square of their size.
+// Lights of 1 % of their distance have the irradiance of their solid angle wherever the representative
+// point lies: diffuse radiance is solid angle x cosine / pi, up to the square of their size.
 TEST_P(AreaPoints, SmallLightsHaveTheirSolidAngle) {
     Probes probes;
     std::vector<float> input;
@@ -201,13 +202,12 @@ TEST_P(AreaPoints, SmallLightsHaveTheirSolidAngle) {
             expected.push_back(area / (far * far) * cosine / pi);
         }
     const auto rows = shadeArea(probes, input, true);
-    // A point at the light's rim instead of its middle moves direction and distance by half its size.
+    // A point at the light's rim instead of its centre shifts direction and distance by half its size.
     for (std::size_t i = 0; i < expected.size(); ++i)
         EXPECT_NEAR(rows[i][0], expected[i], 0.015 * expected[i]) << i;
 }
 
-// Negative control: a light half as long or wide, or seen from a quarter of its solid angle, is far from its
-// definition.
+// Negative control: half the length or width, or a quarter of the solid angle, is far from the definition.
 TEST_P(AreaPoints, HalfASizeIsSeen) {
     std::mt19937 random(22);
     for (int i = 0; i < 20; ++i) {

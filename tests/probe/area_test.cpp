@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shipped area lights: their closed forms against quadrature in double.
+// Closed forms of the shaders' area lights, compared with quadrature in double.
 #include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::string words(const Light& l, const Receiver& r) {
         l.length, l.two_sided ? " two-sided" : "", r.roughness, v(r.to_viewer));
 }
 
-// A light that shines down on the surface, slightly tilted.
+// Light that shines down on the surface, slightly tilted.
 Light lightOf(LightKind kind) {
     Light light = reference::lightOf(kind, {0.4, -0.3, 1.2}, {0.1, 0.2, -1});
     light.width = 1, light.height = 0.6f, light.radius = 0.3f, light.length = 1;
@@ -54,10 +54,10 @@ Light lightOf(LightKind kind) {
 
 class AreaShapes : public testing::TestWithParam<LightKind> {};
 
-// A Lambertian lobe, and specular lobes of metals and of layers: the transformed cosine over the light, with
-// the lobe's own value in the light's mean direction. Both closed forms are sums of a dozen float32 terms
-// that largely cancel, and M^-1 amplifies rounding errors by up to 500: 2e-5 of the sky is ten times the
-// error found here.
+// Lambertian lobe, and specular lobes of metals and layers: the transformed cosine integrated over the
+// light, with the lobe's own value in the mean direction. Both closed forms sum a dozen float32 terms that
+// largely cancel, and M^-1 amplifies rounding by up to 500. The tolerance, 2e-5 of the sky, is ten times
+// the measured error.
 TEST_P(AreaShapes, AreIntegratedExactly) {
     Probes probes;
     std::mt19937 random(11);
@@ -91,7 +91,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
     EXPECT_GT(lit, 150) << "the comparison has lost its point: nothing is lit";
 }
 
-// Negative control: a light larger by one percent is detected.
+// Negative control: a light that is 1 % larger is detected.
 TEST_P(AreaShapes, OnePerCentMoreIsSeen) {
     Probes probes;
     Light light = lightOf(GetParam());
@@ -118,8 +118,7 @@ glm::dvec3 inLobe(const Light& light, const Receiver& r) {
     return {glm::dot(l, x), glm::dot(l, glm::cross(glm::dvec3(0, 0, 1), x)), l.z};
 }
 
-// Distant and tiny lights behave like points: within a thousandth, down to a millionth of the distance in
-// size.
+// Distant and tiny lights behave like points: within 0.1 %, down to 1e-6 of the distance in size.
 TEST_P(AreaShapes, FarAwayTheyArePoints) {
     Probes probes;
     std::vector<float> input;
@@ -133,7 +132,7 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
             Receiver r{.roughness = 0.4, .to_viewer = viewAt(30)};
             const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
             pushArea(input, light, r);
-            // Where the sum over the outline would be rounding error: solid angle times density.
+            // Where rounding dominates the outline's sum, expect solid angle times density.
             const glm::dvec3 l = inLobe(light, r);
             expected.push_back(
                 share > 1e-2 ? specularOf(light, cell, r)
@@ -144,8 +143,8 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
         EXPECT_NEAR(rows[i][1], expected[i], 1e-3 * expected[i]) << "case " << i;
 }
 
-// A disc that faces the surface's point is a round cone, whose axes nothing tells: sin^2 of its half angle
-// times the cosine of where it is, as long as it is above the horizon.
+// A disc that faces the surface subtends a round cone, whose axes are undetermined: sin^2 of its half
+// angle times the cosine of its direction while it is above the horizon.
 TEST(AreaDiscs, ThatFaceTheSurfaceAreRound) {
     Probes probes;
     std::vector<float> input;
@@ -207,8 +206,8 @@ TEST_P(AreaShapes, NothingComesFromBelow) {
     for (const auto& row : shadeArea(probes, input)) EXPECT_EQ(row[0] + row[1], 0);
 }
 
-// On the light's plane, edge, corner, axis, surface and centre, and edge-on, from 1e-15 m to 1e15 m: results
-// are finite, and no lobe exceeds the reflection of a sky of the same radiance.
+// On the light's plane, edge, corner, axis, surface and centre, and edge-on, from 1e-15 m to 1e15 m:
+// results are finite, and no lobe exceeds the reflection of a sky of the same radiance.
 TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     Probes probes;
     for (const bool points : {false, true}) {
@@ -237,8 +236,7 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
             for (const double value : rows[i]) {
                 ASSERT_TRUE(std::isfinite(value)) << i;
                 ASSERT_GE(value, 0) << i;
-                // For each lobe, with a thousandth for rounding; the single representative point has no such
-                // bound.
+                // Each lobe, plus 0.1 % for rounding. The representative point has no such bound.
                 if (!points) {
                     ASSERT_LE(value, 1.001) << i;
                 }
@@ -247,8 +245,8 @@ TEST_P(AreaShapes, StayFiniteAndDarkerThanTheSky) {
     }
 }
 
-// The reduction of a dielectric's base by its layer is exact for small lights, up to the square of their
-// apparent size, and approximate for large ones.
+// A layer's reduction of its dielectric base is exact for small lights, up to the square of their apparent
+// size, and approximate for large ones.
 TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
     Probes probes;
     std::vector<float> input;

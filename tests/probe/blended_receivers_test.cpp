@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where blended surfaces receive the sun's shadow: their view depths, and the pages that they are read from.
+// Receivers of the sun's shadow among blended surfaces: their view depths, and the shadow pages they read.
 #include "shared/shadow/blended_receivers.h"
 
 #include "shared/vulkan/device.h"
@@ -19,7 +19,7 @@
 namespace diptych {
 namespace {
 
-// A blended square from (0, 0, 0) to (1, 1, 0), material 0, and one that is opaque.
+// Unit square from (0, 0, 0) to (1, 1, 0), once blended (material 0) and once opaque.
 class BlendedReceiversOf : public testing::Test {
 protected:
     Scene scene = [] {
@@ -47,7 +47,7 @@ protected:
         view.camera.far = 100;
         view.width = view.height = 64;
     }
-    // Relative to the eye.
+    // `at`: relative to the eye.
     void add(const glm::dvec3& at, const glm::dvec3& scale, int primitive = 0, double pitch = 0) {
         const glm::dmat4 placed = glm::translate(glm::dmat4(1), view.eye() + at);
         pose.instances.push_back(
@@ -68,12 +68,12 @@ TEST_F(BlendedReceiversOf, DepthsAreThoseOfWhatTheViewShows) {
     ASSERT_TRUE(receivers().depths());
     EXPECT_DOUBLE_EQ(receivers().depths()->near, 5);
     EXPECT_DOUBLE_EQ(receivers().depths()->far, 5);
-    // A floor 2 m below the eye, from behind it to 30 m before it: seen from where the view's lower side, at
-    // 45 degrees, meets it.
+    // Floor 2 m below the eye, from behind it to 30 m in front; visible from where the lower frustum
+    // plane, at 45 degrees, meets it.
     add({-1, -2, 10}, glm::dvec3(2, 40, 1), 0, glm::radians(-90.0));
     EXPECT_NEAR(receivers().depths()->near, 2, 1e-12);
     EXPECT_NEAR(receivers().depths()->far, 30, 1e-12);
-    // Past the eye: from the near plane on.
+    // Extends past the eye: begins at the near plane.
     add({-0.5, -0.01, -20}, glm::dvec3(1, 30, 1), 0, glm::radians(90.0));
     EXPECT_NEAR(receivers().depths()->near, 1, 1e-12);
 }
@@ -87,8 +87,8 @@ TEST_F(BlendedReceiversOf, RangesUniteWhereThereAreSome) {
     EXPECT_EQ(united(b, a)->far, 5);
 }
 
-// The pages of points all over a square that is seen are marked, at the level of each point's distance. Of
-// others no more than four times as many are.
+// Marks the pages of points all over a visible square, at the level of each point's distance, and at most
+// four times as many others.
 TEST_F(BlendedReceiversOf, EveryPageThatIsReadIsMarkedAndFewOthers) {
     add({-8, -1.5, 0.5}, glm::dvec3(16, 40, 1), 0, glm::radians(-85.0));
     const Bounds bounds{view.eye() - 50.0, view.eye() + 50.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shipped BRDF against closed forms and tables.
+// The shaders' BRDF compared with closed forms and tables.
 #include "compare/reference/brdf.h"
 #include "shared/contract/features.h"
 #include "tests/probe/probe.h"
@@ -38,10 +38,10 @@ void push(std::vector<float>& input, const Vec& v, const Vec& l, const Material&
         input.push_back(static_cast<float>(x));
 }
 
-// Directional albedo: the integral of radiance over l for unit irradiance from l, by the change of
-// variables to half vectors of the GGX distribution (Walter et al. 2007), so that sharp lobes converge:
-// dl = 4 (v.h) dh, and h is spread by inverting D (n.h). Returns {diffuse, specular}; the
-// first converges for rough lobes only.
+// Directional albedo: the integral of radiance over l for unit irradiance from l. Changes variables to
+// half vectors of the GGX distribution (Walter et al. 2007) so that sharp lobes converge: dl = 4 (v.h) dh,
+// with h sampled by inverting D (n.h). Returns {diffuse, specular}; diffuse converges for rough lobes
+// only.
 std::array<double, 2> directionalAlbedo(Probes& probes, double mu, const Material& m) {
     constexpr int rings = 512, sectors = 128;
     const double alpha = m.roughness * m.roughness;
@@ -68,8 +68,8 @@ std::array<double, 2> directionalAlbedo(Probes& probes, double mu, const Materia
     return sum;
 }
 
-// F = 1: directional albedo at normal incidence, 0.9158 and 0.3069 at roughness 0.5 and 1 (four digits
-// given: half of the last is the tolerance, and as much for the quadrature).
+// F = 1: directional albedo at normal incidence is 0.9158 and 0.3069 at roughness 0.5 and 1. Tolerance:
+// half of the fourth digit, and as much for the quadrature.
 TEST(Brdf, DirectionalAlbedoOfAWhiteMetal) {
     Probes probes;
     const auto albedo = [&](double roughness) {
@@ -95,12 +95,12 @@ TEST(Brdf, WhiteFurnaceLossMeetsTheTable) {
                 directionalAlbedo(probes, mu, {.roughness = row.roughness, .metallic = 1, .albedo = 1})[1] /
                 views;
         }
-        // Three digits given; half a percent of the loss for the quadrature of grazing views.
+        // The table has three digits; half a percent of the loss for the quadrature of grazing views.
         EXPECT_NEAR(1 - reflected, row.loss, 0.0005 + 0.005 * row.loss) << "roughness " << row.roughness;
     }
 }
 
-// The diffuse lobe alone, by directions spread as the cosine.
+// Diffuse albedo, by cosine-weighted directions.
 double diffuseAlbedo(Probes& probes, double mu, const Material& m) {
     constexpr int rings = 64, sectors = 64;
     std::vector<float> input;
@@ -123,8 +123,8 @@ TEST(Brdf, NoLobeReflectsMoreThanItGets) {
                 const Material m{.roughness = roughness, .metallic = metallic};
                 const double diffuse = diffuseAlbedo(probes, mu, m),
                              specular = directionalAlbedo(probes, mu, m)[1];
-                // Each lobe alone. Their sum may exceed one in glTF's model, whose base is dimmed by the
-                // Fresnel of the half vector and not by what the layer reflects towards the viewer.
+                // Each lobe alone. Their sum may exceed 1: glTF dims the base by the half vector's
+                // Fresnel, not by the layer's reflection towards the viewer.
                 EXPECT_LE(diffuse, 1 - metallic + 1e-3) << metallic << " " << roughness << " " << mu;
                 EXPECT_LE(specular, 1 + 1e-3) << metallic << " " << roughness << " " << mu;
                 EXPECT_GE(diffuse, 0.25 * (1 - metallic));
@@ -132,7 +132,7 @@ TEST(Brdf, NoLobeReflectsMoreThanItGets) {
             }
 }
 
-// f(v, l) = f(l, v): what is sent from l to v, over n.l, is symmetric.
+// f(v, l) = f(l, v): radiance from l to v, divided by n.l, is symmetric.
 TEST(Brdf, IsReciprocal) {
     Probes probes;
     std::mt19937 random(2);
@@ -155,8 +155,8 @@ TEST(Brdf, IsReciprocal) {
     }
 }
 
-// Double precision's D against the shader's, near the highlight at roughness 0.1, where the textbook form
-// is off by over 1e-4 on 40 % of the samples and this one on none.
+// D in double compared with the shader's, near the highlight at roughness 0.1. The textbook form is off by
+// over 1e-4 for 40 % of the samples; this one for none.
 TEST(Brdf, GgxIsStableNearTheHighlight) {
     Probes probes;
     std::mt19937 random(3);
@@ -197,8 +197,9 @@ TEST(Brdf, GgxIsStableNearTheHighlight) {
         << "the comparison has lost its point: the textbook form is stable here";
 }
 
-// Against the reference's in double, which has the least roughness and n.v of its own: views from below the
-// normal's horizon too, which a normal map makes, and of every second light the highlight itself.
+// Compared with the reference in double, which clamps roughness and n.v by constants of its own. Includes
+// views below the normal's horizon, which normal maps cause, and the mirror direction for every second
+// light.
 TEST(Brdf, IsTheReferences) {
     Probes probes;
     std::mt19937 random(5);
@@ -244,8 +245,8 @@ TEST(Brdf, IsTheReferences) {
     EXPECT_GT(sharp, 20) << "no highlight of the least roughness is tried";
 }
 
-// A quarter of what enters the base passes it: the other three are diffuse light, and the layer reflects as
-// before.
+// A quarter of the light that enters the base is transmitted, the other three are diffuse, and the layer's
+// reflection is unchanged.
 TEST(Brdf, WhatPassesTheSurfaceIsNotDiffuse) {
     Probes probes;
     std::vector<float> input;
@@ -261,7 +262,7 @@ TEST(Brdf, WhatPassesTheSurfaceIsNotDiffuse) {
     }
 }
 
-// A mirror's alpha is kept at the smallest roughness: finite, and the same as that roughness gives.
+// alpha is clamped at the smallest roughness: roughness 0 is finite and equals that roughness.
 TEST(Brdf, RoughnessZeroIsTheSmallestRoughness) {
     Probes probes;
     std::vector<float> input;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells of light lists, and the regions that lights reach, as exact shapes in double precision: culling is
+// Tiles and froxels, and the regions that lights reach, as exact shapes in double precision. Culling is
 // compared with them.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace diptych {
 
-// A cell of the frustum in view axes: slopes of its sides (x / depth, y / depth), and depths.
+// Froxel in view axes: slopes of its sides (x / depth, y / depth), and depths.
 struct Cell {
     glm::dvec2 x, y, z;
 
@@ -37,7 +37,7 @@ struct Cell {
 
 inline glm::dvec3 nearestOnTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                                     const glm::dvec3& c) {
-    // Ericson 2004, "Real-Time Collision Detection", 5.1.5: by the regions of the triangle's plane.
+    // Ericson 2004, "Real-Time Collision Detection", 5.1.5: by Voronoi regions of the triangle.
     const glm::dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap), d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp),
                  d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
@@ -64,10 +64,10 @@ inline glm::dvec3 nearestInCell(const glm::dvec3& p, const Cell& cell) {
     return best;
 }
 
-// The region that a point light (a sphere) or a spot (the sector of one) lights.
+// Region lit by a point light (sphere) or a spot (spherical sector).
 struct LitRegion {
     glm::dvec3 apex, axis;
-    double range = 1, half = glm::pi<double>();  // half: the cone's half angle, rad
+    double range = 1, half = glm::pi<double>();  // half: half angle of the cone, rad
 
     glm::dvec3 nearest(const glm::dvec3& p) const {
         const glm::dvec3 v = p - apex;
@@ -85,8 +85,8 @@ struct LitRegion {
     }
 };
 
-// The distance between the two convex sets, by alternating projections (Cheney and Goldstein 1959,
-// "Proximity maps for convex sets") from several starting points; negative if it has not converged.
+// Distance of the two convex sets, by alternating projections (Cheney and Goldstein 1959, "Proximity maps
+// for convex sets") from several starting points. Negative if not converged.
 inline double gap(const LitRegion& region, const Cell& cell) {
     const auto corners = cell.corners();
     double least = std::numeric_limits<double>::infinity();

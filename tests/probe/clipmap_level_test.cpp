@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The level of the sun's clipmap that shaders choose against what levels are.
+// The level of the sun's clipmap that shaders choose, compared with the definition of levels.
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace diptych {
 namespace {
 
-// The finest level whose reach is no less than the distance: exact at a level's end, the next one as soon as
-// float32 is beyond it; the whole scene's beyond all.
+// The finest level whose extent is at least the distance: exact at a level's end, the next one as soon as
+// float32 exceeds it. Beyond all levels, the whole scene's.
 TEST(ClipmapLevel, IsTheFinestThatReaches) {
     constexpr float levels = 9;
     std::vector<float> in;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the kernel of culling leaves out covers no sample, however a device rounds, and what it leaves comes
-// in the order of clusters; it leaves out about as much as the host.
+// The culling compute shader never removes a triangle that covers a sample, whatever the device's
+// rounding. It keeps meshlet order and removes about as many triangles as the CPU.
 #include "shared/draw/culling.h"
 
 #include "shared/draw/posing.h"
@@ -30,7 +30,7 @@ namespace {
 using tests::Rasteriser;
 using tests::TriangleMesh;
 
-// The device that there is, choosing by compute.
+// The available device, with culling by compute.
 struct ChoosingDevice {
     Device device{{.choice = "", .validate = true, .choices = ProfileChoices::culling_by_compute}};
     OwnedDescriptorSetLayout material = Materials::makeLayout(device);
@@ -67,7 +67,7 @@ Scene sceneOf(const TriangleMesh& mesh, bool double_sided) {
     return scene;
 }
 
-// Draws one instance, chooses, and holds what is left out against what covers samples.
+// Culls one instance, and checks that no culled triangle covers a sample.
 ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::string& name) {
     ChoosingDevice& on = chooser();
     const Scene scene = sceneOf(round.mesh, round.double_sided);
@@ -97,7 +97,7 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
     const glm::dmat4 fromCamera = fromEye(placed, round.view.eye());
     const VisibleClusters host(grid, round.view.clipFromWorld() * fromCamera, item.range.bounds_min,
                                item.range.bounds_max, !round.double_sided, item.mirrored);
-    // From near to far, as Culling has it.
+    // From near to far, as Culling sorts.
     const glm::dvec4 depth = glm::transpose(fromCamera) * glm::dvec4(-round.view.backward(), 0);
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t k = 0; k < item.range.cluster_count; ++k) {
@@ -114,7 +114,7 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
             host.of(cluster, geometry.clusterTriangles(), geometry.clusterTriangles()[number])));
         for (std::size_t i = 0; i < of.size(); i += 3) {
             const std::array<std::uint32_t, 3> numbers{of[i], of[i + 1], of[i + 2]};
-            // Two triangles of the same corners one after the other are the same to the eye.
+            // Two consecutive triangles with the same corners are indistinguishable.
             const bool isKept = next < chosen.size() && chosen[next] == numbers;
             next += isKept;
             std::array<glm::vec3, 3> corners;
@@ -155,7 +155,7 @@ TEST(CullingKernel, LeavesOutNothingThatCoversASample) {
     for (int i = 0; i < 160; ++i) {
         KernelRound round;
         round.samples = i % 3 == 0 ? (i % 2 == 0 ? 4 : 8) : 1;
-        // Some of several parts of clusters.
+        // Some have several meshlet ranges.
         round.mesh = tests::ballOf(i % 20 == 7 ? 60 : 6 + i % 17, i % 4 == 0 ? 0.3 : 0.0, random);
         round.placed = turned(random, {i % 7 == 3 ? -1 : 1, i % 6 == 0 ? 0.05 : 1, 1 + 0.5 * part(random)});
         round.double_sided = i % 9 == 0;
@@ -165,7 +165,7 @@ TEST(CullingKernel, LeavesOutNothingThatCoversASample) {
             (i % 3 == 1 ? 0.4 * away : 0.5) * glm::dvec3(part(random), part(random), part(random));
         round.view = tests::viewOf({48 + i % 37, 40, round.samples}, eye, target, i % 2 == 0 ? 0.9 : 0.2,
                                    0.05, i % 8 == 5);
-        // Far from the world's origin, at times.
+        // Some are far from the world's origin.
         if (i % 5 == 0) {
             const glm::dvec3 far(90'000, -300, 50'000);
             round.placed = glm::translate(glm::dmat4(1), far) * round.placed;
@@ -179,20 +179,21 @@ TEST(CullingKernel, LeavesOutNothingThatCoversASample) {
     RecordProperty("kept", fmt::format("{} of {}, by the host {}, {} show", all.kept, all.triangles,
                                        all.by_host, all.shown));
     EXPECT_LT(2 * all.kept, all.by_host) << "which keeps clusters that reach beyond the view whole";
-    // What is kept and covers nothing is the margins' price: under a third more than shows.
+    // Triangles kept without covering a sample are the cost of the margins: under a third of the visible
+    // ones.
     EXPECT_LT(10 * all.kept, 13 * all.shown);
     EXPECT_EQ(chooser().device.validationMessages(), 0u) << chooser().device.firstValidationMessage();
 }
 
-// A ball far from its own origin, where the mesh has another triangle: products of its corners lose digits,
-// so that they are off by more than a rasteriser moves them.
+// Ball far from its own origin, where the mesh has another triangle. Products of its corners cancel, and
+// their error exceeds the rasteriser's snapping.
 TEST(CullingKernel, LeavesOutNothingThatProductsMayMoveToASample) {
     std::mt19937 random(31);
     std::uniform_real_distribution<double> part(-1, 1);
     ChosenCounts all;
     for (int i = 0; i < 60; ++i) {
         KernelRound round;
-        // Margins are for the worst that may be: of those where rounding does show, nearly all is kept.
+        // Margins cover the worst case, so nearly all triangles are kept where rounding is visible.
         const glm::vec3 middle = (i % 2 == 0 ? 1.0f : 6.0f) * glm::vec3(2250, -750, 1250);
         round.mesh = tests::ballOf(i % 2 == 0 ? 8 + i % 5 : 50, i % 3 == 0 ? 0.1 : 0.0, random, middle);
         const auto first = static_cast<std::uint32_t>(round.mesh.positions.size());
@@ -211,7 +212,7 @@ TEST(CullingKernel, LeavesOutNothingThatProductsMayMoveToASample) {
     EXPECT_GT(all.triangles - all.kept, 1000u);
 }
 
-// Seen along a triangle's plane, from before or behind it by little: near where the decision falls.
+// Seen along a triangle's plane, slightly in front or behind: near the facing threshold.
 TEST(CullingKernel, LeavesOutNothingSeenAlongItsPlaneThatCoversASample) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -229,7 +230,7 @@ TEST(CullingKernel, LeavesOutNothingSeenAlongItsPlaneThatCoversASample) {
                            glm::dvec4(glm::dvec3(round.mesh.positions[round.mesh.indices[3 * seen + c]]), 1));
         const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
         if (!(glm::length(normal) > 1e-9)) continue;
-        // Along one of its edges or across, and off its plane by a share of the distance.
+        // Along one of its edges or across, and off its plane by a fraction of the distance.
         const double turn = 3.2 * part(random);
         const glm::dvec3 edge = glm::normalize(at[1] - at[0]), up = glm::normalize(normal),
                          along = std::cos(turn) * edge + std::sin(turn) * glm::cross(up, edge);
@@ -249,8 +250,8 @@ TEST(CullingKernel, LeavesOutNothingSeenAlongItsPlaneThatCoversASample) {
     EXPECT_LT(10 * all.kept, 13 * all.shown);
 }
 
-// A board of one cluster that reaches over an edge of the picture by a pixel at most: it is kept; and one
-// that lies as far beyond is not.
+// A board of one meshlet that reaches over an edge of the image by about a pixel is kept; one that is as
+// far outside is culled.
 TEST(CullingKernel, KeepsWhatReachesIntoTheViewAlone) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(0, 1);
@@ -290,7 +291,7 @@ TEST(CullingKernel, LeavesOutWhatLiesBetweenSamples) {
             round.samples = samples;
             round.double_sided = true;
             round.view = tests::viewOf({64, 64, samples}, {0, 0, 500}, {0, 0, 0}, 0.9, 0.1, false);
-            // The picture's middle is between four pixels, half a pixel from the middle of each.
+            // The image's centre is a pixel corner, half a pixel from four pixel centres.
             const double pixel = 2 * 500.0 * std::tan(0.45) / 64, radius = 0.3 * pixel / samples;
             round.placed = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(off * pixel, off * pixel, 0)),
                                       glm::dvec3(radius));

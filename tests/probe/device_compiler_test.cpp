@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The compiler of a GPU that is not there: what it says of pipelines that are light, that spill, and that ask
-// for more than it has.
+// Compiling for a GPU that is not installed: reports for light pipelines, for ones that spill, and for
+// ones that exceed the device's limits.
 #include "shared/vulkan/device_compiler.h"
 #include "shared/vulkan/descriptors.h"
 #include "shared/vulkan/driver_probe.h"
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> wordsOf(const std::string& shader) {
 
 class DeviceCompilerTest : public testing::Test {
 protected:
-    // A compiler is opened once for all.
+    // Opened once for all tests.
     static void SetUpTestSuite() {
         if (radvFiles().empty()) return;
         compiler_.emplace(family);
@@ -113,7 +113,7 @@ TEST_F(DeviceCompilerTest, RefusesMoreSharedMemoryThanThereIs) {
 }
 
 TEST_F(DeviceCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
-    // No AMD GPU since GCN 3 has a depth format of 24 bits.
+    // No AMD GPU since GCN 3 has a 24-bit depth format.
     const PipelineKey key{.vertex = Shader::full_screen_vert, .depth = VK_FORMAT_X8_D24_UNORM_PACK32};
     const OwnedPipelineLayout layout = makePipelineLayout(*device_, {});
     const std::array requests{PipelineRequest{.layout = layout, .key = key, .choose = plainParts}};
@@ -123,7 +123,7 @@ TEST_F(DeviceCompilerTest, SaysWhichFormatCannotBeDrawnTo) {
         << compiled.error;
 }
 
-// Debian 12's Mesa 22.3 knows no RDNA 3 and 4 by these names, Debian 13's Mesa 25 all.
+// Mesa 22.3 (Debian 12) does not know these names of RDNA 3 and 4; Mesa 25 (Debian 13) knows all.
 TEST_F(DeviceCompilerTest, RecentFamiliesCompileOrAreNamed) {
     const std::string driver = compiler_->info().driver, mesa = "Mesa ";
     ASSERT_NE(driver.find(mesa), std::string::npos) << driver;
@@ -138,7 +138,7 @@ TEST_F(DeviceCompilerTest, RecentFamiliesCompileOrAreNamed) {
     }
 }
 
-// RADV ends the whole process there, which must not be this one.
+// RADV exits the process for unknown families, so the compiler runs in a child process.
 TEST(DriverProbe, AFamilyThatRadvDoesNotKnowIsAnError) {
     if (radvFiles().empty()) GTEST_SKIP() << "RADV (mesa-vulkan-drivers) is not installed";
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The probes of `diptych devices --probe` on the tests' device, and faults planted in what it gives.
+// Runs the probes of `diptych devices --probe` on the tests' device, and injects faults into its outputs.
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
 #include "tests/probe/probe.h"
@@ -22,13 +22,13 @@ TEST(DeviceProbesOnDevice, AllPass) {
     }
 }
 
-// A float that is converted to fewer bits goes to one of the two codes around it (Vulkan, "Fixed-Point Data
-// Conversion" and 16-bit floats): less than a step.
+// Converting a float to fewer bits gives one of the two nearest codes (Vulkan, "Fixed-Point Data
+// Conversion" and 16-bit floats): an error of less than a step.
 TEST(DeviceProbesOnDevice, RoundingToATargetStaysWithinAStep) {
     const std::vector<TargetRounding> all = probeDevice().probeRounding();
     EXPECT_EQ(all.size(), 5u);
     for (const TargetRounding& target : all) {
-        EXPECT_GT(target.steps, 0.4) << target.format;  // of 4,096 values one lies near the middle
+        EXPECT_GT(target.steps, 0.4) << target.format;  // one of 4,096 values is close to the middle
         EXPECT_LT(target.steps, 1.0) << target.format;
     }
 }
@@ -39,7 +39,7 @@ const Probe& probeNamed(std::string_view name) {
     return *found;
 }
 
-// Whether the probe fails where `fault` has changed each row's outputs.
+// Whether the probe fails if `fault` changes each row's outputs.
 template <class Fault>
 bool isCaught(std::string_view name, Fault fault) {
     const Probe& probe = probeNamed(name);
@@ -96,7 +96,7 @@ TEST(DeviceProbesOnDevice, PlantedFaultsAreFound) {
     EXPECT_TRUE(isCaught("froxel of a pixel and depth", [](float* out) { out[0] += 1; }));
 }
 
-// What is no number fails, whatever is allowed; so does a step back that no device may take.
+// NaN fails whatever the tolerance; so does a decreasing code.
 TEST(DeviceProbesOnDevice, NoNumbersAndStepsBackAreFound) {
     const auto spoil = [](float* out) { out[0] = std::numeric_limits<float>::quiet_NaN(); };
     for (const Probe& probe : allProbes()) EXPECT_TRUE(isCaught(probe.name, spoil)) << probe.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which instances are drawn from a view, in which order, and with what transforms.
+// Which instances are rendered from a view, in which order, and with which transforms.
 #include "shared/draw/draw_list.h"
 
 #include "shared/contract/features.h"
@@ -23,8 +23,8 @@
 namespace diptych {
 namespace {
 
-// A square of 1 m whose corner is the origin, in the plane z = 0, facing +Z; of an opaque material 0 and, as
-// the second primitive, of a masked material 1.
+// Square of 1 m with a corner at the origin, in the plane z = 0, facing +Z. Primitive 0 has the opaque
+// material 0, primitive 1 the masked material 1.
 Scene squares() {
     Scene scene;
     scene.materials.resize(2);
@@ -54,7 +54,7 @@ View viewAlongZ(bool orthographic = false) {
 }
 const glm::dvec3 eye(5, 6, 7);
 
-// The list of instances that stand at these transforms, of the opaque square or of that primitive.
+// Draw list of instances with these transforms, of the opaque square or of the given primitives.
 DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
                 const std::vector<int>& primitives = {}) {
     const Scene scene = squares();
@@ -68,8 +68,8 @@ DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
     return makeDrawList(pose, geometry, materials, view);
 }
 
-// Squares of 1 cm, each a millimetre within an edge of the picture at 10 m, and each as far beyond it; and on
-// both sides of the nearest and farthest depth.
+// Squares of 1 cm at a depth of 10 m, each a millimetre inside or outside an edge of the image; and the
+// same at the near and far planes.
 TEST(DrawList, WhatLiesWhollyBeyondAPlaneOfTheViewIsLeftOut) {
     constexpr double size = 0.01, hair = 0.001;
     for (const bool orthographic : {false, true}) {
@@ -117,8 +117,8 @@ TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
     EXPECT_EQ(list.items[3].range.material, 1u);
 }
 
-// Positions relative to the camera; normals at right angles to the scaled surface, on the side of its front
-// also where a transform mirrors it.
+// Positions are relative to the camera. Normals are perpendicular to the scaled surface, on its front side
+// even if a transform mirrors.
 TEST(DrawList, TransformsAreThoseOfPositionsAndNormals) {
     const glm::dmat4 plain = placed({5, 6, -3}),
                      flat = glm::rotate(placed({5, 6, -3}), 0.5, glm::dvec3(1, 0, 0)) *
@@ -140,7 +140,7 @@ TEST(DrawList, TransformsAreThoseOfPositionsAndNormals) {
             const glm::dvec4 clip = view.clipFromWorld() * glm::dvec4(expected, 1);
             EXPECT_LT(glm::distance(glm::dvec4(draw.clip_from_object * glm::vec4(p, 1)), clip), 1e-4);
         }
-        // At right angles to both edges of a surface, and towards its front.
+        // Perpendicular to both edges of a surface, towards its front.
         const glm::dvec3 x = glm::dmat3(world) * glm::dvec3(1, 0.5, 0.25),
                          y = glm::dmat3(world) * glm::dvec3(0, 1, 1),
                          normal(draw.normal_from_object *
@@ -150,8 +150,8 @@ TEST(DrawList, TransformsAreThoseOfPositionsAndNormals) {
     }
 }
 
-// Blended squares of material 1 at these heights above the plane z = 0, in that order; the first primitive is
-// opaque, the second has the heights, the third only the last of them.
+// Blended squares of material 1 at these heights above the plane z = 0, in that order. Primitive 0 is
+// opaque, primitive 1 has all heights, primitive 2 only the last.
 struct BlendedSquares {
     Scene scene = squares();
     Uploader uploader{probeDevice()};
@@ -193,7 +193,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> runsOf(const DrawList& list
     return runs;
 }
 
-// A comb in another one, 10, 12 and 14 m away, and 11, 13 and 15 m. Both triangles of a square are as far.
+// Interleaved squares, at 10, 12 and 14 m and at 11, 13 and 15 m. Both triangles of a square have the same
+// depth.
 TEST(DrawList, TrianglesOfAllBlendedDrawsAreSortedTogether) {
     const BlendedSquares squares({0, -4, -2});
     const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
@@ -213,7 +214,7 @@ TEST(DrawList, TrianglesThatFollowOneAnotherAreOneRunAndEqualOnesAreAsInTheScene
     const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     EXPECT_EQ(runsOf(squares.listOf({{1, at(10)}, {1, at(20)}}, viewAlongZ())),
               (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 18}, {0, 18}}));
-    // The third primitive lies where the second's last square does.
+    // Primitive 2 coincides with the last square of primitive 1.
     EXPECT_EQ(runsOf(squares.listOf({{2, at(10)}, {1, at(10)}}, viewAlongZ())),
               (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 6}, {0, 6}, {1, 12}}));
     EXPECT_EQ(runsOf(squares.listOf({{1, at(10)}, {2, at(10)}}, viewAlongZ())),
@@ -238,7 +239,7 @@ TEST(DrawList, NothingIsSortedOfWhatIsCulledOpaqueOrDrawnInAnotherOrder) {
     EXPECT_EQ(Geometry(probeDevice(), uploader, opaque).hostBytes(), 0u);
 }
 
-// Depths of centroids, from the scene's own positions: however an instance and the view are turned.
+// Depths of centroids, from the scene's positions, for any rotation of instance and view.
 TEST(DrawList, TrianglesNeverComeNearerBeforeFarther) {
     const BlendedSquares squares({0, 3, -4, 1, -2, 2});
     std::mt19937 random(5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The precision of the G-buffer's encodings, measured on the shipped GLSL.
+// Precision of the G-buffer's encodings, measured on the shipped GLSL.
 #include "tests/probe/probe.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ struct Angles {
     double mean = 0, max = 0;  // degrees
 };
 
-// Uniform directions by the area-preserving cylinder map on a golden-ratio lattice: as even as random and
-// the same on every machine.
+// Uniform directions by the area-preserving cylinder map of a golden-ratio lattice: as uniform as random
+// ones, and identical on every machine.
 Angles octahedralError(Probes& probes, int bits) {
     constexpr int count = 400'000;
     std::vector<float> input;
@@ -43,8 +43,8 @@ Angles octahedralError(Probes& probes, int bits) {
     return angles;
 }
 
-// The table of normal encodings for uniform directions; 2 % for another sampling of the sphere, and 1e-5
-// degrees for directions in float32.
+// Published errors of normal encodings for uniform directions; 2 % for a different sampling of the sphere,
+// and 1e-5 degrees for float32 directions.
 TEST(Encoding, OctahedralMeetsTheTable) {
     Probes probes;
     struct Row {
@@ -73,7 +73,7 @@ TEST(Encoding, OctahedralKeepsTheAxesExactly) {
             EXPECT_EQ(output[i * 3 + c], input[i * 4 + c]) << "direction " << i;
 }
 
-// 9.9.9.e5: half a step of the largest component, which has nine bits of which the first is set: 1 / 512.
+// 9.9.9.e5: half a step of the largest component. Its nine bits start with a one: 1 / 512.
 TEST(Encoding, SharedExponentKeepsTheLargestComponentWithinHalfAStep) {
     Probes probes;
     std::mt19937 random(1);
@@ -99,7 +99,7 @@ TEST(Encoding, SharedExponentKeepsTheLargestComponentWithinHalfAStep) {
     EXPECT_EQ(row(3)[2], 65408.0f) << "beyond the range: the largest; the layout then chooses float32";
 }
 
-// sqrt in 8 bits: |x - y| <= 2 sqrt(x) h + h^2 with the half step h, and the usual F0 exactly.
+// sqrt in 8 bits: |x - y| <= 2 sqrt(x) h + h^2 with half step h; the default F0 is exact.
 TEST(Encoding, SquareRootInEightBits) {
     Probes probes;
     std::vector<float> input;
@@ -111,7 +111,7 @@ TEST(Encoding, SquareRootInEightBits) {
     for (std::size_t i = 0; i < input.size() / 3; ++i)
         for (std::size_t c = 0; c < 3; ++c) {
             const double x = input[i * 3 + c], y = output[i * 8 + 3 + c];
-            // 1e-6: float32 in the root, the product and the square.
+            // 1e-6: float32 rounding in the root, the product and the square.
             ASSERT_LE(std::abs(x - y), 2 * std::sqrt(x) * h + h * h + 1e-6) << x;
         }
     const float* last = &output[output.size() - 8];
@@ -132,7 +132,7 @@ TEST(Encoding, UnormInTwelveBitsRoundsToNearest) {
     EXPECT_GT(worst, 0.45 / 4095);
 }
 
-// No channel shows F90; its eight bits are bounded here.
+// No channel shows F90, so its 8-bit error is bounded here.
 TEST(Encoding, F90InEightBits) {
     Probes probes;
     std::vector<float> input;
@@ -145,7 +145,7 @@ TEST(Encoding, F90InEightBits) {
     EXPECT_GT(worst, 0.45 / 255);
 }
 
-// Decoding never leaves the unit sphere.
+// Decoding always yields a unit vector.
 TEST(Encoding, EveryOctahedralCodeIsAUnitVector) {
     Probes probes;
     for (const int bits : {8, 12, 16}) {
@@ -168,7 +168,7 @@ TEST(Encoding, EveryOctahedralCodeIsAUnitVector) {
     }
 }
 
-// Decoded numbers are within [0, 1], also of numbers that are not.
+// Decoded values are within [0, 1], even for inputs that are not.
 TEST(Encoding, PackedNumbersStayWithinTheirDomain) {
     Probes probes;
     std::vector<float> input;

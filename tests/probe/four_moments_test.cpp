@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Filters of four moments against what is known in closed form.
+// Filters of four moments compared with closed forms.
 #include "tests/probe/moment_filter.h"
 
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 namespace diptych {
 namespace {
 
-// The light that four moments let through, by another way than the shader's: the distribution that they are
-// biased to is known, so its orthogonal polynomials are. Of all distributions with the same four moments that
-// have a place at `at`, the one that shadows least has its other places where the kernel of these polynomials
-// is 0, and weighs each place by 1 / kernel (Akhiezer 1965, "The Classical Moment Problem").
+// Light that four moments transmit, computed differently from the shader: the biased distribution is
+// known, and with it its orthogonal polynomials. Among all distributions with these four moments and a
+// point at `at`, consider the one with the least shadow. Its other points are roots of the polynomials'
+// kernel, with weights 1 / kernel (Akhiezer 1965, "The Classical Moment Problem").
 double leastShadowOfBiased(double first, double second, double share, double bias, double at) {
     const std::array<double, 4> places{first, second, 0, 1},
         weights{(1 - bias) * share, (1 - bias) * (1 - share), bias / 2, bias / 2};
@@ -39,7 +39,7 @@ double leastShadowOfBiased(double first, double second, double share, double bia
         for (double& c : p) c /= length;
         polynomials[n] = p;
     }
-    std::array<double, 3> kernel{};  // as a polynomial of its other argument
+    std::array<double, 3> kernel{};  // polynomial in its second argument
     for (const auto& p : polynomials)
         for (std::size_t i = 0; i < 3; ++i) kernel[i] += value(p, at) * p[i];
     const double half = -kernel[1] / (2 * kernel[2]),
@@ -53,10 +53,10 @@ double leastShadowOfBiased(double first, double second, double share, double bia
     return before;
 }
 
-// Two occluders cover half of the filter each, far apart, and the receiver lies behind both. The first warp
-// lets light through just behind the second occluder, as with two moments. With s = exp(-k d) of the other
-// one Chebyshev's bound is v / (v + (m - s)^2), m = (s1 + s2) / 2, v = (s1 - s2)^2 / 4: what of the depths
-// between the occluders is not much farther than they are apart leaks there. The lesser counts.
+// Two distant occluders cover half of the filter each; the receiver lies behind both. The first warp leaks
+// just behind the second occluder, as with two moments. For the second warp, with s = exp(-k d),
+// Chebyshev's bound is v / (v + (m - s)^2), m = (s1 + s2) / 2, v = (s1 - s2)^2 / 4. It leaks if the receiver
+// is not much farther behind than the occluders are apart. The smaller leak applies.
 TEST(FourMoments, Evsm4LeaksTheLesserOfBothClosedForms) {
     for (const float nearest : {0.0f, -1.0f})
         for (const float exponent : {5.0f, 20.0f, 40.0f})
@@ -92,7 +92,7 @@ TEST(FourMoments, Evsm4LeaksTheLesserOfBothClosedForms) {
             }
 }
 
-// Four moments of two depths are those of no other distribution: what leaks is what the bias lets through.
+// Four moments of two depths determine the distribution, so only the bias leaks.
 TEST(FourMoments, Msm4LeaksWhatItsBiasLetsThrough) {
     for (const float bias : {3e-5f, 6e-5f, 1e-3f})
         for (const float near : {0.95f, 0.8f, 0.55f}) {
@@ -111,7 +111,7 @@ TEST(FourMoments, Msm4LeaksWhatItsBiasLetsThrough) {
         }
 }
 
-// An occluder covers a part of a plane's filter: the plane is shadowed by that part, with either filter.
+// An occluder covers a fraction of a plane's filter: both filters shadow the plane by that fraction.
 TEST(FourMoments, APlaneReceivesWhatCoversIt) {
     for (const gpu::uint shadows : {gpu::SHADOWS_EVSM, gpu::SHADOWS_EVSM4, gpu::SHADOWS_MSM4}) {
         std::vector<MomentFilter> filters;
@@ -125,7 +125,7 @@ TEST(FourMoments, APlaneReceivesWhatCoversIt) {
     }
 }
 
-// Nothing before a receiver shadows it; all of it before does.
+// A single depth behind the receiver casts no shadow; one in front casts full shadow.
 TEST(FourMoments, ASingleDepthIsAllOrNothing) {
     for (const gpu::uint shadows : {gpu::SHADOWS_EVSM4, gpu::SHADOWS_MSM4}) {
         const std::vector<MomentResult> results =
@@ -140,7 +140,7 @@ TEST(FourMoments, ASingleDepthIsAllOrNothing) {
     }
 }
 
-// As stored and as read: the same moments, and shares that integers hold.
+// Stored moments fill [0, 1], the range of unsigned normalized integers.
 TEST(FourMoments, OfEveryDepthFillTheRangeOfIntegers) {
     std::vector<MomentFilter> filters;
     for (int i = -5; i <= 105; ++i)
@@ -159,7 +159,7 @@ TEST(FourMoments, OfEveryDepthFillTheRangeOfIntegers) {
     }
 }
 
-// What no blur makes and what a stray depth may leave: a visibility is a share all the same.
+// Values that no blur produces, but stray depths may: visibility still stays in [0, 1].
 TEST(FourMoments, AnythingStoredGivesAShare) {
     constexpr float inf = std::numeric_limits<float>::infinity(),
                     nan = std::numeric_limits<float>::quiet_NaN(), big = std::numeric_limits<float>::max(),
@@ -188,9 +188,9 @@ TEST(FourMoments, AnythingStoredGivesAShare) {
     }
 }
 
-// Both precisions at their own exponents, moments of 16 bits rounded down as lavapipe stores them: how far
-// behind the second of two half-covering occluders more than 5 % of the light is left. About eight times as
-// far, which is the ratio of the exponents.
+// Both precisions with their own exponents; 16-bit moments are rounded down, as lavapipe stores them.
+// Measures how far behind the second of two half-covering occluders more than 5 % of the light leaks. 16
+// bits leak about eight times as far, the ratio of the exponents.
 TEST(FourMoments, SixteenBitsLeakFartherThanThirtyTwo) {
     const auto down = [](float value) {
         const float half = glm::unpackHalf1x16(glm::packHalf1x16(value));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SET_FRAME for the kernels that make light lists, which read View and LightGrid. All other bindings hold
-// something valid, because a device may access whatever is bound.
+// SET_FRAME for the light-list compute shaders, which read View and LightGrid. All other bindings are
+// valid, because a device may access any bound resource.
 #pragma once
 
 #include "shared/contract/bindings.h"
@@ -17,8 +17,7 @@
 
 namespace diptych {
 
-// A picture of the camera at the origin looking along -z: the view axes (x, y, z) are (x, -y, -z) in the
-// world.
+// View of a camera at the origin along -z: view axes (x, y, z) are (x, -y, -z) in the world.
 inline View plainView(int width, int height, double yfov = 1) {
     View view;
     view.width = width;
@@ -27,7 +26,7 @@ inline View plainView(int width, int height, double yfov = 1) {
     return view;
 }
 
-// View depth, m, from the reversed depth z > 0, and the reverse.
+// View depth, m, from reversed depth z > 0, and the inverse.
 inline double depthOf(const View& view, double z) {
     const gpu::View v = view.gpuView();
     return (double{v.depth_numerator.x} + double{v.depth_numerator.y} * z) /
@@ -60,7 +59,7 @@ public:
 private:
     static constexpr VkDescriptorType uniform = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     using Types = std::array<VkDescriptorType, gpu::BINDING_LIST_COUNTS + 1>;
-    // Bindings that the kernels do not read may have any content, except those that LightLists::bind()
+    // Bindings that the shaders do not read may have any content, except those that LightLists::bind()
     // writes.
     static const Types& types() {
         static const Types all = [] {

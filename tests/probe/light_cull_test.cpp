@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The culling tests of lights against cells, compared with exact intersections in double precision: there
-// must be no false negatives, and the false positives are counted.
+// Culling tests of lights against tiles and froxels, compared with exact intersections in double
+// precision. There must be no false negatives; false positives are counted.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
 #include "shared/vulkan/device.h"
@@ -43,7 +43,7 @@ std::vector<CullCase> randomCases(std::size_t count, bool spots, unsigned seed) 
         c.cell.y = glm::dvec2(both(random)) + glm::dvec2(0, side);
         const double range = depth * std::pow(10.0, 2 * unit(random) - 1.5);
         c.region.range = static_cast<double>(static_cast<float>(range));
-        // At about the light's range from the cell, where about half of the lights reach it.
+        // About one light range from the cell, so that about half of the lights reach it.
         const auto corners = c.cell.corners();
         const glm::dvec3 at = glm::mix(corners[0], corners[7], unit(random));
         glm::dvec3 away(both(random), both(random), both(random));
@@ -101,7 +101,7 @@ std::vector<CullCase> edgeCases(std::size_t count, bool spots, unsigned seed) {
     return cases;
 }
 
-// Bounds as the program makes them: view axes are those of the world with y and z inverted.
+// Bounds as the program makes them. View axes are the world's with y and z inverted.
 std::vector<gpu::LightBound> boundsOf(const std::vector<CullCase>& cases, bool spots) {
     std::vector<Light> lights;
     for (const CullCase& c : cases) {
@@ -118,7 +118,7 @@ std::vector<gpu::LightBound> boundsOf(const std::vector<CullCase>& cases, bool s
     return lightBounds(gpuLights(lights, glm::dvec3(0)), view);
 }
 
-// What is made 1 % smaller before it is given to the shader.
+// The input that is made 1 % smaller for the shader.
 enum class Shrunk { nothing, radius, sides, depths, cone };
 
 struct Answer {
@@ -157,7 +157,7 @@ std::vector<Answer> ask(Probes& probes, const std::vector<CullCase>& cases, bool
 
 struct Tally {
     int meeting = 0, apart = 0, false_no = 0, false_yes = 0;
-    int row_no = 0;  // reaches the cell, but its row is reported as not reached
+    int row_no = 0;  // reaches the cell, but the row test rejects it
 };
 
 Tally tally(Probes& probes, bool spots, Shrunk shrunk, unsigned seed) {
@@ -194,7 +194,7 @@ TEST(LightCull, ABallIsNeverMissed) {
     EXPECT_EQ(t.row_no, 0);
     EXPECT_GT(t.meeting, 5000);
     EXPECT_GT(t.apart, 5000);
-    // The nearest point of a froxel is exact, except where Newton's iteration ends on another piece.
+    // The nearest point of a froxel is exact, unless Newton's iteration ends on another piece.
     EXPECT_LT(t.false_yes, t.apart / 200) << "a test that keeps everything would pass the rest";
 }
 
@@ -209,8 +209,7 @@ TEST(LightCull, ASpotIsNeverMissed) {
     EXPECT_LT(t.false_yes, t.apart / 2);
 }
 
-// A tile in which nothing is drawn has its least depth behind its greatest one: no light reaches it, however
-// large the light.
+// An empty tile has its minimum depth behind its maximum: no light reaches it, however large.
 TEST(LightCull, NothingReachesACellWithoutAnythingDrawn) {
     Probes probes;
     std::vector<CullCase> cases;
@@ -252,18 +251,18 @@ TEST(LightCull, WhatIsOnePerCentTooSmallIsCaught) {
     EXPECT_GT(tally(probes, true, Shrunk::cone, 22).false_no, 0) << "a spot's cone";
 }
 
-// ---- the scatter kernel's rectangles -----------------------------------------------------------------
+// ---- the scatter shader's rectangles -----------------------------------------------------------------
 
-// A picture's grid, a sphere and a depth slab, for which the rectangle of tiles is computed.
+// Grid of an image, a sphere and a depth slab, for which the rectangle of tiles is computed.
 struct RectCase {
     gpu::LightGrid grid;
     glm::dvec3 centre;
-    double radius;          // what is lit
-    gpu::LightBound bound;  // what the kernel is given
+    double radius;          // lit region
+    gpu::LightBound bound;  // input of the compute shader
     SliceDepths slab;
 };
 
-// Pictures of any shape, from one pixel on, with the grids that the program makes for them.
+// Images of any shape, from one pixel up, with the grids that the program makes for them.
 std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
@@ -280,7 +279,7 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
         const double aspect = static_cast<double>(view.width) / view.height;
         std::vector<Light> lights(40);
         for (Light& light : lights) {
-            // In the picture and around it, a few behind the camera, some around the camera.
+            // Inside the image and around it, a few behind the camera, some around the camera.
             const double depth = 30 * unit(random) * unit(random) - 1,
                          scale = orthographic ? 1 : std::abs(depth);
             light.position = {1.3 * half * aspect * scale * both(random), 1.3 * half * scale * both(random),
@@ -398,7 +397,7 @@ TEST(LightRect, NoTileThatALightReachesIsLeftOut) {
         EXPECT_LT(t.row_walked, t.walked) << "rows are cut shorter than the rectangle";
         EXPECT_GT(t.meeting, 5000u);
         EXPECT_LT(t.walked, t.tiles / 2) << "a rectangle of all tiles would pass the rest";
-        // A disc fills pi/4 of its square: at most 4/pi as many, of lights that cover many tiles.
+        // A disc fills pi/4 of its square: at most 4/pi as many, for lights that cover many tiles.
         EXPECT_LT(static_cast<double>(t.walked), 4 / glm::pi<double>() * static_cast<double>(t.meeting));
     }
 }

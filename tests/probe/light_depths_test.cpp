@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The depth bounds of tiles by the shipped kernel, with one sample and with four for each pixel. Bounds must
-// cover all samples, because a tile's lists must not depend on which sample is shaded.
+// Depth bounds of tiles by the shipped compute shader, with one sample and with four per pixel. Bounds
+// must cover all samples: a tile's lists must not depend on which sample is shaded.
 #include "shared/scene/motion/bounds.h"
 #include "shared/vulkan/descriptors.h"
 #include "tests/probe/kernel_frame.h"
@@ -15,7 +15,7 @@
 namespace diptych {
 namespace {
 
-// Reversed depths of a picture, `samples` for each pixel, side by side; 0: background.
+// Reversed depths of an image, `samples` per pixel, side by side; 0: background.
 struct Picture {
     int width, height, samples;
     std::vector<float> z = std::vector<float>(static_cast<std::size_t>(width * height * samples));
@@ -41,7 +41,7 @@ OwnedImageView viewOf(VkImage image) {
     return {probeDevice().handle(), view};
 }
 
-// A depth image of any sample count.
+// Depth image of any sample count.
 struct DepthImage {
     Allocation memory;
     OwnedImage image;
@@ -77,7 +77,7 @@ struct DepthImage {
     }
 };
 
-// Draws the whole picture to the samples of `mask` alone.
+// Renders a full-screen triangle to the samples of `mask` only.
 OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask mask) {
     const OwnedShaderModule modules[] = {probeModule(probeDevice(), "whole_picture.vert"),
                                          probeModule(probeDevice(), "sample_depths.frag")};
@@ -138,7 +138,7 @@ OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask m
     return {probeDevice().handle(), pipeline};
 }
 
-// The picture's samples, one after the other, drawn to an image that a kernel then reads.
+// Renders the image's samples one after another, for a compute shader to read.
 class SampleDraw {
 public:
     SampleDraw(Uploader& uploader, const Picture& picture)
@@ -216,7 +216,7 @@ struct TileBounds {
     std::vector<gpu::vec2> depths;
 };
 
-// The kernel's result, for tiles of 1 << tileShift pixels.
+// The compute shader's result, for tiles of 1 << tileShift pixels.
 TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint tileShift) {
     KernelFrame frame(probeDevice(), view);
     gpu::LightGrid grid{};
@@ -259,8 +259,8 @@ TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint t
     return {grid.tiles, contents<gpu::vec2>(probeDevice(), out)};
 }
 
-// Depths from 0.5 m to 500 m. A tile's nearest and farthest depths are each in one sample of one pixel,
-// anywhere in it; some tiles have background in one sample, some only background.
+// Depths from 0.5 m to 500 m. The nearest and farthest depth of a tile are each in one sample of one
+// pixel, anywhere in it. Some tiles have background in one sample, some only background.
 Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -287,8 +287,8 @@ Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsign
     return picture;
 }
 
-// Counts the tiles whose bounds differ from those of the picture's samples in double; a float32 division is
-// within 3 ULP of them (2.5 by Vulkan, and one of the sum).
+// Counts the tiles whose bounds differ from the samples' in double. A float32 division is within 3 ULP
+// (2.5 by Vulkan, and one for the sum).
 int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const TileBounds& bounds) {
     const int side = 1 << tileShift;
     const auto same = [](float a, double b) { return std::abs(double{a} - b) <= 4e-7 * b; };
@@ -323,7 +323,7 @@ TEST(LightDepths, AreThoseOfAllSamples) {
         }
 }
 
-// Negative controls: every sample counts. A picture that differs only in one sample of each pixel has other
+// Negative control: every sample counts. An image that differs in one sample of each pixel has other
 // bounds.
 TEST(LightDepths, NoSampleIsPassedOver) {
     const View view = plainView(75, 53);

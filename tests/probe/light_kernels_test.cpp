@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both kernels of light lists make the same masks, bit for bit, and gather tests few lights in few cells.
+// Both compute shaders of light lists make the same masks, bit for bit; gather tests few lights in few
+// cells.
 #include "shared/scene/load.h"
 #include "shared/scene/motion/pose.h"
 #include "tests/probe/kernel_frame.h"
@@ -20,7 +21,7 @@
 namespace diptych {
 namespace {
 
-// The light masks of a view as one of the kernels leaves them.
+// Light masks of a view, as written by one of the compute shaders.
 struct Masks {
     gpu::LightGrid grid{};
     std::vector<gpu::uint> words, candidates;
@@ -58,7 +59,7 @@ Masks masksOf(const View& view, const std::vector<Light>& lights, gpu::uint kind
     return masks;
 }
 
-// Of pairs of a cell and a light.
+// Counts of (cell, light) pairs.
 struct Pairs {
     std::uint64_t all = 0, candidates = 0, marked = 0, different = 0;
 };
@@ -101,7 +102,7 @@ View pictureOf(int width, int height, bool orthographic) {
     return view;
 }
 
-// In and around the picture, some behind the camera; every third is a spot; `radius`: m, the median.
+// Lights inside and around the image, some behind the camera; every third is a spot. `radius`: median, m.
 std::vector<Light> lightsAround(std::size_t count, double radius, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
@@ -156,7 +157,7 @@ TEST(LightKernels, MarkTheSameCellsOfExtremeLights) {
             }
 }
 
-// What gather tests are the candidates, not all lights in all cells.
+// Gather tests candidates, not all lights in all cells.
 TEST(LightKernels, GatherTestsFewLightsInFewCells) {
     const Scene scene = loadScene("builtin:spheres?lights=16384");
     const View view = makeView(scene, poseAt(scene, 0), "", 640, 360);
@@ -169,7 +170,7 @@ TEST(LightKernels, GatherTestsFewLightsInFewCells) {
     }
 }
 
-// Negative control: a light that is 1 % smaller is seen in the masks.
+// Negative control: the masks detect a light that is 1 % smaller.
 TEST(LightKernels, ASmallerLightIsFound) {
     const View view = pictureOf(213, 119, false);
     std::vector<Light> lights = lightsAround(200, 1, 95);

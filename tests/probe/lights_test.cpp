@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_lights_punctual as the shaders evaluate it, against the specification's formulas in double.
+// KHR_lights_punctual as the shaders evaluate it, compared with the specification's formulas in double.
 #include "shared/light/lights.h"
 #include "tests/probe/probe.h"
 
@@ -37,7 +37,7 @@ TEST(Lights, FalloffIsTheSpecificationsFormula) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double d = static_cast<double>(static_cast<float>(cases[i].y));
         const double window = std::clamp(1 - std::pow(d / 10, 4), 0.0, 1.0);
-        // Near the range 1 - x^4 cancels: an error of float32's 6e-8 relative to 1, over d^2.
+        // Near the range 1 - x^4 cancels: a float32 error of 6e-8 relative to 1, divided by d^2.
         EXPECT_NEAR(out[i * 4], window / (d * d), 1e-6 * window / (d * d) + 3e-7 / (d * d));
         EXPECT_NEAR(out[i * 4 + 2], 1.0f, 2e-7f) << "the direction points to the light";
     }

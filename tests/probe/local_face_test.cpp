@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where surfaces lie in the tiles of a light that casts: across the edges and corners of its cube too, and
-// with filters that stay above the surface's own plane.
+// Lookups in the atlas tiles of a local light: across edges and corners of its cube, and with filters that
+// stay above the surface's own plane.
 #include "shared/contract/features.h"
 #include "shared/shadow/local_atlas.h"
 #include "shared/shadow/scene_bounds.h"
@@ -20,7 +20,7 @@
 namespace diptych {
 namespace {
 
-// A lamp in the middle of a room of 4 m, all of whose faces have tiles.
+// Light at the centre of a box of 4 m; all six cube faces have tiles.
 struct Cube {
     AtlasRequest request;
     View view;
@@ -49,7 +49,7 @@ struct Received {
     int face = 0;
 };
 
-// Of places and normals, from the light.
+// `places`: positions, relative to the light, and normals.
 std::vector<Received> received(const Cube& cube, const std::vector<std::pair<glm::vec3, glm::vec3>>& places) {
     std::vector<float> in;
     for (const auto& [place, normal] : places) {
@@ -72,7 +72,7 @@ std::vector<Received> received(const Cube& cube, const std::vector<std::pair<glm
     return result;
 }
 
-// The direction in which the map that is drawn has a texel: of the atlas, through the tile that owns it.
+// World direction of a texel in the rendered atlas, through the tile that owns it.
 glm::dvec3 drawnIn(const Cube& cube, const glm::vec2& texel) {
     for (const AtlasTile& tile : cube.atlas.tiles) {
         const glm::dvec2 within = glm::dvec2(texel) - glm::dvec2(tile.corner);
@@ -85,7 +85,8 @@ glm::dvec3 drawnIn(const Cube& cube, const glm::vec2& texel) {
     return glm::dvec3(0);
 }
 
-// The largest angle, in texels of a face's middle, between where a place is and where it is read.
+// Largest angle between a position's direction and that of the texel it reads, in texels at a face's
+// centre.
 double farthestOff(const Cube& cube, const std::vector<std::pair<glm::vec3, glm::vec3>>& places,
                    const std::vector<Received>& read) {
     double most = 0;
@@ -96,8 +97,8 @@ double farthestOff(const Cube& cube, const std::vector<std::pair<glm::vec3, glm:
     return most * double{cube.texels[3].z};
 }
 
-// Pairs of directions that are a quarter of a texel apart, `inside` a face or on both sides of an edge or a
-// corner of the cube.
+// Pairs of directions a quarter of a texel apart: `inside` a face, or on both sides of an edge or corner
+// of the cube.
 std::vector<std::pair<glm::vec3, glm::vec3>> pairsOf(const Cube& cube, int count, bool inside) {
     std::mt19937 random(inside ? 3 : 4);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -120,8 +121,8 @@ std::vector<std::pair<glm::vec3, glm::vec3>> pairsOf(const Cube& cube, int count
     return places;
 }
 
-// What is read for a direction is what was drawn in it, and two neighbours' lie as near each other across an
-// edge as within a face: 10^5 pairs each.
+// A lookup reads the texel rendered in its direction, and neighbours across an edge are as close as within
+// a face: 10^5 pairs each.
 TEST(LocalFace, AcrossEdgesIsAsWithinFaces) {
     const Cube cube;
     constexpr int pairs = 100'000;
@@ -140,7 +141,7 @@ TEST(LocalFace, AcrossEdgesIsAsWithinFaces) {
     EXPECT_LT(farthestOff(cube, within, inside), 0.01);
     EXPECT_LT(farthestOff(cube, across, outside), 0.01);
     EXPECT_LE(apart(outside), apart(inside) * 1.01);
-    // Planted faults: two faces change places, a tile is one texel off.
+    // Injected faults: two faces swapped, a tile shifted by one texel.
     Cube swapped;
     std::swap(swapped.texels[3], swapped.texels[4]);
     EXPECT_GT(farthestOff(cube, across, received(swapped, across)), 10);
@@ -150,7 +151,7 @@ TEST(LocalFace, AcrossEdgesIsAsWithinFaces) {
     EXPECT_GT(farthestOff(cube, within, received(moved, within)), 0.9);
 }
 
-// Across an edge, too, depth is that of the longest component.
+// Depth is along the longest component, across edges too.
 TEST(LocalFace, DepthIsAlongTheFace) {
     const Cube cube;
     const auto places = pairsOf(cube, 3000, false);
@@ -164,8 +165,8 @@ TEST(LocalFace, DepthIsAlongTheFace) {
     }
 }
 
-// Planes at any angle to the light, grazing ones too, near a face's edge, in small tiles with wide filters:
-// no texel of the filter is compared with less than the plane's depth there.
+// Planes at any angle to the light, including grazing ones, near a face's edge, in small tiles with wide
+// filters. No filter texel is compared with less than the plane's depth there.
 TEST(LocalFace, ComparesNothingBelowTheSurfacesPlane) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(-1, 1);
@@ -176,7 +177,7 @@ TEST(LocalFace, ComparesNothingBelowTheSurfacesPlane) {
             for (int i = 0; i < 20'000; ++i) {
                 const glm::vec3 at = glm::normalize(glm::vec3(any(random), any(random), any(random))) * 1.5f;
                 const glm::vec3 way = glm::normalize(at);
-                // The light stands over the plane by this sine.
+                // Sine of the light's elevation above the plane.
                 const float sine = std::pow(10.0f, -2.5f * std::abs(any(random)));
                 const glm::vec3 other =
                     glm::normalize(glm::cross(way, glm::vec3(any(random), any(random), any(random))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shipped filters of moments on a filter that holds two depths.
+// Runs the shipped moment filters on a filter that contains two depths.
 #pragma once
 
 #include "shared/contract/features.h"
@@ -14,7 +14,7 @@ namespace diptych {
 
 struct MomentFilter {
     float near, far, receiver;  // depths, 1 towards the light
-    float share = 0.5f;         // of the filter that is at `near`
+    float share = 0.5f;         // fraction of the filter at depth `near`
     float exponent = 40, negative = 5, nearest = 0, bleed = 0, min_variance = 0, bias = 6e-5f;
 };
 struct MomentResult {
@@ -35,7 +35,7 @@ inline std::vector<MomentResult> seenThrough(gpu::uint shadows, const std::vecto
     return results;
 }
 
-// The same of moments that are given.
+// The same, for given moments.
 struct StoredMoments {
     std::array<float, 4> moments;
     MomentFilter filter;  // near, far and share are not read

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moments of warped depth against what is known in closed form.
+// Moments of warped depth compared with closed forms.
 #include "shared/shadow/moments.h"
 #include "tests/probe/moment_filter.h"
 
@@ -17,8 +17,8 @@ std::vector<MomentResult> seen(const std::vector<MomentFilter>& filters) {
 using Filter = MomentFilter;
 using Result = MomentResult;
 
-// Two occluders cover half of the filter each, far apart, and the receiver lies D behind the second: with
-// x = c D / range the bound of Chebyshev lets 1 / (1 + (2 e^x - 1)^2) of the light through.
+// Two distant occluders cover half of the filter each, and the receiver lies D behind the second. With x =
+// c D / range, Chebyshev's bound transmits 1 / (1 + (2 e^x - 1)^2) of the light.
 TEST(Moments, LeakBehindTwoHalvesIsTheClosedForm) {
     for (const float nearest : {0.0f, -1.0f})
         for (const float exponent : {5.0f, 20.0f, 40.0f}) {
@@ -32,7 +32,7 @@ TEST(Moments, LeakBehindTwoHalvesIsTheClosedForm) {
                                    .nearest = nearest});
             const std::vector<Result> results = seen(filters);
             for (std::size_t i = 0; i < behind.size(); ++i) {
-                // What the first occluder adds to the moments, which the form leaves out.
+                // The formula ignores the first occluder's contribution to the moments.
                 const double scale = double{exponent} * (nearest < 0 ? 2 : 1);
                 if (scale * 0.599 < 8) continue;
                 const double leak = 1 / (1 + std::pow(2 * std::exp(scale * behind[i]) - 1, 2));
@@ -41,8 +41,7 @@ TEST(Moments, LeakBehindTwoHalvesIsTheClosedForm) {
         }
 }
 
-// What lies in front of everything is lit, what lies far behind is dark, half and half gives half at the
-// farther depth.
+// In front of everything: lit. Far behind: dark. Half and half: half at the farther depth.
 TEST(Moments, ASingleDepthIsAllOrNothing) {
     const std::vector<Result> results = seen({{.near = 0.5f, .far = 0.5f, .receiver = 0.6f},
                                               {.near = 0.5f, .far = 0.5f, .receiver = 0.5f},
@@ -54,8 +53,8 @@ TEST(Moments, ASingleDepthIsAllOrNothing) {
     EXPECT_NEAR(results[3].visibility, 0.5, 1e-4);
 }
 
-// A planar receiver: the filter's depths lie evenly around its own. The least variance hides that moments are
-// rounded; without one, a plane that is flat to a millionth of the range would lie behind itself.
+// Planar receiver: depths in the filter are symmetric about its own. The minimum variance hides rounding
+// of the moments; without it, a plane that is flat to 1e-6 of the range would shadow itself.
 TEST(Moments, APlaneNeverShadowsItself) {
     std::vector<Filter> filters;
     for (const float slope : {1e-6f, 1e-4f, 1e-3f, 1e-2f, 0.1f, 0.3f})
@@ -66,7 +65,7 @@ TEST(Moments, APlaneNeverShadowsItself) {
     for (const Result& result : seen(filters)) EXPECT_NEAR(result.visibility, 1, 1e-6);
 }
 
-// The part that is taken for bled light is cut off, and the rest spread over 0 to 1 again.
+// Light below the bleeding threshold is cut off, and the rest rescaled to [0, 1].
 TEST(Moments, BleedReductionAndLeastVariance) {
     const Filter half{.near = 0.9f, .far = 0.2f, .receiver = 0.2f};
     Filter reduced = half, gone = half, soft{.near = 0.5f, .far = 0.5f, .receiver = 0.49f, .exponent = 5};
@@ -78,11 +77,11 @@ TEST(Moments, BleedReductionAndLeastVariance) {
     EXPECT_NEAR(results[1].visibility, (0.5 - 0.2) / 0.8, 1e-4);
     EXPECT_EQ(results[2].visibility, 0);
     EXPECT_LT(results[3].visibility, 0.01f);
-    // A standard deviation of a hundredth, and a distance of a hundredth, a little less for the warp.
+    // A standard deviation of 0.01 and a distance of 0.01; a little less because of the warp.
     EXPECT_NEAR(results[4].visibility, 0.5, 0.03);
 }
 
-// The largest exponents that the formats hold keep every moment finite, and every visibility a share.
+// With the formats' largest exponents, all moments stay finite and all visibilities in [0, 1].
 TEST(Moments, StayFiniteUpToTheLargestExponent) {
     EXPECT_NEAR(largestExponent(false), 44.36, 0.01);
     EXPECT_NEAR(largestExponent(true), 5.54, 0.01);
@@ -99,7 +98,7 @@ TEST(Moments, StayFiniteUpToTheLargestExponent) {
     }
 }
 
-// 32 bits where the device filters them, whatever was asked for in 16 else.
+// 32 bits if the device filters them; otherwise 16, whatever was requested.
 TEST(MomentFormat, FollowsWhatTheDeviceFilters) {
     const MomentSupport all{true, true}, no32{false, true};
     for (const Shadows shadows : {Shadows::evsm, Shadows::evsm4}) {
@@ -119,8 +118,8 @@ TEST(MomentFormat, FollowsWhatTheDeviceFilters) {
     EXPECT_EQ(momentFormat(Shadows::evsm4, EvsmPrecision::fp16, all).format, VK_FORMAT_R16G16B16A16_SFLOAT);
 }
 
-// Four moments of depth are 64 bits a texel, integers where a device stores and filters them; without, more
-// memory or more bias, and why.
+// Four moments of depth take 64 bits a texel, as integers if the device stores and filters them. Otherwise
+// they take more memory or more bias, and the reason is reported.
 TEST(MomentFormat, OfFourMomentsIsInIntegersWhereTheDeviceHasThem) {
     const auto of = [](const MomentSupport& device) {
         return momentFormat(Shadows::msm4, EvsmPrecision::automatic, device);

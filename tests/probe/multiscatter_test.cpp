@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shipped compensation of light between microfacets against the reference's, light by light.
+// The shaders' multiple-scattering compensation compared with the reference's, light by light.
 #include "compare/reference/multiscatter.h"
 #include "compare/reference/ambient.h"
 #include "shared/contract/constants.h"
@@ -40,8 +40,8 @@ struct CompensationKind {
 constexpr std::array compensationKinds{CompensationKind{Multiscatter::energy, gpu::MULTISCATTER_ENERGY},
                                        CompensationKind{Multiscatter::fdez, gpu::MULTISCATTER_FDEZ}};
 
-// A mix of both materials in most rows, at every roughness and angle. The lobe is as exact as without
-// compensation (Brdf.IsTheReferences); what it is multiplied with is float32's.
+// Most rows mix both materials, at every roughness and angle. The lobe is as exact as without compensation
+// (Brdf.IsTheReferences); the factor has float32 error.
 TEST(Multiscatter, IsTheReferences) {
     Probes probes;
     std::mt19937 random(7);
@@ -86,7 +86,7 @@ TEST(Multiscatter, IsTheReferences) {
     }
 }
 
-// What is switched off leaves the BRDF as it was, to the bit.
+// Switched off, the BRDF is unchanged to the bit.
 TEST(Multiscatter, OffIsTheBrdfAlone) {
     Probes probes;
     std::vector<float> input, plain;
@@ -101,15 +101,14 @@ TEST(Multiscatter, OffIsTheBrdfAlone) {
             push(input, s, {0, 0.8, 0.6});
             plain.insert(plain.end(), input.end() - multiscatterWidth, input.end() - 2);
         }
-    // The probe applies the compensation whatever the feature is: with it off the base is the one thing
-    // that changes.
+    // The probe always applies the compensation; with the feature off, only the base changes.
     const std::vector<float> off = probes.run("multiscatter", input, multiscatterWidth, 4),
                              brdf = probes.run("brdf", plain, multiscatterWidth - 2, 2);
     for (std::size_t i = 0; i < brdf.size() / 2; ++i) EXPECT_EQ(off[4 * i + 1], brdf[2 * i + 1]) << i;
 }
 
-// A lobe that is brighter by a factor is so for every light, whatever its own evaluation is; a Lambertian
-// lobe reflects of an area light what a Lambertian base does.
+// A lobe scaled by a factor is scaled for every light, independent of how it is evaluated. A Lambertian
+// lobe reflects an area light as a Lambertian base does.
 TEST(Multiscatter, AreaLightsAreCompensatedAsTheLobeIs) {
     Probes probes;
     std::vector<float> mirrors, bases;
@@ -134,7 +133,7 @@ TEST(Multiscatter, AreaLightsAreCompensatedAsTheLobeIs) {
         for (std::size_t i = 0; i < receivers.size(); ++i) {
             const LtcCell cell = ltcTable().at(receivers[i].roughness, receivers[i].nDotV());
             const double all = double{cell.magnitude};
-            // F = 1: the whole lobe is divided by its albedo; what it leaves is the Lambertian lobe's.
+            // F = 1: the whole lobe is divided by its albedo; the Lambertian lobe takes the remainder.
             EXPECT_NEAR(energy[i][1], off[i][1] / all, 1e-5 * off[i][1] / all) << points << " " << i;
             EXPECT_NEAR(fdez[i][1], off[i][1] + (1 - all) * lambert[i][0], 2e-6) << points << " " << i;
             EXPECT_GT(lambert[i][0], 0.01) << points << " " << i;

@@ -22,14 +22,14 @@ struct PosingChoice {
     int joints = 6, joint_sets = 0;  // no joint sets: no skin
     int targets = 0;
     bool flat = false;
-    bool fresh_tangents = false;  // made by makeTangents, with targets that bend the surface gently
+    bool fresh_tangents = false;  // made by makeTangents; targets bend the surface only slightly
     int map_texcoord = 0;
     double size = 1;            // m, of the mesh
     glm::dvec3 offset{0};       // of the mesh from its own origin, m
     glm::dmat4 root{1.0};       // of all nodes
     double joint_scale = 1;     // of every joint, before a stretch of 4:1 along one axis
-    bool inverse_binds = true;  // else the mesh is given in each joint's space
-    int cells = 7;              // of the surface along one side
+    bool inverse_binds = true;  // false: vertices are in each joint's space
+    int cells = 7;              // along one side of the surface
 };
 
 class PosingBuilder {
@@ -42,7 +42,7 @@ public:
     int below(int end) { return static_cast<int>(uniform(0, end - 1e-9)); }
     glm::dvec3 vector() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
 
-    // One mesh of one primitive, on node 0; node 1 is the root of the joints.
+    // One mesh with one primitive, on node 0; node 1 is the root of the joints.
     Scene scene(const PosingChoice& c) {
         Scene scene;
         scene.materials.resize(1);
@@ -63,7 +63,7 @@ public:
         return scene;
     }
 
-    // Another skin over the same nodes' number, and another node that draws the mesh with it.
+    // A second skin with as many new joints, and a node that uses the mesh with it.
     void addSkin(Scene& scene, const PosingChoice& c) {
         Skin skin;
         for (int j = 0; j < c.joints; ++j) {
@@ -136,7 +136,7 @@ private:
         p.colors.emplace_back(0.5 + 0.5 * wave(at, 4), at, 0.5);
     }
 
-    // Weights of which some are zero, over all sets; float32 rounds their sum.
+    // Weights over all sets, some of them zero. They sum to 1 up to float32 rounding.
     void addJoints(Primitive& p, const PosingChoice& c) {
         std::vector<double> weights(static_cast<std::size_t>(4 * c.joint_sets));
         double whole = 0;
@@ -154,13 +154,13 @@ private:
         }
     }
 
-    // Of every other target some attributes are missing.
+    // Except with fresh tangents, every target but the first lacks some attributes.
     MorphTarget target(const Primitive& p, const PosingChoice& c, int number) {
         MorphTarget target;
         const auto has = [&](int attribute) {
             return c.fresh_tangents || number == 0 || (number + attribute) % 3 != 0;
         };
-        // The triangles of a flat primitive stay together where its surface does.
+        // Fresh tangents need a smooth displacement, which keeps the triangles of a flat primitive connected.
         const double most = c.fresh_tangents ? 0.05 : 0.3 / std::sqrt(c.targets);
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
             const glm::dvec2 at(p.texcoords[0][v]);

@@ -54,7 +54,7 @@ double largestOf(const glm::dmat3& m) {
     return largest;
 }
 
-// At most the largest stretch of the matrix over its smallest: |M| |M^-1| / 3 in the Frobenius norm.
+// Lower bound of the matrix's condition number: |M| |M^-1| / 3 in the Frobenius norm.
 double stretchOf(const glm::dmat3& m) {
     const auto norm = [](const glm::dmat3& a) {
         return std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2]));
@@ -62,17 +62,17 @@ double stretchOf(const glm::dmat3& m) {
     return norm(m) * norm(cofactorsOf(m)) / std::abs(glm::determinant(m)) / 3;
 }
 
-// A joint, or the one matrix that moves all vertices.
+// A joint, or the single matrix that moves all vertices.
 struct Mover {
     glm::dmat3 axes;
     double weight = 0;
 };
 
-// What a vertex is made of, in numbers that bound its rounding errors.
+// Inputs of a vertex, as magnitudes that bound its rounding errors.
 struct Parts {
     glm::dmat4 matrix{0};
-    double scale = 0;  // sum over joints of weight times the largest element of the matrix's axes
-    double reach = 0;  // the same of what is added up to its position, m
+    double scale = 0;  // sum over joints of weight times the matrix's largest element (3x3)
+    double reach = 0;  // the same for the terms of its position, m
     std::vector<Mover> movers;
 };
 
@@ -91,7 +91,7 @@ public:
 
     const Primitive& primitive;
 
-    // The length of an attribute at rest and of all deltas that are added, as if none cancelled another.
+    // Length of the base attribute plus lengths of all deltas, without cancellation.
     template <class T, class DeltasOf>
     double lengthOf(const T& rest, const DeltasOf& deltasOf, std::size_t v) const {
         double sum = glm::length(rest);
@@ -101,7 +101,7 @@ public:
         }
         return sum;
     }
-    // With its deltas, in double.
+    // Base attribute with its deltas, in double.
     template <class T, class DeltasOf>
     glm::dvec3 morphed(const std::vector<T>& rest, const DeltasOf& deltasOf, std::size_t v) const {
         glm::dvec3 sum(rest[v]);
@@ -146,7 +146,7 @@ public:
         return parts;
     }
 
-    // Roundings that one number passes through: morph targets, however many, joints, and what follows.
+    // Number of roundings: morph targets, of any count, joints, and later operations.
     double roundings() const { return 32 + 8 * static_cast<double>(primitive.joint_sets.size()); }
 
 private:
@@ -238,7 +238,7 @@ private:
                         glm::length(cofactorsOf(m) * rest);
         }
         bound = glm::degrees(bound);
-        if (!(bound < 90)) return;  // float32 knows no direction
+        if (!(bound < 90)) return;  // direction lost in float32
         const double off = degreesBetween(got, exact);
         EXPECT_LE(off, bound) << at;
         EXPECT_NEAR(glm::length(got), 1, 1e-6) << at;
@@ -248,9 +248,9 @@ private:
         raise(errors_.normal, off);
     }
 
-    // rad; also holds the one in double against glTF's inverse transpose, where every joint has one. Of each
-    // joint float32 rounds the cofactors and the determinant that they are divided by, of a matrix whose
-    // largest component is 1.
+    // rad. Also checks the double result against glTF's inverse transpose if every joint has an inverse.
+    // For each joint, float32 rounds the cofactors and the determinant, of a matrix scaled to a largest
+    // element of 1.
     double jointsBound(const Parts& parts, const glm::dvec3& rest, double length, const glm::dvec3& exact,
                        const std::string& at) const {
         const double rounded = 6 * of_.roundings() * halfUlp;
@@ -305,7 +305,7 @@ private:
         raise(errors_.tangent_bound, off / bound);
     }
 
-    // An attribute that targets move, or that is what it was.
+    // An attribute that targets change, or that is unchanged.
     template <class G, class R, class E, class DeltasOf>
     void attribute(const G& got, const std::vector<R>& rest, const std::vector<E>& exact,
                    const DeltasOf& deltasOf, std::size_t v, const std::string& at) {
@@ -349,7 +349,7 @@ private:
 
 namespace {
 
-// What the kernels make of a pose, read back.
+// Vertices that the compute shaders deform, read back.
 struct ReadBack {
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of posing make of skinned and morphed vertices, against the pose in double.
+// Skinned and morphed vertices of the compute shaders, compared with deformation in double.
 #include "shared/draw/posing.h"
 
 #include "shared/scene/builtin/builtin.h"
@@ -68,7 +68,7 @@ TEST(Posing, OfRandomMeshesInRandomPoses) {
         c.root = placed(10.0 * builder.vector(), glm::dvec3(n / 16 % 2 == 1 ? -1.5 : 1.5, 1.5, 1.5));
         c.inverse_binds = n % 8 != 3;
         Scene scene = builder.scene(c);
-        if (c.joint_sets > 0) builder.addSkin(scene, c);  // the mesh is drawn with two skins
+        if (c.joint_sets > 0) builder.addSkin(scene, c);  // two instances of the mesh, two skins
         const Pose pose = poseAt(scene, 0);
         ASSERT_EQ(pose.boxes.size(), c.joint_sets > 0 ? 2u : 1u);
         for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended})
@@ -76,11 +76,11 @@ TEST(Posing, OfRandomMeshesInRandomPoses) {
     }
     printErrors("random meshes", errors);
     EXPECT_EQ(errors.missing, 0u);
-    EXPECT_GT(errors.normal, 0);  // some have been judged
+    EXPECT_GT(errors.normal, 0);  // some were checked
     EXPECT_GT(errors.tangent_bound, 0);
 }
 
-// Smooth and flat, of either set of texture coordinates under a transform, before joints and without.
+// Smooth and flat, with either texture coordinate set and a transform, before joints and without.
 TEST(Posing, TangentsAreMadeOfTheMorphedSurface) {
     PosingErrors errors;
     for (int n = 0; n < 16; ++n) {
@@ -108,9 +108,9 @@ TEST(Posing, TangentsFollowANormalMapThatAnAnimationTurnsAndMirrors) {
     EXPECT_GT(errors.fresh_tangent, 0);
 }
 
-// A fan of triangles 40,000 times as long as wide, stretched unevenly by its map, and some as wide as long on
-// the other side, so that the tangent at the hub is the sum of all. Differences of the long edges' products
-// were off by 25 degrees.
+// A fan of triangles 40,000 times as long as wide, stretched unevenly by its map, and some triangles as
+// wide as long on the other side. The tangent at the hub is the sum of all. Differences of products of the
+// long edges were off by 25 degrees.
 TEST(Posing, TangentsOfThinTrianglesKeepTheirDirection) {
     Primitive fan;
     fan.positions = {{0, 0, 0}};
@@ -196,7 +196,7 @@ TEST(Posing, AMeshWithJointsMovesAsAWholeWithoutASkin) {
     compared(scene, "without a skin");
 }
 
-// Where a vertex follows one joint, whichever of its four, both ways to turn its normal have the same bits.
+// If a vertex follows one joint, any of its four, both methods give the same normal bits.
 TEST(Posing, OneJointTurnsANormalEitherWayToTheSameBits) {
     PosingBuilder builder(15);
     PosingChoice c;
@@ -221,7 +221,7 @@ TEST(Posing, OneJointTurnsANormalEitherWayToTheSameBits) {
     EXPECT_EQ(differing(), 0u) << "one";
 }
 
-// A joint of scale 0 gathers its vertices in a point, where nothing has a direction.
+// A joint of scale 0 collapses its vertices to a point, where no direction is defined.
 TEST(Posing, ACollapsedJointHasNoDirections) {
     PosingBuilder builder(10);
     PosingChoice c;
@@ -243,7 +243,7 @@ TEST(Posing, ACollapsedJointHasNoDirections) {
     printErrors("a collapsed joint", errors);
 }
 
-// In float32 as in double: the triangles are not drawn.
+// NaN in float32 and in double, so the triangles are not rendered.
 TEST(Posing, BeyondWhatCoordinatesMayBeIsNaN) {
     for (const bool skinned : {false, true}) {
         PosingBuilder builder(11);
@@ -263,7 +263,7 @@ TEST(Posing, BeyondWhatCoordinatesMayBeIsNaN) {
     }
 }
 
-// All loops of a shader share a number of rounds on some devices; what is beyond would be left out silently.
+// On some devices all loops of a shader share an iteration limit; more targets would be dropped silently.
 TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
     const auto posed = [](bool flat, std::size_t targets, bool positions_alone, const std::string& what) {
         PosingBuilder builder(12);
@@ -277,7 +277,7 @@ TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
         if (positions_alone) target = {target.positions, {}, {}};
         mesh.primitives[0].targets.resize(targets, MorphTarget(target));
         mesh.weights.assign(targets, 1e-4f);
-        mesh.weights.back() = 0;  // counts nothing
+        mesh.weights.back() = 0;  // weight 0 does not count
         printErrors(what, compared(scene, what));
     };
     posed(false, 10001, false, "10,000 targets of every attribute");
@@ -298,7 +298,7 @@ TEST(Posing, MoreTargetsAtOnceThanAShaderAddsUpAreAnError) {
     }
 }
 
-// One pose for all views of a moment; another one where anything that it follows from is another.
+// Views at one time share a pose; any change of its inputs makes a new one.
 TEST(Posing, ViewsOfOneMomentShareAPose) {
     PosingBuilder builder(13);
     PosingChoice c;
@@ -333,7 +333,7 @@ TEST(Posing, ViewsOfOneMomentShareAPose) {
     EXPECT_EQ(posings.at(lit, Skinning::compute, joints, pipelines), first);
     first.reset();
     posings.at(rest, Skinning::compute, joints, pipelines);
-    EXPECT_EQ(posings.made(), made + 1);  // nobody had kept it
+    EXPECT_EQ(posings.made(), made + 1);  // the old pose was released
 }
 
 }  // namespace

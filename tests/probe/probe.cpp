@@ -39,7 +39,7 @@ namespace {
 constexpr std::uint32_t groupSize = 64;  // local_size_x of every probe
 constexpr std::array probeBindings{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-// Common to all probes: set 0 has input and output, the push constant is the number of rows.
+// Common to all probes: set 0 contains input and output, the push constant is the number of rows.
 struct ProbeLayout {
     explicit ProbeLayout(Device& device) : set(makeSetLayout(device, probeBindings)) {
         const std::array<VkDescriptorSetLayout, 1> sets{set};
@@ -81,7 +81,7 @@ std::vector<float> Probes::run(const std::string& shader, const std::vector<floa
     Device& device = probeDevice();
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
-    // Each shader is compiled once for all tests.
+    // Compiles each shader once for all tests.
     static const ProbeLayout layout(device);
     static std::map<std::pair<std::string, std::array<Feature, 2>>, OwnedPipeline> pipelines;
     const std::array features{feature, other};

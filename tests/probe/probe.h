@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the shipped GLSL on chosen numbers: a small compute shader of tests/probe/shaders includes a file of
-// shaders/lib and maps `in_width` floats to `out_width` floats, once for each row of the input.
+// Runs the shipped GLSL on given inputs: a small compute shader of tests/probe/shaders includes a file of
+// shaders/lib and maps `in_width` floats to `out_width` floats, once per input row.
 #pragma once
 
 #include "shared/vulkan/owned.h"
@@ -22,7 +22,7 @@ OwnedShaderModule probeModule(Device& device, const std::string& shader);
 
 class Probes {
 public:
-    // `shader`: file name without ".comp". `input` holds rows of inWidth floats. Returns as many rows of
+    // `shader`: file name without ".comp". `input`: rows of inWidth floats. Returns as many rows of
     // outWidth floats. `feature`, `other`: specialization constants and their values
     // (shared/contract/features.h); all others are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A spot's cone from the light's angles to the shader's factor: at its edges, to what float32 rounds. A cone
-// that is narrower or wider by 1e-5 rad is another one.
+// A spot's cone, from the light's angles to the shader's factor: exact at its edges up to float32
+// rounding. A change of 1e-5 rad is detected.
 #include "compare/reference/punctual.h"
 #include "shared/light/light_grid.h"
 #include "shared/light/lights.h"
@@ -35,7 +35,7 @@ Light spotOf(const std::pair<float, float>& cone, const glm::dvec3& direction = 
     return light;
 }
 
-// KHR_lights_punctual: 1 / max(0.001, cos(inner) - cos(outer)), and the factor before it is squared.
+// KHR_lights_punctual: 1 / max(0.001, cos(inner) - cos(outer)), and the factor before squaring.
 double scaleOf(const std::pair<float, float>& cone) {
     return 1 / std::max(0.001, std::cos(double{cone.first}) - std::cos(double{cone.second}));
 }
@@ -61,9 +61,8 @@ std::vector<double> anglesAround(const std::pair<float, float>& cone) {
     return angles;
 }
 
-// The unit vector to the light has an error of a rounding or two a component, its product with the axis (a
-// few roundings more) one of 2e-7, which the cone's scale enlarges, and the sum is of terms as large as the
-// scale.
+// The unit vector to the light has one or two roundings per component, and its dot product with the axis
+// an error of 2e-7. The cone's scale multiplies it, and the sum has terms as large as the scale.
 double roundingOf(double scale) {
     return 3e-7 * scale;
 }
@@ -88,7 +87,7 @@ TEST(SpotCone, TheShadersEdgesAreTheSpecifications) {
     int between = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto [factor, rounding] = expected[i];
-        // Distance 1 to a float's rounding: its square is off by 2e-7.
+        // The distance is 1 up to float32 rounding: its square is off by 2e-7.
         EXPECT_NEAR(out[4 * i], factor * factor,
                     2 * std::max(factor, rounding) * rounding + 4e-7 * factor * factor)
             << "case " << i;
@@ -97,8 +96,8 @@ TEST(SpotCone, TheShadersEdgesAreTheSpecifications) {
     EXPECT_GT(between, 20);
 }
 
-// Negative control: 1e-5 rad at the outer edge of a cone moves the factor between its edges by more than
-// three times what the shader may round.
+// Negative control: at the middle of the penumbra, 1e-5 rad at the outer edge changes the factor by more
+// than three times the shader's rounding.
 TEST(SpotCone, ATenThousandthOfADegreeIsMore) {
     for (const auto& cone : cones) {
         if (cone.second < 0.5f) continue;
@@ -111,7 +110,7 @@ TEST(SpotCone, ATenThousandthOfADegreeIsMore) {
     }
 }
 
-// The reference's, in double.
+// The reference's factor, in double.
 TEST(SpotCone, TheReferencesEdgesAreTheSpecifications) {
     for (const auto& cone : cones) {
         const Light light = spotOf(cone);
@@ -124,9 +123,9 @@ TEST(SpotCone, TheReferencesEdgesAreTheSpecifications) {
     }
 }
 
-// The culling's cone holds every direction in which the shader's float32 formula is above 0, however it is
-// rounded (fused or not; a product of float32 vectors is off by 3e-7), and is wider than the light's by no
-// more than its slack.
+// The culling cone contains every direction in which the shader's float32 formula is above 0, whatever the
+// rounding (fused or not; a float32 dot product is off by 3e-7). It exceeds the light's cone by at most
+// its slack.
 TEST(SpotCone, BoundsHoldWhatTheShaderLights) {
     View view;
     view.width = view.height = 64;
@@ -135,7 +134,7 @@ TEST(SpotCone, BoundsHoldWhatTheShaderLights) {
         const GpuLights lights = gpuLights(std::span(&light, 1), {0, 0, 0});
         const gpu::SpotCone& shipped = lights.spot_cones.at(0);
         const gpu::LightBound bound = lightBounds(lights, view).at(0);
-        // The least float32 cosine that lights anything, by bisection.
+        // The smallest float32 cosine with light, by bisection.
         const auto lights_up = [&](float cosine) {
             return shipped.offset + cosine * shipped.scale > 0 ||
                    std::fma(cosine, shipped.scale, shipped.offset) > 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the probed device makes of texels of 8 bits, as shared/material measures it for tests and tool,
-// against what Vulkan promises and against samples that the measure has not seen.
+// 8-bit texture sampling as shared/material measures it on the device, compared with Vulkan's guarantees
+// and with samples outside the measurement.
 #include "shared/material/texture_probe.h"
 #include "tests/probe/probe.h"
 
@@ -22,7 +22,7 @@ const TextureSampling& exactSampling() {
     return measured;
 }
 
-// How many codes of 256 an sRGB decoding turns into a value that would be encoded as another code.
+// Number of sRGB codes whose decoded value would encode to a different code.
 std::size_t ambiguousCodes(const TexelDecode& srgb) {
     std::size_t count = 0;
     for (std::size_t code = 0; code < 256; ++code) {
@@ -33,7 +33,7 @@ std::size_t ambiguousCodes(const TexelDecode& srgb) {
     return count;
 }
 
-// Vulkan 1.3, 3.10 "Fixed-Point Data Conversions": code / 255, to the precision of a float.
+// Vulkan 1.3, 3.10 "Fixed-Point Data Conversions": code / 255, to float precision.
 TEST(TextureProbe, LinearCodesAreFractions) {
     for (std::size_t code = 0; code < 256; ++code) {
         const double exact = static_cast<double>(code) / 255;
@@ -43,7 +43,7 @@ TEST(TextureProbe, LinearCodesAreFractions) {
     EXPECT_EQ(sampling().linear[255], 1.0f);
 }
 
-// Vulkan asks of sRGB no more than that eight bits survive.
+// For sRGB, Vulkan guarantees only that eight bits survive.
 TEST(TextureProbe, SrgbCodesStayApart) {
     const TexelDecode& srgb = sampling().srgb;
     EXPECT_EQ(ambiguousCodes(srgb), 0u);
@@ -59,8 +59,7 @@ TEST(TextureProbe, SrgbCodesStayApart) {
         std::cout << fact.what << ": " << (fact.there ? "yes" : "no") << ", " << fact.note << "\n";
 }
 
-// The bound holds at other places of another picture, and half of it does not: it grants what the device
-// needs, and little more.
+// The bound is valid at other positions of another image, and half of it is not: it is tight.
 TEST(TextureProbe, FiltersAreBoundedAsTightlyAsTheyErr) {
     for (const bool srgb : {false, true}) {
         const FilterBound& bound = srgb ? sampling().srgb_filter : sampling().linear_filter;
@@ -69,14 +68,14 @@ TEST(TextureProbe, FiltersAreBoundedAsTightlyAsTheyErr) {
         const std::vector<FilterSample> samples =
             probeFilter(probeDevice(), srgb, sampling().decode(srgb), 77);
         for (const FilterSample& sample : samples) {
-            // Measured at 262144 places, the bound may miss the last few percent.
+            // Measured at 262144 positions, the bound may miss the last few percent.
             beyond += sample.error > 1.05 * bound.of(sample.range) + 1e-7;
             beyondHalf += sample.error > 0.5 * bound.of(sample.range);
             largest = std::max(largest, sample.error);
         }
         EXPECT_EQ(beyond, 0u) << srgb;
         EXPECT_GT(beyondHalf, samples.size() / 1000) << srgb;
-        // Weights of four bits would be off by 1/32; a filter that does not mix at all by half a range.
+        // Weights of four bits would be off by 1/32; a filter that does not interpolate, by half a range.
         EXPECT_LT(bound.weight, 1.0 / 128) << srgb;
         EXPECT_LT(bound.rounding, 2.0 / 255) << srgb;
         std::cout << (srgb ? "sRGB" : "linear") << ": " << bound.rounding * 255 << " of a code, and "
@@ -84,9 +83,9 @@ TEST(TextureProbe, FiltersAreBoundedAsTightlyAsTheyErr) {
     }
 }
 
-// Texels of --textures exact: linear codes are those of 16 bits, exactly; of sRGB half floats hold 11 bits at
-// every code, which no device may lose. A filter that rounds to whole texels of 8 bits would be off by half a
-// code; one of 16 bits by 1/257 of that, and weights are the device's as before.
+// Texels of --textures exact: linear codes are exact in 16 bits; for sRGB, half floats keep 11 bits at
+// every code on every device. A filter that rounds to 8-bit texels would be off by half a code, one of 16
+// bits by 1/257 of that. The weights are the device's, unchanged.
 TEST(TextureProbe, ExactTexelsAreDecodedAndFilteredWithoutRounding) {
     const TextureSampling& exact = exactSampling();
     for (std::size_t code = 0; code < 256; ++code) {
@@ -101,7 +100,7 @@ TEST(TextureProbe, ExactTexelsAreDecodedAndFilteredWithoutRounding) {
 }
 
 TEST(TextureProbe, ABoundIsTheLowestLineAboveItsSamples) {
-    // Below 0.1 + 0.5 range, which three of them touch.
+    // All samples are at or below 0.1 + 0.5 range; three of them touch it.
     const std::vector<FilterSample> samples{{0, 0.1}, {0.2, 0.2}, {0.5, 0.3}, {1, 0.6}, {0.5, 0}};
     const FilterBound bound = boundOf(samples);
     EXPECT_NEAR(bound.rounding, 0.1, 1e-12);
@@ -112,7 +111,8 @@ TEST(TextureProbe, ABoundIsTheLowestLineAboveItsSamples) {
     EXPECT_THROW(boundOf({}), std::invalid_argument);
 }
 
-// What a colour slot reads becomes the device's floats; what others read stays as it is, even the same image.
+// Images read by colour slots become the device's floats; other slots still read the original, even of the
+// same image.
 TEST(TextureProbe, ScenesWithDecodedColors) {
     Scene scene;
     scene.images = {{"one", 1, 1, {10, 100, 200, 51}}};

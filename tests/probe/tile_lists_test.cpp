@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The list of each tile, read back from the device, against exact intersections in double between the tile's
-// nearest and farthest depths.
+// Each tile's light list, read back from the device, compared with exact intersections in double between
+// the tile's nearest and farthest depths.
 #include "tests/probe/cells.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
@@ -20,7 +20,7 @@ namespace {
 constexpr int width = 103, height = 61, block = 4;  // seven by four tiles, the last ones cut off
 constexpr int side = static_cast<int>(gpu::LIGHT_TILE);
 
-// View depths of the picture, m, constant in each block of pixels; 0: background. Tiles of all kinds: fully
+// View depths of the image, m, constant in each block of pixels; 0: background. Tiles of all kinds: fully
 // covered, near and far together, half background, only background.
 struct Depths {
     static constexpr int across = (width + block - 1) / block, down = (height + block - 1) / block;
@@ -78,10 +78,10 @@ LitRegion litRegionOf(const Light& light) {
 
 struct Lists {
     gpu::LightGrid grid{};
-    std::vector<std::vector<gpu::uint>> lists;  // lights in their order
+    std::vector<std::vector<gpu::uint>> lists;  // in light order
 };
 
-// `nearer`: factor applied to the picture's depths before they are drawn. `in_front`: something is blended.
+// `nearer`: factor on the image's depths before rendering. `in_front`: the scene has blended surfaces.
 Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
               double nearer = 1, bool in_front = false) {
     KernelFrame frame(probeDevice(), view);
@@ -129,7 +129,7 @@ struct TileCell {
     Cell cell;
 };
 
-// The depth interval of a tile, from the picture's depths alone.
+// Depth interval of a tile, from the image's depths alone.
 TileCell cellOf(const View& view, const Depths& depths, int x, int y) {
     TileCell tile;
     const double pixel = 2 * std::tan(view.camera.yfov / 2) / height;
@@ -172,8 +172,8 @@ struct Count {
     int meeting = 0, missed = 0, apart = 0, kept = 0, far_kept = 0, outside = 0;
 };
 
-// Compares one tile's list with all lights. A light is counted as falsely kept if even a sphere of twice its
-// size would not reach the tile; a spot's sphere and its cone may each reach a tile that their intersection
+// Compares one tile's list with all lights. A light is falsely kept if even a sphere of twice its size
+// would not reach the tile. A spot's sphere and its cone may each reach a tile that their intersection
 // does not (light_cull.glsl).
 void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
           const std::vector<gpu::LightBound>& bounds, const Cell& cell) {
@@ -212,7 +212,7 @@ Held held(double nearer = 1) {
     for (const unsigned seed : {31u, 32u, 33u}) {
         const View view = plainView(width, height);
         const Depths depths = randomDepths(seed);
-        // Points first, then spots: their order in lists too.
+        // Points first, then spots: lists are in this order too.
         std::vector<Light> lights = edgeLights(view, depths);
         for (const Light& light : randomLights(seed)) lights.push_back(light);
         const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
@@ -253,8 +253,8 @@ TEST(TileLists, HoldWhatReachesATileAndLittleElse) {
     EXPECT_EQ(all.empty, all.only_background) << "nothing to light";
 }
 
-// Where something is blended a tile has a second list, from the viewer on, and without an end where a pixel
-// shows the background; that of what is solid is the same as ever.
+// With blended surfaces a tile has a second list that starts at the viewer, and has no end where a pixel
+// shows the background. The opaque list is unchanged.
 TEST(TileLists, OfWhatIsBlendedReachFromTheViewer) {
     const View view = plainView(width, height);
     const Depths depths = randomDepths(34);
@@ -287,7 +287,7 @@ TEST(TileLists, OfWhatIsBlendedReachFromTheViewer) {
     }
 }
 
-// Negative control: lists for a picture that is 1 % nearer lack lights of this one.
+// Negative control: lists for an image that is 1 % nearer lack lights of this one.
 TEST(TileLists, DepthsThatAreOnePerCentOffAreCaught) {
     for (const double nearer : {0.99, 1.01}) {
         EXPECT_GT(held(nearer).count.missed, 0) << nearer;

@@ -1,21 +1,22 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# A Slurm cluster on this machine for tests: a controller, and two nodes of one CPU each, which are daemons of one
-# machine (or one node of two CPUs where the build of Slurm refuses several). Debian's slurm-wlm and munge.
+# A test Slurm cluster on this machine: a controller and two nodes of one CPU each, all daemons of one
+# machine (one node of two CPUs if this build of Slurm refuses several). Uses Debian's slurm-wlm and munge.
 #
-#   cluster.sh start DIR     everything of it but its sockets stands in DIR; prints "nodes 2" or "nodes 1"; export SLURM_CONF=DIR/slurm.conf
-#   cluster.sh kill DIR N    kills node N (1 or 2) and what runs on it, as a lost machine
-#   cluster.sh node DIR N    starts it again
+#   cluster.sh start DIR     writes everything but its sockets to DIR; prints "nodes 2" or "nodes 1"
+#                            (then export SLURM_CONF=DIR/slurm.conf)
+#   cluster.sh kill DIR N    kills node N (1 or 2) and its processes, like a lost machine
+#   cluster.sh node DIR N    restarts node N
 #   cluster.sh stop DIR
 #
-# Exit code 77: Slurm is not installed, or it cannot be started here (not root).
+# Exit code 77: Slurm is not installed or cannot be started here (not root).
 set -eu
 PATH=$PATH:/usr/sbin:/sbin
 what=$1
 dir=$2
 skip() { echo "cluster.sh: $1" >&2; exit 77; }
 
-# Away with what runs of it, by the numbers that its daemons left.
+# Kills all processes by the daemons' pid files.
 end() {
     for file in "$dir"/*.pid; do
         [ -e "$file" ] || continue
@@ -70,7 +71,7 @@ PartitionName=all Nodes=$names Default=YES MaxTime=INFINITE State=UP OverSubscri
 END
 }
 
-started() {  # until the controller sees $1 idle CPUs
+started() {  # waits until the controller sees $1 idle CPUs
     for _ in $(seq 100); do
         free=$(SLURM_CONF=$dir/slurm.conf sinfo -h -o %C 2>/dev/null | cut -d/ -f2)
         [ "$free" = "$1" ] && return 0
@@ -88,7 +89,7 @@ start)
     host=$(hostname -s)
     mkdir -p "$dir/state"
     chmod 755 "$dir"
-    # Sockets stand there, whose names may be 107 characters long and no more.
+    # Folder of sockets, whose paths may have at most 107 characters.
     spool=$(mktemp -d /tmp/slurm.XXXXXX)
     chmod 755 "$spool"
     echo "$spool" > "$dir/spool"
@@ -102,7 +103,8 @@ start)
     for nodes in 2 1; do
         configure $nodes
         export SLURM_CONF="$dir/slurm.conf"
-        # Daemons close what they do not know, so that who waits for this script's output is not kept waiting.
+        # The daemons' output is redirected: a caller that waits for this script's output would wait for
+        # them.
         slurmctld -c -f "$SLURM_CONF" >"$dir/start.log" 2>&1 </dev/null || skip "slurmctld does not start: $(tail -1 "$dir/start.log")"
         for n in $(seq $nodes); do
             slurmd -N $name$n -f "$SLURM_CONF" >>"$dir/start.log" 2>&1 </dev/null || true
@@ -124,7 +126,7 @@ kill)
     node=$(cat "$dir/name")$3
     kill -9 "$(cat "$dir/slurmd-$node.pid")"
     rm -f "$dir/slurmd-$node.pid"
-    # What runs there knows on which node; each step of a job has a daemon of its own above it.
+    # Processes on the node have its name in their environment; each job step has a daemon as its parent.
     for environ in /proc/[0-9]*/environ; do
         grep -qzx "SLURMD_NODENAME=$node" "$environ" 2>/dev/null || continue
         process=${environ#/proc/}

@@ -5,7 +5,7 @@
 
 namespace diptych {
 
-// RFC 4648, by a decoder of the tests' own.
+// RFC 4648. Independent of the product's decoder.
 inline std::string fromBase64(const std::string& text) {
     const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Statistical tables (a fault planted at every call) are run whole by a campaign alone:
-// DIPTYCH_CAMPAIGN=1. Everywhere else a slice of each is run, chosen by
-// DIPTYCH_SEED (1).
+// Statistical tables, such as an injected fault at every call, run whole only with DIPTYCH_CAMPAIGN=1.
+// Otherwise DIPTYCH_SEED (default 1) selects a subset of each table.
 #pragma once
 
 #include <cstdlib>
@@ -19,16 +18,17 @@ inline unsigned campaignSeed() {
     return value == nullptr ? 1u : static_cast<unsigned>(std::strtoul(value, nullptr, 10));
 }
 
-// Which rows of a table are run: all of them, or the first and, from a seeded one on, one of `stride`.
+// The rows of a table to run. A campaign runs all; otherwise the first and every `stride`-th from a seeded
+// row.
 class Rows {
 public:
     explicit Rows(int stride)
         : stride_(isCampaign() ? 1 : stride),
           second_(static_cast<int>(campaignSeed() % static_cast<unsigned>(stride_))) {}
 
-    // The row to run after `row`; rows count from 0.
+    // The next row to run; rows count from 0.
     int after(int row) const { return row == 0 && second_ > 0 ? second_ : row + stride_; }
-    // The most rows that the whole table may have where so many of the slice were counted.
+    // Upper bound on the size of the whole table if the subset had `counted` rows.
     int atMost(int counted) const { return counted == 0 ? 0 : counted * stride_ + stride_ - 1; }
 
 private:

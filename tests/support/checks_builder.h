@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes whose checks are known by hand, and what is asked of them.
+// Small scenes whose visual checks are known by hand.
 #pragma once
 
 #include "compare/checks/visual_checks.h"
@@ -22,8 +22,9 @@ inline void PrintTo(const PixelBox& b, std::ostream* out) {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// 200 x 100 pixels from the origin along -Z. With fov 90 a point (x, y, -d) is seen at
-// (100 + 50 x / d, 50 - 50 y / d): half the height is d metres, half the width 2 d.
+// 200 x 100 pixels, from the origin along -Z, vertical field of view 90 degrees. Point (x, y, -d) projects
+// to
+// (100 + 50 x / d, 50 - 50 y / d): at distance d the view is 4 d wide and 2 d high, in metres.
 inline View viewOf(double near = 1, double far = infinity) {
     View view{Camera{}, 200, 100};
     view.camera.yfov = std::acos(0.0);
@@ -40,14 +41,14 @@ inline Primitive shapeOf(std::vector<glm::vec3> positions) {
     p.positions = std::move(positions);
     return p;
 }
-// 2 m wide and high around (x, y), facing +Z; texture coordinates from 0 to 1.
+// 2 m square centred at (x, y), facing +Z; texture coordinates from 0 to 1.
 inline Primitive squareAt(float x, float y, float z) {
     Primitive p = shapeOf({{x - 1, y - 1, z}, {x + 1, y - 1, z}, {x + 1, y + 1, z}, {x - 1, y + 1, z}});
     p.texcoords[0] = p.texcoords[1] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     return p;
 }
 
-// One node with one mesh of one primitive. Its material has one feature: it is double-sided.
+// One node with a mesh of one primitive. The material's only feature: it is double-sided.
 inline Scene sceneOf(Primitive primitive) {
     Scene scene;
     scene.materials.resize(1);
@@ -56,7 +57,7 @@ inline Scene sceneOf(Primitive primitive) {
     scene.nodes.emplace_back().mesh = 0;
     return scene;
 }
-// The same without any feature, and a texture that a slot may read.
+// As sceneOf(), without any feature, and with a texture for a slot to read.
 inline Scene plainScene() {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.materials[0].double_sided = false;
@@ -70,7 +71,7 @@ inline std::vector<FeatureChecks> checksIn(const Scene& scene, const View& view,
     return visualChecksOf(scene, poseAt(scene, 0), view, ids, positions);
 }
 
-// The boxes of a scene that has at most one feature.
+// The boxes of a scene with at most one feature.
 inline std::vector<PixelBox> boxesOf(const std::vector<FeatureChecks>& features) {
     EXPECT_LE(features.size(), 1u);
     std::vector<PixelBox> boxes;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Interpolation as the table of shared/contract/albedo.h is read, in double.
+// Interpolation as specified for the table of shared/contract/albedo.h, in double.
 #pragma once
 
 #include <algorithm>
 
 namespace diptych {
 
-// Lagrange's polynomial through the four of `count` samples around `place`, a number of samples from the
-// first.
+// Lagrange polynomial through four of `count` samples around `place`, in sample spacings from the first.
 template <class Sample>
 double cubicAt(double place, int count, const Sample& sample) {
     const int first = std::clamp(static_cast<int>(place) - 1, 0, count - 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF files with KHR_draco_mesh_compression, made with Draco's own encoder.
+// glTF files with KHR_draco_mesh_compression, built with Draco's own encoder.
 #pragma once
 
 #include "tests/support/gltf_builder.h"
@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-// Encoder settings; without bits the encoding is exact.
+// Encoder settings. bits: quantization of positions, normals and texture coordinates; 0 is lossless.
 struct DracoWay {
     int method = draco::MESH_EDGEBREAKER_ENCODING;
     int speed = 5;
@@ -25,7 +25,7 @@ struct DracoStream {
     std::size_t vertices, triangles;
 };
 
-// Attributes as functions of the position, so that a vertex can be checked wherever the encoder puts it.
+// Attributes are functions of the position: a vertex can be checked wherever the encoder puts it.
 inline glm::vec2 texcoordAt(const glm::vec3& p) {
     return {p.x / 4, p.y / 8};
 }
@@ -47,7 +47,7 @@ inline std::vector<std::array<glm::vec3, 3>> trianglesOf(int n) {
     return result;
 }
 
-// n x n squares with unique ids 0 POSITION, 1 NORMAL, 2 TEX_COORD, 3 COLOR, 4 whole numbers.
+// n x n squares. Unique ids: 0 POSITION, 1 NORMAL, 2 TEX_COORD, 3 COLOR, 4 integers.
 inline DracoStream encoded(int n, const DracoWay& way = {}) {
     const auto triangles = trianglesOf(n);
     draco::TriangleSoupMeshBuilder builder;
@@ -112,7 +112,7 @@ inline nlohmann::json& extensionOf(GltfFile& f) {
     return f.primitive()["extensions"]["KHR_draco_mesh_compression"];
 }
 
-// Accessors: 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 COLOR_0, 4 TEXCOORD_1 (whole numbers), 5 indices.
+// Accessors: 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 COLOR_0, 4 TEXCOORD_1 (integers), 5 indices.
 inline GltfFile compressed(const DracoStream& s) {
     GltfFile f;
     f.json["nodes"] = {{{"mesh", 0}}};

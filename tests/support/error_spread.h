@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two images of whose errors no two figures are alike, and the figures by their definitions.
+// Two images for which every metric differs from every other, and the metrics by their definitions.
 #pragma once
 
 #include "compare/metrics/channel.h"
@@ -19,9 +19,9 @@ namespace diptych::error_spread {
 
 using Figures = std::map<std::string, double>;
 
-// 61 x 41 pixels, of which 2001 count: 0.99 and 0.999 of them are 1980.99 and 1998.999, so that a rank that
-// is rounded down, or counted from 0, is another one. Pixel spreadPixel(i) has the i-th smallest error; those
-// that do not count have far larger ones.
+// 61 x 41 pixels, 2001 of them covered. The ranks 0.99 x 2001 = 1980.99 and 0.999 x 2001 = 1998.999 are
+// not integers: rounding down or counting from 0 selects another pixel. Pixel spreadPixel(i) has the i-th
+// smallest error; uncovered pixels have far larger errors.
 inline constexpr int wide = 61, high = 41;
 inline constexpr std::size_t counted = 2001, everywhere = std::size_t{wide} * high;
 
@@ -40,7 +40,7 @@ struct Spread {
     Coverage covered{std::vector<std::uint8_t>(everywhere, 0), counted, true};
 };
 
-// Of component 0 the error is the pixel's step, of 1 minus half of it, of 2 an eighth; every value is exact.
+// Error of component 0: the pixel's step; of 1: -1/2 step; of 2: 1/8 step. Every value is exact.
 inline Spread spread() {
     Spread s;
     for (std::size_t i = 0; i < everywhere; ++i) {
@@ -65,7 +65,7 @@ inline double rootMeanSquareOf(std::vector<double> values) {
     for (double& v : values) v *= v;
     return std::sqrt(meanOf(values));
 }
-// ceil(0.99 x 2001) = 1981, ceil(0.999 x 2001) = 1999, counted from 1.
+// The percentiles' ranks, from 1: ceil(0.99 x 2001) = 1981, ceil(0.999 x 2001) = 1999.
 inline double errorOfRank(std::vector<double> values, std::size_t rank) {
     std::ranges::sort(values);
     return values.at(rank - 1);
@@ -78,7 +78,7 @@ inline double angleBetween(const float* a, const float* b) {
     return std::atan2(std::sqrt(x * x + y * y + z * z), along) * 180 / std::numbers::pi;
 }
 
-// The errors of the pixels that count.
+// Errors of the covered pixels.
 struct Errors {
     std::vector<double> absolute, relative, angles, components, relative_squares, ulps;
 };
@@ -87,14 +87,13 @@ inline Errors errorsOf(const Spread& s) {
     for (std::size_t i = 0; i < counted; ++i) {
         const float *r = s.reference.pixel(spreadPixel(i)), *t = s.test.pixel(spreadPixel(i));
         e.absolute.push_back(stepOf(i));
-        e.relative.push_back(stepOf(i) /
-                             magnitudeOf(i));  // of the largest component; all are far above the floor
+        e.relative.push_back(stepOf(i) / magnitudeOf(i));  // of the largest component, far above the floor
         e.angles.push_back(angleBetween(t, r));
         for (int c = 0; c < 3; ++c) {
             const double d = double{t[c]} - double{r[c]};
             e.components.push_back(std::abs(d));
             e.relative_squares.push_back(d * d / (double{r[c]} * r[c] + 0.01));
-            // Of two positive floats the difference of their bits counts the floats between them.
+            // The bit patterns of two positive floats differ by their distance in ULP.
             e.ulps.push_back(std::abs(static_cast<double>(std::bit_cast<std::int32_t>(t[c])) -
                                       static_cast<double>(std::bit_cast<std::int32_t>(r[c]))));
         }
@@ -102,7 +101,7 @@ inline Errors errorsOf(const Spread& s) {
     return e;
 }
 
-// Of one metric's errors over pixels.
+// Metrics of one kind of pixel error.
 inline Figures ofPixels(const std::vector<double>& errors) {
     return {{"max", errorOfRank(errors, counted)},
             {"mean", meanOf(errors)},

@@ -7,7 +7,7 @@
 
 namespace diptych {
 
-// What is said where `act` fails; empty where it does not.
+// The message of the error that `act` throws; empty if it succeeds.
 template <std::invocable Act>
 std::string faultOf(Act&& act) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of several parts, written by OpenEXR itself, with known values for each part, channel and place.
+// Multi-part EXR files written by OpenEXR, with known values per part, channel and pixel.
 #pragma once
 
 #include "tests/support/files.h"
@@ -26,8 +26,8 @@ inline Imath::Box2i box(int left, int top, int right, int bottom) {
     return {Imath::V2i(left, top), Imath::V2i(right, bottom)};
 }
 
-// Small integers, which half can represent: channel `c` of part `part` at a place of the data window, in a
-// mip level.
+// Value of channel `c` of a part at a pixel of the data window, in a mip level: an integer that half
+// represents exactly.
 inline int valueAt(int part, int c, int x, int y, int level = 0) {
     return 100 * part + 40 * c + 5 * (y & 7) + (x & 3) + 1000 * level;
 }
@@ -37,9 +37,9 @@ struct MadePart {
     std::vector<std::pair<std::string, Imf::PixelType>> channels;
     Imath::Box2i data = box(0, 0, 8, 5), display = box(0, 0, 8, 5);
     Imf::Compression compression = Imf::ZIP_COMPRESSION;
-    int tile = 0;  // pixels a side; 0: lines
+    int tile = 0;  // tile edge, pixels; 0: scan lines
     Imf::LevelMode levels = Imf::ONE_LEVEL;
-    bool deep = false;  // only declared, without pixels
+    bool deep = false;  // declared only, without pixels
 };
 
 inline Imf::Header headerOf(const MadePart& part) {
@@ -54,7 +54,7 @@ inline Imf::Header headerOf(const MadePart& part) {
     return head;
 }
 
-// The pixels of one level; must live until they are written.
+// Pixels of one level; must live until they are written.
 class MadePixels {
 public:
     MadePixels(const MadePart& part, int number, const Imath::Box2i& window, int level) {
@@ -102,7 +102,7 @@ inline void writePart(Imf::MultiPartOutputFile& file, const MadePart& part, int 
         }
 }
 
-// Returns the file's bytes. `change` may modify the headers.
+// Returns the file's bytes; `change` may modify the headers.
 template <class Change>
 std::string exrOf(const std::vector<MadePart>& parts, const Change& change) {
     std::vector<Imf::Header> heads;

@@ -15,7 +15,7 @@
 
 namespace diptych {
 
-// A folder of the running test; what is in it stays.
+// Folder of the running test, with its contents.
 inline std::filesystem::path testFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     const std::filesystem::path path =
@@ -23,7 +23,7 @@ inline std::filesystem::path testFolder() {
     std::filesystem::create_directories(path);
     return path;
 }
-// The same, emptied.
+// The same folder, emptied.
 inline std::filesystem::path folder() {
     std::filesystem::remove_all(testFolder());
     return testFolder();
@@ -35,7 +35,7 @@ inline std::string contentsOf(const std::filesystem::path& file) {
     return std::move(text).str();
 }
 
-// All names in the folder, hidden ones too, sorted.
+// All names in the folder, including hidden ones, sorted.
 inline std::vector<std::string> namesIn(const std::filesystem::path& path) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path))
@@ -44,7 +44,7 @@ inline std::vector<std::string> namesIn(const std::filesystem::path& path) {
     return names;
 }
 
-// The names of all files in the folder and in those inside it, sorted: "a.txt", "inner/b.txt".
+// Paths of all files below the folder, sorted: "a.txt", "inner/b.txt".
 inline std::vector<std::string> filesIn(const std::filesystem::path& path) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path))

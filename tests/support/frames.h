@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames that no device drew.
+// Synthetic Frames.
 #pragma once
 
 #include "shared/frame/frame.h"
@@ -9,7 +9,7 @@
 
 namespace diptych {
 
-// lit is `value` in every component, and every pixel shows material `id`; -1: background.
+// lit is `value` in every component; every pixel has material `id` (-1: background).
 inline Frame flatFrame(Path path, int width, int height, float value = 0, float id = 0) {
     Frame frame;
     frame.name = std::string(nameOf(path));

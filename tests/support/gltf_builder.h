@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF files for tests: a small valid one, in which a test changes one thing.
+// A small valid glTF file, of which a test changes one thing.
 #pragma once
 
 #include "shared/scene/load.h"
@@ -18,10 +18,10 @@
 
 namespace diptych {
 
-// Component types.
+// glTF component types.
 constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
 
-// A file under construction: buffer 0 grows, and every accessor has its own bufferView.
+// A file under construction: buffer 0 grows, and each accessor gets its own buffer view.
 struct GltfFile {
     nlohmann::json json = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}, {"scene", 0}};
     std::string data;
@@ -41,7 +41,7 @@ struct GltfFile {
         return static_cast<int>(json["accessors"].size()) - 1;
     }
 
-    // One triangle in the plane z = 0, facing +Z, in mesh 0 of node 0.
+    // One triangle at z = 0, facing +Z, in mesh 0 of node 0.
     static GltfFile triangle() {
         GltfFile f;
         const int positions = f.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
@@ -82,7 +82,7 @@ struct GltfFile {
     }
 };
 
-// The error of loading these bytes as a file; empty: it loads.
+// The error of loading these bytes as a file; empty if it loads.
 inline std::string loadBytes(const std::string& bytes, const char* name = "scene.glb") {
     std::ofstream(testFolder() / name, std::ios::binary) << bytes;
     return faultOf([&] { loadScene((testFolder() / name).string()); });
@@ -94,7 +94,7 @@ inline bool mentions(const std::vector<std::string>& notes, const std::string& t
     return false;
 }
 
-// A 2 x 1 PNG, red and half-transparent green; 8 bits, no filter.
+// A 2 x 1 PNG: red and half-transparent green; 8 bits, no filter.
 inline const char* const twoPixels =
     "data:image/png;base64,"
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAA"

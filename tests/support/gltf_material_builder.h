@@ -7,7 +7,7 @@
 
 namespace diptych {
 
-// A file with one material; `images` PNGs of two pixels are textures 0 and up.
+// A file with one material and `images` two-pixel PNGs as textures 0 and up.
 inline GltfFile withMaterial(nlohmann::json material, int images = 1) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whether barriers are enough for the uses that stand between them: the memory model of synchronization2
-// (Vulkan 1.3, chapter 7) for one queue, written down anew and not as BarrierTracker does it. The validation
-// layer does not see a source stage or access that is missing; this does.
+// Checks that barriers suffice for the declared uses between them. Implements the memory model of Vulkan
+// 1.3, chapter 7, for one queue, independently of BarrierTracker. It also finds missing source stages and
+// accesses, which the validation layer does not.
 #pragma once
 
 #include "shared/vulkan/pass_list.h"
@@ -17,7 +17,7 @@ namespace diptych {
 
 class Hazards {
 public:
-    // One run of a list: its declarations, and the barriers that stood before each pass.
+    // One run of a pass list: its declared uses and the barriers recorded before each pass.
     void run(const std::vector<DeclaredUse>& uses, const std::vector<RecordedBarrier>& barriers) {
         std::size_t passes = 0;
         for (const DeclaredUse& use : uses) passes = std::max(passes, use.number + 1);
@@ -25,7 +25,7 @@ public:
             for (const RecordedBarrier& barrier : barriers)
                 if (barrier.number == pass)
                     eachPlace(barrier.resource, barrier.part, [&](Place& p) { wait(p, barrier); });
-            // What a pass does at a place is one use: all of it is held against what was before.
+            // All uses of a subresource by one pass are merged and checked against earlier passes.
             std::map<Key, DeclaredUse> together;
             for (const DeclaredUse& use : uses)
                 if (use.number == pass)
@@ -41,14 +41,14 @@ public:
 
 private:
     using Key = std::tuple<std::string, std::uint32_t, std::uint32_t>;
-    // Something that was done to a place and what has been ordered behind it since.
+    // An access to a subresource, and everything ordered after it so far.
     struct Event {
         std::string what;
         VkPipelineStageFlags2 stages = 0;
-        VkAccessFlags2 written = 0;        // 0: a read, or a change of layout
-        bool available = false;            // of a write: it has left its stage's cache
-        VkPipelineStageFlags2 before = 0;  // stages that begin after it
-        std::vector<Access> visible;       // stages and accesses that see it
+        VkAccessFlags2 written = 0;        // 0: a read or a layout transition
+        bool available = false;            // of a write: flushed from its stage's cache
+        VkPipelineStageFlags2 before = 0;  // stages that wait for it
+        std::vector<Access> visible;       // stages and accesses it is visible to
         bool isRead = false;
     };
     struct Place {
@@ -77,7 +77,7 @@ private:
 
     void wait(Place& place, const RecordedBarrier& b) {
         for (Event& e : place.events) {
-            // Directly, or by way of a stage that an earlier barrier has put behind it.
+            // Directly, or chained through a stage that an earlier barrier made wait.
             const bool direct = b.from.stages != 0 && coversStages(b.from.stages, e.stages);
             if (!direct && (e.before & b.from.stages) == 0) continue;
             e.before |= b.to.stages;
@@ -85,7 +85,7 @@ private:
             if (e.available) e.visible.push_back(b.to);
         }
         if (b.to.layout == VK_IMAGE_LAYOUT_UNDEFINED || b.to.layout == place.layout) return;
-        // A change of layout is a write: nothing may still be under way.
+        // A layout transition is a write: all earlier accesses must be complete.
         for (const Event& e : place.events) {
             if (!coversStages(e.before, b.to.stages))
                 say(b.pass, b.resource, e, "is not waited for by a change of layout");
@@ -115,7 +115,7 @@ private:
         }
         const Event own{use.pass, use.access.stages, written, false, 0, {}, written == 0};
         if (written != 0)
-            place.events = {own};  // what was before is ordered before it
+            place.events = {own};  // earlier accesses are ordered before it
         else
             place.events.push_back(own);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Haze for tests: Settings, a sun, and the reference's air of both.
+// Haze for tests: Settings, a sun, and the reference's Air for both.
 #pragma once
 
 #include "compare/reference/haze.h"
@@ -17,7 +17,7 @@ inline Settings hazeSettings(float density = 1) {
     return settings;
 }
 
-// Directions are float32's, as shaders have them.
+// Directions are rounded to float32, as in shaders.
 inline glm::dvec3 floatUnit(const glm::dvec3& v) {
     return glm::dvec3(glm::vec3(glm::normalize(v)));
 }
@@ -31,7 +31,7 @@ inline Light sunTowards(const glm::dvec3& direction, float irradiance) {
     return sun;
 }
 
-// `sun` must outlive it.
+// `sun` must outlive the result.
 inline reference::Air airOfSettings(const Settings& s, const Light* sun) {
     const auto doubles = [&](const Rgb& c) {
         return glm::dvec3(double{c.r}, double{c.g}, double{c.b}) * double{s.haze_density};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights and an object for the tests of lights by object, and what their harmonics give.
+// Lights and an object for tests of per-object lights, and the irradiance of their harmonics.
 #pragma once
 
 #include "shared/light/per_object.h"
@@ -35,13 +35,18 @@ inline Light sun(float lux) {
     return light;
 }
 
-inline GpuLights fromEye(const std::vector<Light>& lights) {
-    return gpuLights(lights, {0, 0, 0});
+inline GpuLights fromEye(const std::vector<Light>& lights, const LightFalloff& falloff = {}) {
+    GpuLights result = gpuLights(lights, {0, 0, 0});
+    result.falloff = falloff;
+    return result;
 }
+
+// Every choice of --range-window and --spot-cone.
+inline constexpr LightFalloff falloffs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
 
 inline const ObjectPlace unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
 
-// Irradiance of a normal by what an object's lists hold of harmonics, by colour and of green.
+// Irradiance at normal `n` from an object's spherical harmonics: all colours, and green alone.
 inline glm::dvec3 evaluatedRgb(const gpu::ObjectIrradiance& e, const glm::dvec3& n) {
     const auto d = [](const gpu::vec3& v) { return glm::dvec3(v); };
     return d(e.constant) + d(e.linear_x) * n.x + d(e.linear_y) * n.y + d(e.linear_z) * n.z +

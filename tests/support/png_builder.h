@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files of every kind, written by libpng from rows in their stored form.
+// PNG files of every color type, written by libpng from rows in stored form.
 #pragma once
 
 #include <png.h>
@@ -14,7 +14,7 @@ namespace diptych {
 struct MadePng {
     int color = PNG_COLOR_TYPE_RGB, bits = 8;
     std::uint32_t width = 1;
-    std::vector<std::vector<std::uint8_t>> rows;  // 16 bits: the high byte first
+    std::vector<std::vector<std::uint8_t>> rows;  // 16 bits: high byte first
     bool interlaced = false;
     std::vector<png_color> palette{};
     std::vector<std::uint8_t> palette_alpha{};
@@ -23,10 +23,10 @@ struct MadePng {
     bool srgb = false;
     bool profile = false;
     std::vector<std::pair<std::string, std::string>> chunks{};  // before the pixels
-    std::string exif{};                                         // behind the pixels
+    std::string exif{};                                         // after the pixels
 };
 
-// libpng terminates the program on an error, which would be a fault of the test.
+// An error terminates the program (libpng's default): it would be a bug in the test.
 inline std::string pngOf(const MadePng& made) {
     std::string bytes;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -49,7 +49,7 @@ inline std::string pngOf(const MadePng& made) {
     transparent.gray = static_cast<png_uint_16>(made.transparent_gray);
     if (made.transparent_gray >= 0) png_set_tRNS(png, info, nullptr, 0, &transparent);
     png_write_info(png, info);
-    // Written by hand: libpng writes no gamma that contradicts sRGB, and no invalid profile.
+    // Written by hand: libpng writes neither a gamma that contradicts sRGB nor an invalid profile.
     const auto chunk = [&](const char* name, const std::vector<png_byte>& data) {
         png_write_chunk(png, reinterpret_cast<png_const_bytep>(name), data.data(), data.size());
     };
@@ -58,7 +58,7 @@ inline std::string pngOf(const MadePng& made) {
         chunk("gAMA", {png_byte(gamma >> 24), png_byte(gamma >> 16), png_byte(gamma >> 8), png_byte(gamma)});
     if (made.srgb) chunk("sRGB", {0});
     for (const auto& [name, data] : made.chunks) chunk(name.c_str(), {data.begin(), data.end()});
-    if (made.profile) chunk("iCCP", {'a', 0, 0});  // a name, a method, no data: profiles are not decompressed
+    if (made.profile) chunk("iCCP", {'a', 0, 0});  // name, method, no data: profiles are not decompressed
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; ++pass)
         for (const std::vector<std::uint8_t>& row : made.rows) png_write_row(png, row.data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests of what culling leaves out: meshes, views, and a rasteriser that says what covers a sample.
+// For tests of triangle culling: meshes, views, and a rasteriser that finds triangles covering a sample.
 #pragma once
 
 #include "shared/contract/samples.h"
@@ -26,7 +26,7 @@ struct TriangleMesh {
     std::vector<std::uint32_t> indices;
 };
 
-// Of radius 1 m about the middle, counter-clockwise seen from outside; its corners are moved by `rough` m.
+// Radius 1 m, counter-clockwise seen from outside. `rough`: scale of random vertex offsets, m.
 inline TriangleMesh ballOf(int rings, double rough, std::mt19937& random,
                            const glm::vec3& middle = glm::vec3(0)) {
     std::uniform_real_distribution<double> part(-1, 1);
@@ -49,7 +49,7 @@ inline TriangleMesh ballOf(int rings, double rough, std::mt19937& random,
     return ball;
 }
 
-// Of 1 m to each side of the middle, facing +Z: its box is no larger than it is.
+// 2 m square around the origin, facing +Z: its bounding box is tight.
 inline TriangleMesh boardOf(int squares) {
     TriangleMesh board;
     const auto at = [&](int j, int i) { return static_cast<std::uint32_t>(j * (squares + 1) + i); };
@@ -65,7 +65,7 @@ inline TriangleMesh boardOf(int squares) {
     return board;
 }
 
-// What is seen from `eye`: a camera of that height of view, in radians, or orthographic.
+// View from `eye`; `fov`: vertical, radians.
 inline View viewOf(const SampleGrid& grid, const glm::dvec3& eye, const glm::dvec3& target, double fov,
                    double near, bool orthographic) {
     View view;
@@ -80,17 +80,17 @@ inline View viewOf(const SampleGrid& grid, const glm::dvec3& eye, const glm::dve
     return view;
 }
 
-// A device as Vulkan describes it: products in float32, corners moved to a grid, samples inside by the signs
-// of exact areas and the rule of upper left edges.
+// A device as Vulkan specifies it: float32 products, vertices snapped to a grid, coverage by the signs of
+// exact areas and the top-left rule.
 class Rasteriser {
 public:
-    // `truncates`: moves corners down, not to the nearest place of the grid. `reversed`: adds up the products
-    // of a row the other way round, as another device may.
+    // `truncates`: snaps vertices down, not to the nearest grid point. `reversed`: sums the products of a
+    // row in reverse order, as some devices do.
     Rasteriser(const SampleGrid& grid, bool truncates, bool reversed = false)
         : grid_(grid), truncates_(truncates), reversed_(reversed) {}
 
-    // Whether the triangle covers a sample of the picture and shows its front, or either side. Corners have a
-    // w above 0.
+    // Whether the triangle covers a sample of the image and faces the camera (`either`: faces any way).
+    // False if a vertex has w <= 0.
     bool shows(const glm::mat4& clipFromObject, std::array<glm::vec3, 3> corners, bool mirrored,
                bool either) const {
         std::array<glm::i64vec2, 3> at;
@@ -104,7 +104,7 @@ public:
             return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         };
         std::int64_t whole = area(at[0], at[1], at[2]);
-        // y points down: counter-clockwise is negative.
+        // y points down: counter-clockwise areas are negative.
         const bool front = mirrored ? whole > 0 : whole < 0;
         if (whole == 0 || (!front && !either)) return false;
         if (whole < 0) std::swap(at[1], at[2]);
@@ -134,7 +134,7 @@ private:
         return reversed_ ? ((m[3] + m[2] * p.z) + m[1] * p.y) + m[0] * p.x
                          : ((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3];
     }
-    static constexpr std::int64_t step = 4096;  // of a pixel; a grid of 16 bits holds 1/256 and 1/16
+    static constexpr std::int64_t step = 4096;  // units per pixel; fine enough for the snap and sample grids
     std::int64_t snapped(float x) const {
         const double steps = double{x} / grid_.snap;
         return static_cast<std::int64_t>(truncates_ ? std::floor(steps) : std::nearbyint(steps)) *

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surfaces, lights and scenes for the reference's tests, and formulas for their expected values.
+// Surfaces, lights and scenes for tests of the reference, and formulas for their expected values.
 #pragma once
 
 #include "compare/reference/lighting.h"
@@ -21,7 +21,7 @@ namespace diptych::reference {
 
 constexpr double pi = std::numbers::pi;
 
-// White, without a dielectric layer: its radiance is E / pi.
+// White, without a dielectric layer: radiance E / pi.
 inline Surface lambertian(const glm::dvec3& normal = {0, 0, 1}, const glm::dvec3& position = {0, 0, 0}) {
     Surface s;
     s.position = position;
@@ -31,7 +31,7 @@ inline Surface lambertian(const glm::dvec3& normal = {0, 0, 1}, const glm::dvec3
     return s;
 }
 
-// F = 1 everywhere: only the specular lobe of `roughness`, seen at an angle from the normal +Z.
+// F = 1 everywhere: only the specular lobe, viewed at `angle` (radians) from the normal +Z.
 inline Surface mirror(double roughness, double angle) {
     Surface s = lambertian();
     s.to_viewer = {std::sin(angle), 0, std::cos(angle)};
@@ -50,7 +50,7 @@ inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec
     return light;
 }
 
-// All lights, as what casts shadows.
+// Every light casts shadows.
 inline std::vector<std::size_t> everyLight(std::span<const Light> lights) {
     std::vector<std::size_t> all(lights.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -70,10 +70,10 @@ inline double irradianceBy(const Light& light, const Surface& surface) {
     return reflectedBy(light, surface) * pi;
 }
 
-// Lambert's formula for a polygon of radiance 1 seen from the origin, for the part above the horizon: half
-// the sum over its edges of the angle that each subtends, times the cosine of its plane's normal. (Lambert
-// 1760, "Photometria"; Baum, Rushmeier and Winget 1989.) Valid for any outline of a convex body, planar or
-// not.
+// Lambert's formula for the irradiance of a polygon of radiance 1 seen from the origin, clipped to the
+// horizon. Half the sum over its edges of the subtended angle times the cosine of the edge plane's normal
+// (Lambert 1760, "Photometria"; Baum, Rushmeier and Winget 1989). Valid for the outline of any convex
+// body, planar or not.
 inline double lambertIrradiance(const std::vector<glm::dvec3>& outline, const glm::dvec3& n) {
     std::vector<glm::dvec3> above;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -98,8 +98,7 @@ inline std::vector<glm::dvec3> cornersOf(const Light& rect, const glm::dvec3& fr
     return {c - x - y, c + x - y, c + x + y, c - x + y};
 }
 
-// A circle, or an arc of it, as a polygon; its area is too small by (angle / corners)^2 / 6, below 2e-8
-// here.
+// An arc as a polygon. Its relative area error is (angle / corners)^2 / 6, below 2e-8.
 inline void addArc(std::vector<glm::dvec3>& outline, const glm::dvec3& centre, const glm::dvec3& x,
                    const glm::dvec3& y, double from, double to) {
     constexpr int corners = 20000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small scenes of which the reference's tests draw whole pictures.
+// Small scenes that tests of the reference render.
 #pragma once
 
 #include "tests/support/reference_builder.h"
@@ -14,7 +14,7 @@
 
 namespace diptych::reference {
 
-// A flat piece from `corner` along x and y; its front is where cross(x, y) points.
+// A parallelogram from `corner` along x and y; faces cross(x, y).
 inline Primitive quad(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y, int material = 0) {
     Primitive p = rectangle(corner, x, y, material);
     p.tangents.assign(4, glm::vec4(glm::normalize(x), 1));
@@ -22,7 +22,7 @@ inline Primitive quad(const glm::vec3& corner, const glm::vec3& x, const glm::ve
     return p;
 }
 
-// White and purely Lambertian.
+// White, purely Lambertian.
 inline Material matte() {
     Material m;
     m.metallic = 0;
@@ -30,7 +30,7 @@ inline Material matte() {
     return m;
 }
 
-// A white floor of 20 m at z = 0 that faces +Z.
+// A white 20 m square at z = 0, facing +Z.
 inline Scene floorScene() {
     Scene scene;
     scene.materials = {matte()};
@@ -45,7 +45,6 @@ inline void add(Scene& scene, const Primitive& primitive) {
     scene.meshes[0].primitives.push_back(primitive);
 }
 
-// From `eye` to `target`.
 inline View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, int width, int height,
                      double yfov = glm::radians(60.0)) {
     View view;
@@ -59,7 +58,7 @@ inline View viewFrom(const glm::dvec3& eye, const glm::dvec3& target, int width,
     return view;
 }
 
-// Keeps tiles in a file of that stem, owned by `checkpoint`; an empty stem keeps nothing.
+// Checkpoints tiles in files with this stem, owned by `checkpoint`; an empty stem disables it.
 inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>& checkpoint) {
     std::function<Checkpoint&(std::uint64_t, std::size_t)> keep;
     if (!stem.empty())
@@ -74,7 +73,7 @@ struct Drawn {
     Picture picture;
     const Image& operator[](gpu::uint mode) const { return picture.channels.at(static_cast<int>(mode)); }
 };
-// `shadows`: of every light and of the environment.
+// `shadows`: of every light and of the environment. `keep`: stem of the checkpoint.
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
                    const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
     Drawn result{poseAt(scene, 0), {}};

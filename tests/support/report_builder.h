@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small reports that a test makes, and how their pages are read.
+// Small reports built by tests, and a parser for their pages.
 #pragma once
 
 #include "compare/report/report.h"
@@ -22,8 +22,8 @@ inline std::size_t countOf(const std::string& text, const std::string& word) {
     return found;
 }
 
-// The fault of a text that is no well-formed markup: an unclosed or crossed element, a bare & or <. `voids`
-// are elements that HTML closes by itself.
+// The first error of malformed markup: an unclosed or crossed element, a bare & or <. `voids`: void
+// elements of HTML.
 inline std::string markupFault(const std::string& text, const std::set<std::string>& voids = {}) {
     std::vector<std::string> open;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -48,13 +48,13 @@ inline std::string markupFault(const std::string& text, const std::set<std::stri
     return open.empty() ? "" : "unclosed <" + open.back() + ">";
 }
 
-// How many channels a pixel of one sample has in either path.
+// Number of channels that a single-sampled frame has in either path.
 inline std::size_t channelsOfOneSample() {
     return static_cast<std::size_t>(std::ranges::count_if(
         debugModes(), [](const DebugMode& mode) { return mode.maker != MadeBy::deferred_only; }));
 }
 
-// Both paths of one small scene, one surface pixel among background; every channel there.
+// Both paths of a small scene with all channels: one surface pixel, the others background.
 inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
     std::vector<Frame> frames(2);
     for (const Path path : {Path::deferred, Path::forward_plus}) {
@@ -87,7 +87,7 @@ inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<Featur
     const std::vector<Requirements> needs(frames.size());
     return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(checks));
 }
-// Elements that HTML closes by itself.
+// Void elements of HTML.
 inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br", "wbr"};
 
 }  // namespace diptych

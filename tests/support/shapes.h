@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Primitives of one piece.
+// Simple primitives.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -8,7 +8,7 @@
 
 namespace diptych {
 
-// A parallelogram from `corner` along x and y, seen from where cross(x, y) points; uv (0, 0) at the end of y.
+// A parallelogram from `corner` along x and y, facing cross(x, y). uv is (0, 0) at corner + y.
 inline Primitive rectangle(const glm::vec3& corner, const glm::vec3& x, const glm::vec3& y,
                            int material = 0) {
     Primitive p;
@@ -21,7 +21,7 @@ inline Primitive rectangle(const glm::vec3& corner, const glm::vec3& x, const gl
     return p;
 }
 
-// From the origin 1 m along x and y, facing +Z.
+// From the origin, 1 m along x and y, facing +Z.
 inline Primitive triangleOfAMetre() {
     Primitive p;
     p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

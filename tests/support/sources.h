@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The repository's own files, for tests that check them.
+// The repository's files, for tests that check them.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Files = std::map<std::string, std::string>;  // path from the repository's root -> contents
 using Faults = std::vector<std::string>;
 
-// Every source, shader, script and page that belongs to the repository.
+// Every source, shader, script and page of the repository.
 inline const Files& sources() {
     static const Files files = [] {
         const fs::path root = DIPTYCH_SOURCE_DIR;
@@ -54,7 +54,7 @@ inline std::string joined(const Faults& faults) {
     return all;
 }
 
-// What the file includes in quotes, as paths from the root: of the file's own folder if it is there.
+// Paths of the quoted includes, from the root. The file's own folder is searched first.
 inline std::vector<std::string> quotedIncludes(const Files& files, const std::string& path) {
     static const std::regex include("^[ \t]*#[ \t]*include[ \t]*\"([^\"]+)\"");
     std::vector<std::string> targets;

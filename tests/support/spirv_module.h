@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a compiled shader module declares and uses, parsed according to section 2.3 of the SPIR-V
-// specification: a header of five words, then instructions whose first word is length << 16 | opcode.
+// Declarations and uses of a compiled shader module. Parsed by section 2.3 of the SPIR-V specification: a
+// header of five words, then instructions whose first word is length << 16
+// opcode.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +25,9 @@ public:
         auto operator<=>(const Binding&) const = default;
     };
 
-    // What makes a number: an instruction of a function whose result is a float, a vector or a matrix.
+    // An instruction in a function whose result is a float, a vector or a matrix.
     struct Operation {
-        std::string function;  // that it stands in, without its parameters
+        std::string function;  // enclosing function, without parameters
         std::uint32_t op = 0;
         std::uint32_t extended = 0;  // of GLSL.std.450, where op is OpExtInst
         std::uint32_t result = 0;
@@ -42,9 +43,9 @@ public:
     SpirvModule(const SpirvModule&) = delete;
     SpirvModule& operator=(const SpirvModule&) = delete;
 
-    // The numbers (constant_id) of the specialization constants used by code reachable from the entry point,
-    // directly or in a constant expression. A global variable that is written but never read does not count,
-    // nor does a call whose result is only written there.
+    // Indices (constant_id) of the specialization constants that code reachable from the entry point uses,
+    // directly or in a constant expression. Ignores global variables that are only written, and calls
+    // whose results only such variables receive.
     std::set<std::uint32_t> usedConstants() const {
         std::set<std::uint32_t> used, functions;
         const std::set<std::uint32_t> dead = deadCalls();
@@ -73,7 +74,7 @@ public:
         return result;
     }
 
-    // In the order of the module.
+    // In module order.
     std::vector<Operation> operations() const {
         std::vector<Operation> result;
         std::string function;
@@ -87,7 +88,7 @@ public:
         return result;
     }
 
-    // How many of its instructions have the opcode.
+    // Number of instructions with the opcode.
     std::size_t count(std::uint32_t op) const {
         return static_cast<std::size_t>(
             std::count_if(all_.begin(), all_.end(), [&](const Instruction& in) { return in.op == op; }));
@@ -135,7 +136,7 @@ private:
     };
     struct Instruction {
         std::uint32_t op;
-        std::span<const std::uint32_t> words;  // after the first
+        std::span<const std::uint32_t> words;  // without the first
     };
 
     void declare(const Instruction& in) {
@@ -172,7 +173,7 @@ private:
         return found->second.substr(0, found->second.find('('));
     }
 
-    // The ids that an instruction reads, without its literal operands.
+    // Ids that an instruction reads, without literal operands.
     static std::vector<std::uint32_t> operands(const Instruction& in) {
         const auto& w = in.words;
         const auto some = [&](std::size_t first, std::size_t end) {
@@ -211,7 +212,7 @@ private:
                 break;
         }
         std::vector<std::uint32_t> ids = some(in.op == op_ext_inst ? 4 : 2, w.size());
-        // Image operands and group operations have one word that is not an id.
+        // Image operands and group operations have one literal word.
         std::size_t literal = w.size();
         if (in.op >= op_image_first && in.op <= op_image_last) literal = in.op >= op_image_gather ? 5 : 4;
         if (in.op >= op_group_first && in.op <= op_group_last) literal = 3;
@@ -257,7 +258,7 @@ private:
     std::map<std::uint32_t, std::uint32_t> spec_id_, binding_, set_;   // by id
     std::map<std::uint32_t, std::uint32_t> variables_;                 // global: their pointer types
     std::map<std::uint32_t, std::vector<std::uint32_t>> expressions_;  // OpSpecConstantOp: operands
-    std::map<std::uint32_t, std::size_t> reads_;                       // by id, in functions; stores left out
+    std::map<std::uint32_t, std::size_t> reads_;                       // by id, in functions; without stores
     std::map<std::uint32_t, std::string> names_;                       // by id
     std::set<std::uint32_t> privates_, floats_, no_contraction_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// SPIR-V as text of spirv-dis, in words by which two modules that are the same but for the numbers of their
-// ids and the order of their declarations are equal.
+// Canonical form of disassembled SPIR-V: equal for modules that differ only in ids and in the order of
+// declarations.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,10 @@
 
 namespace diptych {
 
-// `disassembly` is of spirv-dis --no-header --raw-id. What a declaration is (a type, a constant, a variable
-// with its decorations) becomes a number of `known`, one table for all modules that are compared; ids within
-// functions are numbered as they come. Lines are those of the functions, after those before declarations.
+// `disassembly`: output of spirv-dis --no-header --raw-id. Each declaration (type, constant, variable with
+// its decorations) becomes an index into `known`, a table shared by all compared modules. Ids in functions
+// are renumbered in order of appearance. Returns the lines before the declarations, then those of the
+// functions.
 inline std::vector<std::string> canonicalSpirv(const std::string& disassembly,
                                                std::map<std::string, std::size_t>& known) {
     using Texts = std::map<std::string, std::string>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small pictures for tests of metrics.
+// Small images for tests of metrics.
 #pragma once
 
 #include "shared/image/image.h"
@@ -21,7 +21,7 @@ inline Image flat(int width, int height, float r, float g, float b) {
     }
     return image;
 }
-// 40x30.
+// 40 x 30 pixels.
 inline Image grey(float v) {
     return flat(40, 30, v, v, v);
 }
@@ -29,7 +29,7 @@ inline void set(Image& image, int x, int y, float v) {
     for (int c = 0; c < 3; ++c) image.at(x, y, c) = v;
 }
 
-// Independent random components in [low, high].
+// Independent uniform components in [low, high).
 inline Image noise(int width, int height, unsigned seed, float low = 0, float high = 1) {
     Image image(width, height, 3);
     std::mt19937 random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// audit as users run it: its folder, its exit code, and that it goes on where it was cut.
+// audit as users run it: output folder, exit code, and resuming after an interruption.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"
@@ -38,7 +38,7 @@ TEST(AuditTool, AFolderOfPlotsAndTablesAndAnExitCode) {
     EXPECT_EQ(audit["software"], "diptych");
     EXPECT_EQ(audit["quantities"].size(), 4u);
     EXPECT_EQ(audit["requirements"][0]["met"], true);
-    // What breaks is reduced to a file whose command shows it: every one that is printed.
+    // Every printed failure is reduced to a file whose command reproduces it.
     std::size_t shown = 0;
     for (const Json& quantity : audit["quantities"])
         for (const Json& failure : quantity.value("failures", Json::array())) {
@@ -78,7 +78,7 @@ TEST(AuditTool, RelationsThatHold) {
     EXPECT_EQ(json["relations"][0]["name"], "lights_split");
     EXPECT_EQ(json["relations"][0]["series"].size(), 4u);
     EXPECT_EQ(json["relations"][0]["series"][3]["path"], "reference");
-    // The same command replaces its own folder; quantities are another command.
+    // The same command replaces its own folder; quantities are a different command.
     const Ran again = runTool(folder, "audit builtin:points --size 32x18 --relation repeated --json -o out");
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(Json::parse(again.out)["relations"].size(), 1u);
@@ -94,7 +94,7 @@ TEST(AuditTool, RelationsThatHold) {
     EXPECT_EQ(readJson(folder / "none/relations.json")["relations"][0]["verdict"], "does not apply");
 }
 
-// Plots of what is measured can be looked at while the rest is; the page says what is still to come.
+// Finished plots are readable while the rest is measured; the page says what is pending.
 TEST(AuditTool, TheFirstPlotIsThereBeforeTheLast) {
     const Folder folder;
     const std::vector<std::string> words{"audit",      "builtin:triangle",      "--size", "64x36", "-o", "t",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// compare with an earlier picture: its messages, updating the baseline, errors.
+// compare against an earlier image: messages, updating the baseline, errors.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -36,7 +36,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_NE(report["frames"][0]["origin"]["commit"], "");
     EXPECT_EQ(contentsOf(folder / "b.exr"), first) << "comparing writes no baseline";
 
-    // With other lights the Settings differ, which is stated before any number.
+    // Other lights change the Settings, which is stated before any number.
     ran = runTool(folder, "compare builtin:points --size 32x18 --runs 0 --baseline b.exr --lights point:2");
     EXPECT_EQ(ran.code, 1);
     EXPECT_EQ(ran.out.find("baseline: different Settings: lights \"\" (now \"point:2\")"), 0u) << ran.out;
@@ -48,7 +48,7 @@ TEST(Baseline, IsWrittenComparedAndRenewed) {
     EXPECT_EQ(runTool(folder, comparePoints + "--baseline b.exr --lights point:2").code, 0);
 }
 
-// The G-buffer's encoding does not explain a light that has moved, whichever path the baseline is of.
+// The G-buffer's encoding does not explain a moved light, whichever path the baseline has.
 TEST(Baseline, AChangeOfTheLightFailsInEveryRow) {
     for (const std::string path : {"forward_plus", "deferred"}) {
         const Folder folder;

@@ -8,7 +8,7 @@
 namespace diptych {
 namespace {
 
-// No time limit, so that a busy machine makes no frame too slow.
+// A high limit, so that no frame is too slow on a busy machine.
 constexpr const char* benchGallery =
     "bench builtin:spheres --sizes 32x24,16x12 --assign every --runs 2 --max-ms 1e6 ";
 
@@ -41,7 +41,7 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     }
     EXPECT_EQ(lights, (std::set<int>{1, 4, 16}));
     EXPECT_TRUE(bench["kernels"].is_null());
-    // A folder of its own may be written again, another one may not.
+    // Its own folder may be replaced, a foreign one may not.
     EXPECT_EQ(runTool(folder, std::string(benchGallery) + "--kernels off -q -o b").code, 0);
     folder.write("other/note.txt", "mine");
     EXPECT_TRUE(runTool(folder, std::string(benchGallery) + "-o other").failedOver("-o other"));
@@ -61,7 +61,7 @@ TEST(Bench, GrowthIsDrawnUntilItIsTooMuch) {
     EXPECT_EQ(lights["growth"]["words"].size(), 4u);
     EXPECT_NE(contentsOf(folder / "b/bench.svg").find("memory on the device"), std::string::npos);
     EXPECT_NE(contentsOf(folder / "b/index.html").find("How time and memory grow"), std::string::npos);
-    // What is too slow is not tried with more, nor read.
+    // Above the limit, larger configurations are neither tried nor loaded.
     ASSERT_EQ(runTool(folder, growth + "--axes instances,triangles --max-ms 1e-6").code, 0);
     const Json slow = readJson(folder / "b/bench.json");
     EXPECT_TRUE(slow["frames"].empty());
@@ -83,9 +83,10 @@ TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
     EXPECT_EQ(bench["skipped"][0]["assign"], "per_object");
     EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"),
               std::string::npos);
-    EXPECT_NE(bench["skipped"][2]["reason"].get<std::string>().find("with 1 light already"),
-              std::string::npos);
-    EXPECT_NE(ran.out.find("not timed: deferred, every, 16x12, 2 lights: over --max-ms 1e-06"),
+    EXPECT_NE(
+        bench["skipped"][2]["reason"].get<std::string>().find("already over --max-ms 1e-06 with 1 light"),
+        std::string::npos);
+    EXPECT_NE(ran.out.find("not timed: deferred, every, 16x12, 2 lights: already over --max-ms 1e-06"),
               std::string::npos)
         << ran.out;
     EXPECT_FALSE(fs::exists(folder / "b/bench.svg")) << "nothing to plot";
@@ -106,8 +107,7 @@ TEST(Bench, KernelsAlone) {
     EXPECT_NE(ran.out.find("ratio to CPU"), std::string::npos);
 }
 
-// Each number of samples that the device draws, without blended surfaces and, where there are some, with
-// them.
+// Every sample count of the device, without blended surfaces and, if the scene has some, with them.
 TEST(Bench, BySamplesAPixel) {
     const Folder folder;
     const auto table = [&](const std::string& scene) {
@@ -129,7 +129,7 @@ TEST(Bench, BySamplesAPixel) {
         for (const Json& cell : row["cells"]) {
             const int samples = cell["samples"];
             EXPECT_EQ(cell["bytes_per_pixel"], 4 * samples) << "depth";
-            // And light, with several samples of each and as one.
+            // Depth and light of each sample, plus resolved light with MSAA.
             const int image = (4 + 16) * samples + (samples > 1 ? 16 : 0);
             EXPECT_DOUBLE_EQ(cell["image_mib"].get<double>() * (1 << 20), 33.0 * 17 * image);
             EXPECT_GT(cell["lighting_ms"].get<double>(), 0);
@@ -152,7 +152,7 @@ TEST(Bench, WhatItCannotDoIsNamed) {
     EXPECT_FALSE(fs::exists(folder / "diptych-bench"));
 }
 
-// Lines and bars, on a phone: every word is inside its plot, and no two entries of a legend overlap.
+// Lines and bars, on a phone: every label is inside its plot, and no two legend entries overlap.
 TEST(Bench, PlotsFitAPhone) {
     SKIP_WITHOUT_BROWSER();
     for (const std::string counts : {"1,4", "4"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A page in headless Chromium, which `./diptych test` installs (packages.txt). A plain CMake build may lack
-// it: the tests that need it are then skipped, and say so.
+// Opens a page in headless Chromium, which `./diptych test` installs (packages.txt). A plain CMake build
+// may lack it: the tests that need it are then skipped with a message.
 #pragma once
 
 #include "compare/report/policy.h"
@@ -12,7 +12,7 @@
 
 namespace diptych {
 
-// The name of the program; empty where there is none.
+// Name of the program; empty if it is not installed.
 inline std::string browser() {
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
         if (std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0) return name;
@@ -20,12 +20,12 @@ inline std::string browser() {
 }
 
 struct Visit {
-    nlohmann::json told;  // what the script told; null where it never did
+    nlohmann::json told;  // argument of the script's tell(); null if it was not called
     std::string console;  // every message of the page
     std::string dom;
 };
 
-// Ends the page in a script, which the page's policy lets run beside the page's own.
+// Appends a script to the page, and allows it in the page's content security policy.
 inline void addScript(std::string& page, const std::string& script) {
     page.insert(page.rfind("</body>"), "<script>" + script + "</script>");
     constexpr std::string_view policy = "script-src ";
@@ -34,9 +34,9 @@ inline void addScript(std::string& page, const std::string& script) {
 }
 
 // Opens a copy of `page`, beside it, that ends in `script`, and waits until the script has called
-// tell(value). In it, wait(ms) and until(condition) are promises, and $ and $$ find elements. `hash`: what
-// follows the page's name. The page is `width` pixels wide: Chromium's window is at least 500, and a narrower
-// page stands in a frame of that width, for which media queries and lengths of the view hold as on a phone.
+// tell(value). In the script, wait(ms) and until(condition) are promises, and $ and $$ find elements.
+// `hash`: appended to the page's address. The page is `width` pixels wide. Chromium's window is at least
+// 500, so narrower pages are put in a frame: media queries and viewport units work there as on a phone.
 inline Visit visit(const Folder& scratch, const fs::path& page, const std::string& script,
                    const std::string& hash = "", int width = 1200, const std::string& flags = "") {
     static const std::string tools = R"(

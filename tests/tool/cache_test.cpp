@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cache folder that somebody else could have filled.
+// A cache folder that other users may have filled.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 

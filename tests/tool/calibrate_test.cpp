@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// diptych calibrate, of diptych itself behind a script that means what it is told otherwise.
+// `diptych calibrate` on Diptych itself, behind a script that misinterprets its job.
 #include "tests/tool/fake_renderer.h"
 
 #include <set>
@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 const fs::path adapters = fs::path(DIPTYCH_SOURCE_DIR) / "compare" / "external" / "adapters";
 
-// Writes odd.json: a renderer that changes its job by Python statements and hands it on to the template.
+// Writes odd.json: a renderer that changes its job by Python statements and passes it on to the template.
 void writeOdd(const Folder& folder, const std::string& change, const Json& granted = Json::object()) {
     folder.write("odd.py", "import json, os, sys\njob = json.load(open(sys.argv[-2]))\n" + change +
                                "\nodd = sys.argv[-2] + '.odd'\njson.dump(job, open(odd, 'w'))\n"
@@ -42,7 +42,7 @@ TEST(Calibrate, WhatIsFoundCanBeGranted) {
     EXPECT_EQ(namesIn(found), (std::set<std::string>{"environment_rotation", "fov", "light_factor"}))
         << ran.out;
     EXPECT_NEAR(found["granted"]["light_factor"].get<double>(), 1 / 3.14159265, 1e-6);
-    // The same renderer, granted what was found, means what it is told.
+    // With the found corrections the same renderer interprets its job correctly.
     writeOdd(folder, change, found["granted"]);
     ran = runTool(folder, "calibrate odd.json");
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// choose: what is chosen is within its budget, and what cannot be is said.
+// choose: the choice is within its budget, and impossible budgets are reported.
 #include "tests/tool/run.h"
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ TEST(ChooseTool, WhereNothingFitsTheNearestIsNamedWithItsGap) {
     EXPECT_TRUE(Json::parse(little.out)["settings"].is_null());
 }
 
-// Without a limit to speak of the most accurate is the one whose G-buffer packs nothing, or forward+.
+// Without an effective time limit, the most accurate is an uncompressed G-buffer, or forward+.
 TEST(ChooseTool, TheMostAccurateWithinATime) {
     const Folder folder;
     const Ran ran =
@@ -77,7 +77,7 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
         }
 }
 
-// A candidate's error is that of all cameras, as a sweep finds it.
+// A candidate's error is over all cameras, as a sweep measures it.
 TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
     const Folder folder;
     const std::string of =
@@ -108,7 +108,8 @@ TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
     EXPECT_GE(compared, 4u);
 }
 
-// Of a folder and a built-in scene: each one's own, and one that is within the error in both.
+// Each scene of a folder, and a built-in one, has its own choice; the joint choice is within the error in
+// all.
 TEST(ChooseTool, OneForAllScenesOfAFolderIsWithinTheErrorInEach) {
     const Folder folder;
     folder.write("scenes/a/one.gltf", oneTriangle);
@@ -153,7 +154,7 @@ TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {
     EXPECT_EQ(runTool(folder, command).code, 0) << "our own folder is replaced";
 }
 
-// Named by their values; what turns the choice is measured and says how.
+// Names the deciding properties with their values, and measures which change reverses the choice.
 TEST(ChooseTool, WhatDecidedIsNamedWithItsValues) {
     const Folder folder;
     const Ran ran = runTool(
@@ -170,23 +171,23 @@ TEST(ChooseTool, WhatDecidedIsNamedWithItsValues) {
     EXPECT_GE(properties["overdraw"]["value"].get<double>(), 1);
     EXPECT_GT(properties["light density"]["value"].get<double>(), 1);
     EXPECT_EQ(properties["transparency"]["value"], 0);
-    // Every variation changes what it says: copies below a surface are shaded before it.
+    // Every variation changes its property: copies behind a surface are shaded before it.
     const Json& overdraw = properties["overdraw"]["times"];
     ASSERT_EQ(overdraw.size(), 3u);
     EXPECT_GE(overdraw[1]["value"].get<double>(), 1.5 * overdraw[0]["value"].get<double>());
     EXPECT_GE(overdraw[2]["value"].get<double>(), 2.5 * overdraw[0]["value"].get<double>());
     const Json& lights = properties["light density"]["times"];
     ASSERT_EQ(lights.size(), 4u);
-    // Of more lights the clusters are finer, so that it is not four times.
+    // Clusters are finer with more lights, so light density does not quadruple.
     EXPECT_GT(lights[3]["value"].get<double>(), 2 * lights[1]["value"].get<double>());
     EXPECT_LT(lights[0]["value"].get<double>(), lights[1]["value"].get<double>());
     EXPECT_EQ(properties["triangles"]["times"][1]["value"].get<double>(),
               9 * properties["triangles"]["value"].get<double>());
 }
 
-// On lavapipe the one path takes twice the other's time at least in each of these, however loaded the
-// machine: with four samples a pixel deferred shading has a fixed cost of some 15 ms, and area lights are
-// dear where forward+ shades a surface more often. Size alone turns it in "areas".
+// On lavapipe one path takes at least twice the other's time in each of these, however busy the machine.
+// Deferred shading has a fixed cost of some 15 ms with four samples a pixel. Area lights are expensive
+// where forward+ shades a surface more than once. In "areas", size alone reverses the choice.
 TEST(ChooseTool, ThePathThatIsMuchFasterIsChosenAndSizeTurnsIt) {
     const Folder folder;
     for (const auto& [scene, path] : {std::pair{"builtin:triangle --size 320x180", "forward_plus"},

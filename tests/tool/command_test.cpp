@@ -3,6 +3,7 @@
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
 #include "tests/tool/run.h"
+#include "tests/tool/sweep.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Small and untimed: these tests are about the tool, not about the picture.
+// Small and untimed: these tests are about the tool, not the image.
 const std::string quick = " --size 48x27 --runs 0";
 // For tests that need any scene: the default one takes ten times as long to load and compile.
 const std::string quickTriangle = " builtin:triangle" + quick;
@@ -37,7 +38,7 @@ Json parsed(const Ran& ran) {
     return json;
 }
 
-// A busy machine may take longer than the ten seconds after which a log is told how far it is.
+// On a busy machine a command may exceed the ten seconds after which a log shows progress.
 std::string withoutProgress(const std::string& err) {
     static const std::regex line("diptych: [^\n]* % [^\n]* left\n");
     return std::regex_replace(err, line, "");
@@ -107,7 +108,7 @@ TEST(Command, BadInputIsNamed) {
     EXPECT_FALSE(fs::exists(folder / "diptych-render"));
 }
 
-// They are read, but these paths do not draw them yet: the report says so for each.
+// Both paths read the angle of suns but do not render their discs: the report says so for each.
 TEST(Command, DiscsOfSunsAreNoted) {
     const Folder folder;
     folder.write("unlit.gltf", triangle);
@@ -153,7 +154,7 @@ TEST(Command, AnEnvironmentThatCannotBeReadIsNamed) {
     EXPECT_FALSE(fs::exists(folder / "diptych-render"));
 }
 
-// A glTF's own environment is one unless another is given.
+// A glTF file's own environment applies unless another is given.
 TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
     const Folder folder;
     const Image sky(4, 2, 3, 1.0f);
@@ -168,12 +169,13 @@ TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
     const auto told = [&](const std::string& options) {
         return runTool(folder, "plan --size 16x16 cube.gltf " + options);
     };
-    EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: maps"), std::string::npos) << told("").out;
+    EXPECT_NE(told("").out.find("EXT_lights_image_based: light 0: prefiltered maps"), std::string::npos)
+        << told("").out;
     EXPECT_EQ(told("--env scene --ibl-intensity 2").code, 0);
     const Ran other = told("--env sky.exr");
     EXPECT_NE(other.out.find("EXT_lights_image_based: light 0: ignored because --env is given"),
               std::string::npos);
-    EXPECT_NE(other.out.find("sky.exr: maps"), std::string::npos) << other.out;
+    EXPECT_NE(other.out.find("sky.exr: prefiltered maps"), std::string::npos) << other.out;
     EXPECT_TRUE(runTool(folder, "plan builtin:furnace --env scene")
                     .failedOver("--env scene: builtin:furnace has no"));
 }
@@ -194,7 +196,7 @@ TEST(Command, DevicesListsFacts) {
               std::string::npos);
 }
 
-// The shaders' functions on the device, only where that is asked for.
+// Probes the shaders' functions on the device, only on request.
 TEST(Command, DevicesProbesThem) {
     const Folder folder;
     const Ran ran = runTool(folder, "devices --device 0 --probe --json");
@@ -272,7 +274,7 @@ TEST(Command, ExplainLeavesAPageWithItsMaps) {
                     (name == "unexplained.png" && found["unexplained"] == 0))
             << name;
     EXPECT_EQ(page.find("http"), std::string::npos) << "no external resources";
-    // The command explains the same, and what is ours may be replaced.
+    // The command explains the same; its own output may be replaced.
     const std::string again = found["command"];
     ASSERT_TRUE(again.starts_with("diptych explain ")) << again;
     const Ran second = runTool(folder, again.substr(8) + " -o why");
@@ -287,7 +289,7 @@ TEST(Command, ExplainLeavesAPageWithItsMaps) {
     EXPECT_EQ(runTool(folder, view + " -o x.png").code, 2);
 }
 
-// Of two files, which say of what they are.
+// From two files, which name their scene and Settings.
 TEST(Command, ExplainReadsPictures) {
     const Folder folder;
     const std::string view = " builtin:points --size 64x36 ";
@@ -313,7 +315,7 @@ TEST(Command, ExplainReadsPictures) {
     EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
 }
 
-// A file of another renderer that has the terms of its lit: of which term the difference is.
+// A file of another renderer with the terms of its lit: explain names the term that differs.
 TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
     const Folder folder;
     const std::string scene = "builtin:points";
@@ -363,15 +365,16 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     EXPECT_EQ(scene["scene"], "builtin:gallery");
     EXPECT_FALSE(scene["modelled"].empty());
     ASSERT_EQ(scene["paths"].size(), 2u);
-    // depth alone against depth and a G-buffer
+    // depth, compared with depth and a G-buffer
     EXPECT_GT(scene["paths"][0]["bytes_per_pixel"], scene["paths"][1]["bytes_per_pixel"]);
     const std::string words = runTool(folder, "plan builtin:triangle").out;
     EXPECT_NE(words.find("4 bytes per pixel, 20 with lighting; 16 and 96 with --msaa 4"), std::string::npos)
         << words;
-    // A buffer that is as long as the picture has pixels is divided by these, whatever its rows round up to.
+    // Buffers with one element per pixel are divided by the pixel count, without the padding of rows.
     ASSERT_EQ(scene["paths"][0]["samples"][1]["samples"], 4);
     EXPECT_EQ(scene["paths"][0]["samples"][1]["image_bytes_per_pixel"], 252);
-    // A sample of forward+ has a depth of 4 bytes and light of 16, and a pixel of several light of its own.
+    // A forward+ sample has 4 bytes of depth and 16 of light; a multisampled pixel has 16 more, for
+    // resolved light.
     const Json samples = scene["paths"][1]["samples"];
     ASSERT_GE(samples.size(), 2u);
     EXPECT_EQ(samples[0]["image_bytes_per_pixel"], 20);
@@ -385,7 +388,7 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     EXPECT_EQ(samples[1]["samples"], 4);
 }
 
-// The paths share pipelines, but what one is said to need does not depend on which others are asked for.
+// Paths share pipelines, but each path's plan is independent of the other paths requested.
 TEST(Command, PlanSaysOfAPathTheSameAloneAndBesideAnother) {
     const Folder folder;
     const Json both = parsed(runTool(folder, "plan --json builtin:points"))["scenes"][0]["paths"];
@@ -417,7 +420,7 @@ TEST(Command, RenderDrawsAPictureOfEachChannelAskedFor) {
     EXPECT_EQ(pngs("c"), (Names{"albedo.png", "normals.png"}));
     EXPECT_EQ(runTool(folder, "render --channels normals --debug depth -o d" + quickTriangle).code, 0);
     EXPECT_EQ(pngs("d"), (Names{"depth.png", "normals.png"}));
-    // Somebody else's file among them is kept.
+    // A foreign file among them is kept.
     folder.write("e.albedo.png", "mine");
     EXPECT_TRUE(runTool(folder, "render --channels normals,albedo -o e.png" + quickTriangle)
                     .failedOver("e.albedo.png"));
@@ -542,7 +545,7 @@ TEST(Command, SeveralFramesGetAFolderEach) {
     EXPECT_EQ(Json::parse(contentsOf(folder / "all/frames.json"))["frames"].size(), 2u);
 }
 
-// A folder of its own takes any number of Frames; outdated files of an earlier render are removed.
+// Its own folder takes any number of Frames; outdated files of an earlier render are removed.
 TEST(Command, RenderReplacesItsOwnFolderWhateverItHeld) {
     const Folder folder;
     const auto render = [&](int frames) {
@@ -567,13 +570,13 @@ TEST(Command, RenderReplacesItsOwnFolderWhateverItHeld) {
     EXPECT_TRUE(there("1/frame.json") && there("frames.json"));
     EXPECT_FALSE(there("frame.json") || there("forward_plus.exr"));
     EXPECT_TRUE(there("mine.txt"));
-    // 3/ now contains a foreign file, which is reported before anything is drawn.
+    // 3/ now contains a foreign file, which is reported before rendering.
     EXPECT_TRUE(runTool(folder, "render builtin:triangle builtin:triangle builtin:triangle -o all" + quick)
                     .failedOver("all/3"));
     EXPECT_FALSE(there("3/frame.json"));
 }
 
-// material_id identifies the background, which is excluded from every mean: it is always compared.
+// material_id identifies the background, which every mean excludes, so it is always compared.
 TEST(Command, CompareKnowsTheBackgroundWhateverChannelsAreAskedFor) {
     const Folder folder;
     const Json report = parsed(runTool(folder, "compare builtin:triangle --json --channels albedo" + quick));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `plan --compile-on`: a GPU's compiler where there is no GPU. RADV of Mesa compiles for the families that it
-// knows: Debian 12's (Mesa 22.3) not for RDNA 3 and 4, Debian 13's for all.
+// `plan --compile-on`: a GPU's compiler without the GPU. Mesa's RADV compiles for the families it knows:
+// Debian 12's (Mesa 22.3) lacks RDNA 3 and 4, Debian 13's has all.
 #include "shared/vulkan/driver_probe.h"
 #include "tests/tool/run.h"
 
@@ -80,7 +80,7 @@ TEST_F(CompileOn, WhatCannotCompileIsOneLine) {
     EXPECT_TRUE(silent.failedOver("does not report compiler statistics"));
 }
 
-// RADV's null device runs nothing, and is not chosen to draw.
+// RADV's null device executes nothing, and is never selected for rendering.
 TEST_F(CompileOn, HardwareThatIsNotThereDrawsNothing) {
     const std::string forced = "RADV_FORCE_FAMILY=vega10 '" DIPTYCH_PROGRAM "' ";
     const Ran listed =

@@ -15,7 +15,7 @@ namespace {
 #ifdef DIPTYCH_FAULTS
 
 const std::string compareTriangle = "compare builtin:triangle -q -o r --size 16x9 --runs 1 --channels albedo";
-// Makes one call after the other fail, until the tool no longer reaches it. Returns the number of calls, as
+// Makes one call after another fail, until the tool no longer reaches it. Returns the number of calls, as
 // Rows::atMost() expects it.
 int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1) {
     const Folder folder;
@@ -80,7 +80,8 @@ TEST(DeviceFaults, WhatCannotBeMadeIsNamed) {
     EXPECT_GE(sweep("vkAllocateDescriptorSets", VK_ERROR_OUT_OF_POOL_MEMORY, "vkAllocateDescriptorSets"), 1);
 }
 
-// All large allocations of this program and of its libraries. Smaller ones are too many to fail one by one.
+// All large allocations of this program and of its libraries. Smaller ones are too many to fail one by
+// one.
 TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, compareTriangle).code, 0);
@@ -93,7 +94,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
         EXPECT_TRUE(leftoversIn(folder.path()).empty()) << at << " " << ran.err;
         if (ran.seen.empty()) break;
         if (ran.code == 0) {
-            // The library managed with less memory.
+            // The library recovered from the failed allocation.
             fs::remove_all(folder / "r");
             ASSERT_EQ(runTool(folder, compareTriangle).code, 0);
             continue;

@@ -36,7 +36,7 @@ Json jsonOf(const Ran& ran) {
     return Json::parse(ran.out);
 }
 
-// sRGB grey 128 against itself and a little more: the values that FLIP's authors' program gives.
+// sRGB grey 128 compared with itself and slightly brighter greys; values of the FLIP authors' program.
 TEST(DiffCommand, FlipDecidesByItsMean) {
     const Folder folder;
     writePng(folder / "a.png", grey(128));
@@ -69,7 +69,7 @@ TEST(DiffCommand, TheAuthorsPairs) {
     EXPECT_EQ(city["exposures"], 15);
 }
 
-// One picture in four formats: equal but for the rounding of RGBE and of 8 bits.
+// One image in four formats: equal up to the rounding of RGBE and of 8 bits.
 TEST(DiffCommand, FormatsMeet) {
     const Folder folder;
     const Image image = noise(7);
@@ -88,7 +88,7 @@ TEST(DiffCommand, FormatsMeet) {
     EXPECT_NE(ran.out.find("a.png is PNG; it was decoded from sRGB to linear"), std::string::npos) << ran.out;
 }
 
-// A TIFF of one white pixel, byte by byte, beside PNGs of the same and of another.
+// A TIFF of one white pixel, byte by byte, compared with PNGs of equal and different colour.
 TEST(DiffCommand, TiffsMeetPngs) {
     const Folder folder;
     std::string tiff("II*\0\x08\0\0\0\x08\0", 10);
@@ -104,7 +104,7 @@ TEST(DiffCommand, TiffsMeetPngs) {
     EXPECT_TRUE(runTool(folder, "diff cut.tif same.png").failedOver("cut.tif"));
 }
 
-// 3 x 1: A is 255, 0, 0; a picture without alpha is opaque.
+// 3 x 1 pixels with alpha 255, 0, 0. An image without alpha is opaque.
 TEST(DiffCommand, AlphaOfOneSideIsComparedAndHiddenColoursAreSaid) {
     const Folder folder;
     writePng(folder / "a.png", {3, 1, 4, {9, 9, 9, 255, 9, 9, 9, 0, 9, 9, 9, 0}});
@@ -124,7 +124,7 @@ TEST(DiffCommand, AlphaOfOneSideIsComparedAndHiddenColoursAreSaid) {
     EXPECT_EQ(runTool(folder, "diff a.png shown.png --metric max").out.find(said), std::string::npos);
 }
 
-// PNG's colours are straight, OpenEXR's are multiplied by alpha.
+// PNG colours are unassociated; OpenEXR's are premultiplied.
 TEST(DiffCommand, ColoursMeetMultipliedByTheirAlpha) {
     const Folder folder;
     writePng(folder / "straight.png", {1, 1, 4, {255, 255, 0, 51}});
@@ -216,7 +216,7 @@ TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
     }
 }
 
-// The pixel that is named is the worst by the deciding metric: here a dark one, though a bright one differs
+// The reported pixel is the worst by the deciding metric: here a dark one, although a bright one differs
 // more.
 TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
     const Folder folder;
@@ -233,7 +233,7 @@ TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
               std::string::npos);
 }
 
-// The command that a report prints contains everything that affected the verdict.
+// The printed command contains everything that affected the verdict.
 TEST(DiffCommand, TheCommandOfAFailureFailsAgain) {
     const Folder folder;
     writePng(folder / "a.png", grey(100));
@@ -278,7 +278,8 @@ TEST(DiffCommand, ARuleOfAFileDecides) {
     EXPECT_EQ(ran.code, 1);
     EXPECT_NE(ran.out.find("(t.json, rule 1: less)"), std::string::npos) << ran.out;
     folder.write("t.json", "{}");
-    EXPECT_TRUE(runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no rules"));
+    EXPECT_TRUE(
+        runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no array \"rules\""));
 }
 
 TEST(DiffCommand, SomePixelsMayFail) {
@@ -314,7 +315,7 @@ TEST(DiffCommand, WritesErrorsPicturesAndReports) {
     EXPECT_TRUE(runTool(folder, "diff a.png b.png -o mine").failedOver("--force replaces it"));
 }
 
-// Two folders: pictures of one name are compared, those that one alone has fail, and one report has all.
+// Two folders: images of the same name are compared, unmatched ones fail, and one report contains all.
 TEST(DiffCommand, FoldersAreComparedByName) {
     const Folder folder;
     const Image grey(8, 4, 3, 0.5f), other(8, 4, 3, 0.6f);
@@ -334,7 +335,7 @@ TEST(DiffCommand, FoldersAreComparedByName) {
     EXPECT_EQ(report["comparisons"][0]["verdict"], "fail");
     EXPECT_EQ(report["comparisons"][1]["verdict"], "pass");
     EXPECT_TRUE(fs::exists(folder / "report/index.html"));
-    // One that is missing, and one that cannot be read.
+    // A missing file, and an unreadable one.
     fs::copy_file(folder / "a/same.exr", folder / "a/alone.exr");
     EXPECT_EQ(runTool(folder, "diff a a -q").code, 0);
     ran = runTool(folder, "diff b a --metric max --tolerance 0.2 -o missing");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A screen in memory (Xvfb), what is on it, and real key and mouse events (xdotool). `./diptych test`
-// installs both (packages.txt); a plain CMake build may lack them: the tests that need them are then skipped,
-// and say so.
+// A virtual screen (Xvfb), its contents, and real key and mouse events (xdotool). `./diptych test`
+// installs both (packages.txt). A plain CMake build may lack them: the tests that need them are then
+// skipped with a message.
 #pragma once
 
 #include "tests/tool/running.h"
@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-// A copy of what is on the screen, RGB.
+// Copy of the screen's contents, RGB.
 struct Screen {
     int width = 0, height = 0;
     std::vector<std::array<std::uint8_t, 3>> pixels;
@@ -30,7 +30,7 @@ public:
         return std::system("command -v Xvfb >/dev/null 2>&1 && command -v xdotool >/dev/null 2>&1") == 0;
     }
 
-    // `folder` holds the screen's memory. Programs that are started from now on see this display.
+    // `folder`: for the screen's memory file. Programs started from now on use this display.
     explicit Display(const Folder& folder, const std::string& size = "1280x760") : folder_(folder) {
         fs::create_directories(folder_ / "screen");
         const fs::path told = folder_ / "display";
@@ -55,13 +55,13 @@ public:
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
-    // xdotool with these words: "key e".
+    // xdotool with these arguments: "key e".
     void events(const std::string& words) const {
         EXPECT_EQ(std::system(("xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << words;
     }
 
-    // The X window dump (X11/XWDFile.h) that Xvfb keeps its screen in: numbers of 32 bits, the highest byte
-    // first.
+    // Parses the X window dump (X11/XWDFile.h) in which Xvfb stores its screen: big-endian 32-bit
+    // integers.
     Screen screen() const {
         const std::string dump = contentsOf(folder_ / "screen/Xvfb_screen0");
         const auto number = [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Renderers of others: what they are told, what becomes of their pictures, and what of those that fail.
+// External renderers: their jobs, their images, and their failures.
 #include "shared/image/exr.h"
 #include "shared/vulkan/driver_probe.h"
 #include "tests/tool/fake_renderer.h"
@@ -22,15 +22,15 @@ Json reportOf(const Folder& folder, const std::string& name = "diptych-report") 
     return Json::parse(contentsOf(folder / name / "report.json"));
 }
 
-// The comparison with a renderer; null where there is none.
+// The comparison with a renderer; null if there is none.
 Json comparisonWith(const Json& report, const std::string& name) {
     for (const Json& comparison : report["comparisons"])
         if (comparison["test"] == name) return comparison;
     return nullptr;
 }
 
-// Diptych itself as the renderer, through the template: what the job says is enough to draw its picture
-// again, by way of a scene, lights and a camera that were written as glTF and JSON.
+// Diptych itself as the renderer, through the template. The job is sufficient to reproduce the image from
+// a scene, lights and a camera written as glTF and JSON.
 TEST(External, WhatAJobSaysIsEnoughToDrawThePictureAgain) {
     for (const std::string scene :
          {"builtin:points", "builtin:spots --camera 'eye=1,2,6 target=0,1,0 fov=50 far=40'"}) {
@@ -48,7 +48,7 @@ TEST(External, WhatAJobSaysIsEnoughToDrawThePictureAgain) {
     }
 }
 
-// Validates with Python's jsonschema, which is not needed for anything else.
+// Validates with Python's jsonschema, which nothing else needs.
 bool hasValidator() {
     return std::system("python3 -c 'import jsonschema' 2>/dev/null") == 0;
 }
@@ -83,7 +83,7 @@ TEST(External, JobsAreAsTheSchemaSays) {
         const Ran ran = validate(folder, external_room / "job.schema.json", folder / "kept/job.json");
         EXPECT_EQ(ran.code, 0) << words << ran.err;
     }
-    // A control: what is not said is missed.
+    // Negative control: a missing member is detected.
     Json job = Json::parse(contentsOf(folder / "kept/job.json"));
     job["lights"][0].erase("unit");
     folder.write("kept/job.json", job.dump());
@@ -94,7 +94,8 @@ TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
     const Folder folder;
     const std::string odd = "a 'b' \"c\" $(touch oops) \t d";
     fs::create_directories(folder / odd);
-    // The folder of the renderer's file, of the temporary files, of the scene and of what it is told to keep.
+    // Folder for the renderer's file, the temporary files, the scene, and the files that the renderer
+    // keeps.
     writeRenderer(folder, "fake", {"keep", (folder / odd / "kept").string(), odd});
     fs::rename(folder / "fake.json", folder / odd / "fake.json");
     folder.write(odd + "/tri.gltf",
@@ -168,7 +169,7 @@ TEST(External, AnyFailureIsAnErrorAndNeverAComparison) {
     EXPECT_TRUE(runTool(folder, compare_points + "--renderer a=absent.json").failedOver("cannot be started"));
 }
 
-// A picture that is right is one more Frame: a control of all failures above.
+// A correct image is one more Frame: a control of all failures above.
 TEST(External, AFrameIsComparedReportedAndWritten) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render builtin:points --size 32x18 --runs 0 --channels lit -q -o p.exr").code,
@@ -203,7 +204,8 @@ TEST(External, AFrameIsComparedReportedAndWritten) {
                     .failedOver("two renderers have this name"));
 }
 
-// Where we show no surface nothing is compared, whatever is shown there, nor what a filter carries across.
+// Pixels without a surface in our image are not compared, nor do filters spread their colour to
+// neighbours.
 TEST(External, TheBackgroundIsNotCompared) {
     const Folder folder;
     const std::string ours = "builtin:triangle --size 32x18 --runs 0 -q ";
@@ -241,7 +243,7 @@ TEST(External, JsonStandsAloneOnStdoutAndChatterIsCutShort) {
     EXPECT_LT(notes.dump().size(), 4000u);
 }
 
-// Whether a process is there, zombies left aside.
+// Whether a process exists and is no zombie.
 bool isRunning(pid_t process) {
     const std::string status = contentsOf("/proc/" + std::to_string(process) + "/stat");
     const std::size_t at = status.rfind(") ");
@@ -262,7 +264,7 @@ TEST(External, ATimeoutEndsAllThatItStarted) {
     EXPECT_FALSE(isRunning(child)) << "nor has it fled into a session of its own";
 }
 
-// A renderer that is done leaves nobody behind either.
+// A renderer that exits normally leaves no process behind either.
 TEST(External, ItsEndEndsAllThatItStarted) {
     const Folder folder;
     folder.write("leave.py", fake_renderer +
@@ -284,7 +286,7 @@ std::vector<std::string> jobsIn(const fs::path& folder) {
     return jobs;
 }
 
-// However this program ends; of SIGKILL the next one, with another renderer, removes the job.
+// However this program ends; after SIGKILL the next run, with another renderer, removes the job.
 TEST(External, AnyEndEndsAllThatItStarted) {
     const Folder folder;
     writeRenderer(folder, "flee", {"flee", (folder / "pid").string()});
@@ -326,13 +328,13 @@ TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {
                 3 * plain["lights"][0]["intensity"].get<double>(), 1e-5);
     EXPECT_NEAR(told["camera"]["fov_degrees"].get<double>(), plain["camera"]["fov_degrees"].get<double>() + 1,
                 1e-9);
-    // What lies in the middle is half a pixel further right: x of clip space grows by -w times this.
+    // Shifts the image by half a pixel to the right: clip-space x increases by -w times this.
     EXPECT_NEAR(told["camera"]["clip_from_view"][8].get<double>(), -2 * 0.5 / 32, 1e-12);
     const Json report = reportOf(folder);
     EXPECT_EQ(report["frames"].back()["origin"]["granted"].size(), 3u);
     EXPECT_NE(contentsOf(folder / "diptych-report/index.html").find("light_factor 3"), std::string::npos);
 
-    // Read: a picture that stands on its head, and one of display colours.
+    // Input corrections: an upside-down image, and one in display colours.
     Image image(32, 18, 3);
     for (int y = 0; y < 18; ++y)
         for (int x = 0; x < 32; ++x)
@@ -345,7 +347,7 @@ TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {
         PictureFile file = readExr(folder / "diptych-report/fake.exr");
         return std::ranges::find(file.layers, "", &PictureLayer::name)->image;
     };
-    // In the middle of the picture, where the scene's floor is seen.
+    // In the middle of the image, where the scene's floor is visible.
     EXPECT_FLOAT_EQ(readWith(Json::object()).at(16, 12), image.at(16, 12));
     EXPECT_FLOAT_EQ(readWith({{"upside_down", true}}).at(16, 12), image.at(16, 5));
     EXPECT_FLOAT_EQ(readWith({{"mirrored", true}}).at(16, 12), image.at(15, 12));
@@ -387,8 +389,8 @@ TEST(External, FilesAreReadStrictly) {
         {R"({"command": "sh -c x"})", "command: must be the program and its arguments"},
         {R"({"command": ["x", 3]})", "command: must be the program and its arguments"},
         {R"({"command": ["x"], "timeot": 3})", "timeot: is not a known field of a renderer"},
-        {R"({"command": ["x"], "timeout": 0})", "timeout: is above 0"},
-        {R"({"command": ["x"], "schema": 2})", "schema: is not 1"},
+        {R"({"command": ["x"], "timeout": 0})", "timeout: must be above 0 s"},
+        {R"({"command": ["x"], "schema": 2})", "schema: must be 1"},
         {R"({"command": ["x"], "granted": {"light_faktor": 2}})",
          "light_faktor: is not a known field of granted"},
         {R"({"command": ["x"], "granted": {"transfer": "gamma"}})", "\"gamma\" is not one of linear, srgb"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes with extreme values, through the whole program: either both paths draw them, or there is a one-line
-// error.
+// Scenes with extreme values, through the whole program: either both paths render them, or there is a
+// one-line error.
 #include "tests/support/campaign.h"
 #include "tests/tool/run.h"
 
@@ -10,8 +10,8 @@
 namespace diptych {
 namespace {
 
-// glTF with these nodes, all of them roots, with one mesh of one triangle in the plane z = 0, or of other 36
-// bytes of positions.
+// glTF with these nodes, all of them roots, and one mesh: a triangle in the plane z = 0, or other
+// positions (base64 of 36 bytes).
 std::string sceneOf(const std::string& nodes, std::size_t count,
                     const std::string& positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
                     int vertices = 3) {
@@ -46,7 +46,7 @@ TEST(ExtremeScenes, SmallLargeAndFarAway) {
                     1));
 }
 
-// Squares of its lengths end below float32: it is lit by numbers all the same, whatever lights it.
+// Squared lengths underflow float32; lighting still is finite, with every type of light.
 TEST(ExtremeScenes, SoSmallThatSquaresVanish) {
     const Folder folder;
     for (const char* scale : {"1e-20", "1e-30", "1e-35"}) {
@@ -60,7 +60,7 @@ TEST(ExtremeScenes, SoSmallThatSquaresVanish) {
     }
 }
 
-// What float32 cannot hold is a failure that says where, and no output has it.
+// Radiance beyond float32's range fails; outputs have replacements, and the report counts their pixels.
 TEST(ExtremeScenes, LightThatFloat32CannotHold) {
     const Folder folder;
     folder.write("bright.gltf", sceneOf(R"({"mesh": 0})", 1));
@@ -82,7 +82,7 @@ TEST(ExtremeScenes, LightThatFloat32CannotHold) {
                                "render bright.gltf --size 64x36 --runs 0 --lights lights.json --camera "
                                "\"eye=0.3,0.3,2 target=0.3,0.3,0\" -o bright.png");
     EXPECT_EQ(render.code, 0) << render.err;
-    EXPECT_NE(render.out.find("note: lit had "), render.out.npos) << render.out;
+    EXPECT_NE(render.out.find("note: lit was NaN or infinite at "), render.out.npos) << render.out;
     for (const char* name : {"deferred", "forward_plus"}) {
         const Ran diff =
             runTool(folder, fmt::format("diff report/{0}.exr report/{0}.exr --channels lit --json", name));
@@ -102,7 +102,7 @@ TEST(ExtremeScenes, NothingToDraw) {
     expectParity(folder, "one-place.gltf", sceneOf(R"({"mesh": 0})", 1, std::string(48, 'A')));
 }
 
-// More draws than 16 bits count; a campaign draws a million.
+// More draw calls than 16 bits count; a full run renders a million.
 TEST(ExtremeScenes, AHundredThousandDraws) {
     const Folder folder;
     const std::size_t count = isCampaign() ? 1000000 : 100000;

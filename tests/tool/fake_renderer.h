@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A renderer for tests that is nobody's: a Python script that does what its first argument says.
+// A fake renderer for tests: a Python script whose first argument is its behaviour.
 #pragma once
 
 #include "tests/tool/run.h"
@@ -12,8 +12,8 @@
 namespace diptych {
 
 // Modes: picture (all pixels 0.25, 0.5, 0.75), wide, nan, none, exit, crash, hang FILE (a child writes its
-// number there), flee FILE (hang, but the child is of a session of its own), link EXR, old EXR, chatter, keep
-// FOLDER (what it was handed), copy EXR.
+// process id there), flee FILE (hang, but the child has a session of its own), link EXR, old EXR, chatter,
+// keep FOLDER (stores its inputs), copy EXR.
 inline const std::string fake_renderer = R"py(
 import json, os, shutil, signal, struct, subprocess, sys, time
 
@@ -74,7 +74,7 @@ if mode == 'nan':
 write_exr(out, width + (mode == 'wide'), height, colour)
 )py";
 
-// Writes NAME.json, whose command is the fake renderer in a mode; `more`: members beside it.
+// Writes NAME.json, whose command is the fake renderer in a mode; `more`: further members.
 inline void writeRenderer(const Folder& folder, const std::string& name, const std::vector<std::string>& mode,
                           nlohmann::json more = nlohmann::json::object()) {
     folder.write("fake.py", fake_renderer);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comparison of a folder's contents, and the tool with calls that fail on demand (preload/faults.cpp).
+// Comparison of folder contents, and the tool with injected faults (preload/faults.cpp).
 #pragma once
 
 #include "tests/tool/run.h"
@@ -12,7 +12,7 @@ namespace diptych {
 
 inline constexpr int manyCalls =
     5000;                        // more than any command of these tests makes: a sweep that reaches it hangs
-inline constexpr int slice = 6;  // one row in six of every table of calls; a campaign runs all
+inline constexpr int slice = 6;  // tests one row in six of every table of calls; a full run tests all
 
 // All files, folders and links below a folder, by path, with their contents.
 using Contents = std::map<std::string, std::string>;
@@ -31,7 +31,7 @@ inline void replaceBy(const fs::path& folder, const fs::path& saved) {
     fs::copy(saved, folder, fs::copy_options::recursive);
 }
 
-// Names that only exist while something is being written.
+// Names that exist only during writing.
 inline bool isLeftover(const std::string& path) {
     return path.find(".tmp") != path.npos || path.find(".diptych.put") != path.npos;
 }
@@ -47,11 +47,11 @@ struct Fault {
     std::string in;         // the kind of call
     std::string what;       // the fault: an errno, a VkResult, "kill"
     bool from = false;      // every later call fails, too
-    std::size_t bytes = 0;  // of allocations
+    std::size_t bytes = 0;  // minimum size of allocations
 };
 
 struct Faulted : Ran {
-    std::string seen;  // the call that failed; empty: it was never reached
+    std::string seen;  // the call that failed; empty: never reached
 };
 
 #ifdef DIPTYCH_FAULTS

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any failure while files are written results in exit code 2 and one line; the earlier report stays complete
-// and nothing else is left. A campaign lets every call fail in turn, until the tool ends without reaching
-// the next one; otherwise a slice of the calls is tested.
+// Any failure during writing gives exit code 2 and one line; the earlier report stays complete and nothing
+// else is left. A full run makes every call fail in turn, until the tool ends without reaching the next
+// one; otherwise only some of the calls are tested.
 #include "tests/tool/faults.h"
 #include "tests/support/campaign.h"
 
@@ -63,7 +63,7 @@ private:
     Contents old_, new_;
 };
 
-// Makes one call after the other fail, until none is left; returns how many ended in exit code 2, as
+// Makes one call after another fail, until none is left. Returns how many ended in exit code 2, as
 // Rows::atMost() expects it. `step`: only every step-th call.
 int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int step = 1) {
     const Rows rows(slice);
@@ -89,8 +89,8 @@ int sweep(const Folder& folder, const Reports& reports, const Fault& fault, int 
     return rows.atMost(failed);
 }
 
-// For at least so many files an open, flush, close and rename each. A write always goes into a temporary
-// file, so every 13th write is enough.
+// At least this many files are each opened, flushed, closed and renamed. Writes always go to a temporary
+// file, so testing every 13th write is enough.
 constexpr int reportFiles = 14;
 
 TEST(Faults, AnyCallThatFailsOnceLeavesTheEarlierReport) {
@@ -110,7 +110,7 @@ TEST(Faults, ADiskThatIsFullFromAnyMomentOnLeavesTheEarlierReport) {
         << ran.err;
 }
 
-// Beside foreign files the new ones are moved one by one, and moved back on failure.
+// In a folder with foreign files the new ones are moved one by one, and moved back on failure.
 TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
     const Folder folder;
     const Reports reports(folder, true);
@@ -118,8 +118,8 @@ TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
     EXPECT_GE(sweep(folder, reports, {"create", std::to_string(EROFS)}, 3), 10);
 }
 
-// If the folder contains only our files, the old report is complete at once; beside foreign files after the
-// next run, which completes what was begun.
+// If the folder contains only our files, the old report is complete at once. With foreign files, the next
+// run completes the replacement.
 void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
     const Folder folder;
     const Reports reports(folder, theirs);
@@ -240,7 +240,7 @@ TEST(Faults, ASingleFileIsOldOrNew) {
     }
 }
 
-// While a baseline is replaced it has three names: the file, FILE.old and the temporary that is written.
+// During replacement a baseline has up to three names: the file, FILE.old and the new temporary file.
 TEST(Faults, ABaselineIsNeverLost) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render --path deferred -o base.exr" + ofTriangle + "albedo").code, 0);

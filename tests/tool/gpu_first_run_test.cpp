@@ -64,7 +64,7 @@ protected:
                         home_.path());
     }
     std::string summary() const { return contentsOf(home_ / "out/README.md"); }
-    // The table's row of a step.
+    // The table row of a step.
     std::string row(const std::string& step) const {
         const std::string text = summary(), start = "\n| " + step + " | ";
         const std::size_t at = text.find(start);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tool on a device that lacks something: the layer of tests/tool/layer hides it, below the validation
-// layer.
+// The tool on a device with a masked capability: the layer of tests/tool/layer hides it, below the
+// validation layer.
 #pragma once
 
 #include "tests/tool/layer/hidden.h"
@@ -10,8 +10,8 @@
 
 namespace diptych {
 
-// `hidden` as layer/hidden.h names it; empty: nothing. Older loaders order layers as they find their
-// manifests, newer ones as they are named: the first is nearest to the program.
+// `hidden` as layer/hidden.h names it; empty: nothing. Older loaders order layers by manifest search
+// order, newer ones as named: the first is nearest to the program.
 inline Ran runHiding(const Folder& scratch, const std::string& hidden, const std::string& arguments) {
     return runShell(scratch,
                     "env DIPTYCH_HIDE='" + hidden +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Nothing is used before the device was asked. Row by row of DeviceSupport's tables a layer hides what Vulkan
-// leaves to the device; a comparison that uses it then has the same verdict, or ends in one line that names
-// what lacks and what helps. A validation message, which the layer above this one would have, is a failure.
+// The program queries every capability before use. For each row of DeviceSupport's tables, a layer hides
+// an optional capability. A comparison that uses it must have the same verdict, or end in one line that
+// names what lacks and what helps. The validation layer is above this one, and any validation message is a
+// failure.
 #include "tests/support/campaign.h"
 #include "tests/tool/hidden.h"
 
@@ -106,7 +107,8 @@ TEST(HiddenSupport, ACompareHasTheSameVerdictOrNamesWhatLacks) {
     RecordProperty("named", named);
 }
 
-// Negative control: of a limit below what Vulkan promises nobody asks, and the validation layer says so.
+// Negative control: the program does not query limits below Vulkan's required minimum, so the validation
+// layer reports them.
 TEST(HiddenSupport, WhatIsUsedWithoutAskingIsAValidationMessage) {
     const Folder folder;
     const Ran ran = runHiding(folder, "limit maxPushConstantsSize 16", compared("builtin:triangle"));
@@ -129,7 +131,7 @@ TEST(HiddenSupport, ARequiredFeatureThatLacksIsNamedAndAnotherDeviceOffered) {
 #undef DIPTYCH_REQUIRED
 }
 
-// The table of roundings says so, and Vulkan is told nothing of the format.
+// The table of roundings says so, and no Vulkan call uses the format.
 TEST(HiddenSupport, AProbeOfWhatADeviceLacksSaysNotSupported) {
     const Folder folder;
     const Ran ran = runHiding(folder, "format R16G16_SNORM drawn", "devices --validate --json");
@@ -146,8 +148,9 @@ TEST(HiddenSupport, AProbeOfWhatADeviceLacksSaysNotSupported) {
     EXPECT_TRUE(found);
 }
 
-// More lights than a texel buffer holds are read by their addresses: the same bits, of every kind of light
-// and every way to choose them. Vulkan promises 65,536 texels; fewer make the same of a small rig.
+// Lights beyond a texel buffer's capacity are read through buffer addresses: same bits, for every light
+// type and culling method. Vulkan guarantees 65,536 texels; a lower limit gives the same situation with
+// few lights.
 TEST(HiddenSupport, LightsBeyondATexelBufferGiveTheSameBits) {
     struct Case {
         std::string texels, arguments;

@@ -29,7 +29,7 @@ TEST(Interruption, ALongSubmitEndsAtOnceByTheSignal) {
         const Folder folder;
         Running tool(folder, longWork);
         ASSERT_TRUE(soon([&] { return tool.err().find(": time") != std::string::npos; })) << tool.err();
-        std::this_thread::sleep_for(100ms);  // during a frame, or wherever it happens to be
+        std::this_thread::sleep_for(100ms);  // during a frame, or at any other time
         ::kill(tool.process(), signal);
         ASSERT_TRUE(soon([&] { return tool.ended(); })) << signal;
         EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
@@ -44,7 +44,7 @@ bool isWriting(const Folder& folder) {
     return false;
 }
 
-// A signal at any time while files are written.
+// A signal at any time during writing.
 TEST(Interruption, WritingLeavesAllOrNothing) {
     const Folder folder;
     int cut = 0;
@@ -79,7 +79,7 @@ TEST(Interruption, AnIgnoredSignalStaysIgnored) {
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
 }
 
-// If the reader of a pipe closes it early, that is no failure, and nothing is left behind.
+// A pipe that its reader closes early is no failure, and nothing is left behind.
 TEST(Interruption, AClosedPipeEndsAfterTheReportIsWhole) {
     const Folder folder;
     const Ran ran = runShell(
@@ -112,7 +112,7 @@ TEST(Interruption, OneThatIsKilledIsSweptByTheNext) {
     EXPECT_FALSE(fs::exists(folder / ".r.99999999-1.tmp"));
 }
 
-// Which of two reports a folder holds; all its files must agree.
+// Which of two reports a folder contains; all its files must agree.
 std::string channelsIn(const fs::path& report) {
     std::string found;
     for (const auto& entry : fs::directory_iterator(report)) {
@@ -158,8 +158,8 @@ std::pair<std::set<std::string>, std::set<std::string>> filesAndListed(const fs:
     return {there, listed};
 }
 
-// Two programs at once in one folder, each killed at any time: what is left is all or nothing, and what else
-// is left the next run removes. A campaign kills 200 times by each signal.
+// Two programs write to one folder, each killed at any time: outputs are complete or absent, and the next
+// run removes leftovers. A full run kills 200 times by each signal.
 TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
     const Folder folder;
     fs::create_directories(folder / "tmp");
@@ -244,7 +244,7 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
                     rounds);
 }
 
-// One program waits until the other has moved its files.
+// A program waits until the other has moved its files.
 TEST(Interruption, AFolderThatIsBeingWrittenIsWaitedFor) {
     const Folder folder;
     const int held = ::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -258,7 +258,7 @@ TEST(Interruption, AFolderThatIsBeingWrittenIsWaitedFor) {
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
 }
 
-// Runs `script` in a mount namespace of its own; skipped where that is not permitted.
+// Runs `script` in a mount namespace of its own; skipped if that is not permitted.
 Ran mounted(const Folder& folder, const std::string& script) {
     folder.write("script", "set -e\n" + script);
     return runShell(folder, "unshare -rm sh script", folder.path());
@@ -275,7 +275,7 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
     if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";
     int failed = 0;
     for (int blocks = 6; blocks < 400; blocks += 3) {
-        // The earlier report is small, of one channel; the next one has all.
+        // The earlier report is small, with one channel; the next one has all.
         const Ran ran =
             mounted(folder, "mkdir -p m; mount -t tmpfs -o size=" + std::to_string(4 * blocks) +
                                 "k none m\n" + render + "m/r --channels albedo || exit 9\n" + sums +
@@ -291,7 +291,7 @@ TEST(FullDisk, OfAnySizeLeavesTheEarlierReport) {
     EXPECT_GE(failed, 2);
 }
 
-// Mesa would end the process by SIGBUS.
+// Otherwise a full disk under Mesa's shader cache would end the process by SIGBUS.
 TEST(FullDisk, OfTheDriversCacheIsDoneWithout) {
     const Folder folder;
     if (!canMount(folder)) GTEST_SKIP() << "no name space to mount a small disk in";

@@ -203,7 +203,7 @@ TEST_F(Launcher, TwoAtOnceBuildOneAfterTheOther) {
     EXPECT_EQ(ran.out, "good\ngood\ngood\n");
 }
 
-// The lock of another launcher, held until it is released.
+// Acquires the lock as another launcher would, until released.
 class HeldLock {
 public:
     explicit HeldLock(const fs::path& file) {
@@ -252,7 +252,7 @@ TEST_F(Launcher, WhoWaitsForLessThanASecondIsSilent) {
             waiting.join();
         }
         EXPECT_EQ(ran.code, 3);
-        if (Clock::now() - start > 900ms) continue;  // a busy machine: it may indeed have waited longer
+        if (Clock::now() - start > 900ms) continue;  // on a busy machine it may indeed have waited longer
         EXPECT_EQ(ran.err, "");
         return;
     }
@@ -268,7 +268,7 @@ TEST_F(Launcher, ALockThatCannotBeHadIsNamed) {
     EXPECT_EQ(ran.err.find("another launcher"), std::string::npos) << ran.err;
 }
 
-// The real list: every entry is the name of a Debian package, listed once, sorted within its part.
+// The real list: every entry is the name of a Debian package, listed once, sorted within its section.
 TEST(Packages, AreNamedOnce) {
     std::istringstream lines(contentsOf(fs::path(DIPTYCH_SOURCE_DIR) / "packages.txt"));
     std::set<std::string> names;

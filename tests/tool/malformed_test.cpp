@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Broken and hostile files through the whole program: a picture, or one line and exit code 2; never a crash.
+// Broken and hostile files through the whole program: an image, or one line and exit code 2; never a
+// crash.
 #include "tests/tool/run.h"
 
 #include <sys/resource.h>

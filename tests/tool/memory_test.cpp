@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much memory a command takes for each pixel more: what grows with the picture is held a few images at a
-// time, however many there are.
+// Memory per additional pixel of a command: only a few full-size images are in memory at a time.
 #include "shared/image/png.h"
 #include "tests/tool/run.h"
 
@@ -41,8 +40,8 @@ constexpr int smallWidth = 64, smallHeight = 36, largeWidth = 960, largeHeight =
 
 }  // namespace
 
-// Both Frames are of 98 components a pixel, 392 bytes as float32: less than that is only possible where they
-// are not all in memory. Holding them, and the capture's images beside them, took 1,000.
+// Both Frames have 98 components a pixel, 392 bytes as float32. Less than that proves that not all are in
+// memory at once. Keeping all, plus the capture's images, took 1,000.
 TEST(Memory, ComparingHoldsFewImagesAtATime) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer keeps what was freed";
@@ -59,9 +58,9 @@ TEST(Memory, ComparingHoldsFewImagesAtATime) {
     RecordProperty("bytes_per_pixel", static_cast<int>((large - small) / pixels));
 }
 
-// Pictures of 8 bits stay in 8 bits, figures are measured a few rows at a time: beside both pictures there
-// are the mask of pixels that count and FLIP's errors, 1 and 4 bytes. Widths are alike, so that what threads
-// hold of rows is no part of it. Held as floats, with each figure's errors beside them, they took 44.
+// 8-bit images stay in 8 bits, and metrics are measured a few rows at a time. Besides both images there
+// are the mask of counted pixels and FLIP's errors, 1 and 4 bytes. Both sizes have the same width, so the
+// threads' row buffers cancel. With float images and per-metric errors it took 44.
 TEST(Memory, DiffHoldsPicturesAsTheyAreStored) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer keeps what was freed";
@@ -84,8 +83,8 @@ TEST(Memory, DiffHoldsPicturesAsTheyAreStored) {
     RecordProperty("bytes_per_pixel", static_cast<int>(measured));
 }
 
-// 67 million pixels of 11 bytes are more than the 700 MB that a process may have: that is said at once, in
-// one line, before anything is decoded.
+// 67 million pixels of 11 bytes exceed the process limit of 700 MB: one line says so before anything is
+// decoded.
 TEST(Memory, DiffRefusesWhatDoesNotFit) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer reserves terabytes, which ulimit -v forbids";
@@ -102,11 +101,11 @@ TEST(Memory, DiffRefusesWhatDoesNotFit) {
     EXPECT_EQ(diff(64).code, 0);
     const Ran refused = diff(8192);
     EXPECT_TRUE(refused.failedOver("diff of 8192.png and 8192.png, 8192x8192: needs about 0."));
-    EXPECT_TRUE(refused.failedOver(" GB are free here (")) << refused.err;
+    EXPECT_TRUE(refused.failedOver(" GB are free (")) << refused.err;
     EXPECT_TRUE(refused.failedOver("compare smaller images"));
 }
 
-// What a picture of 256 million pixels takes is known before a device is asked for the first of its images.
+// The memory for 256 million pixels is checked before the device allocates the first image.
 TEST(Memory, DrawingRefusesWhatDoesNotFit) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer reserves terabytes, which ulimit -v forbids";

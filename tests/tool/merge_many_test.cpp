@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two thousand comparisons of four shards: what joining them takes, and the page of them all in a browser.
+// Two thousand comparisons in four shards: the cost of merging them, and their page in a browser.
 #include "compare/report/folders.h"
 #include "compare/report/parts.h"
 #include "compare/shards/manifest.h"
@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t manyCount = 2000, manyShards = 4;
 
-// Every tenth fails, in roughness, the more the larger its number; lit differs in all.
+// Every tenth comparison fails, in roughness, by an amount that grows with its index; lit differs in all.
 std::vector<Frame> numberedPair(std::size_t i, const std::string& scene) {
     std::vector<Frame> pair = bothFrames(scene);
     for (Frame& frame : pair) {
         frame.settings.camera = i % 2 == 0 ? "" : "1";
-        // A few channels: making these reports takes longer than what is tested.
+        // Few channels: making these reports takes longer than the test itself.
         frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
                            static_cast<int>(gpu::DEBUG_roughness), static_cast<int>(gpu::DEBUG_depth)};
         std::erase_if(frame.channels, [&](const auto& channel) {
@@ -66,7 +66,7 @@ struct UsedByTool {
     double seconds = 0, megabytes = 0;
 };
 
-// Of the tool, by itself.
+// Resources of the tool, run in a process of its own.
 UsedByTool runAlone(const Folder& folder, const std::string& words) {
     const auto start = std::chrono::steady_clock::now();
     const pid_t process = ::fork();
@@ -122,7 +122,7 @@ TEST(MergeMany, TwoThousandComparisonsInFiveHundredMegabytes) {
     const UsedByTool used = runAlone(folder, "merge -q shard-3 shard-1 shard-4 shard-2 -o all");
     EXPECT_EQ(used.code, 1) << "a tenth fails";
     std::cout << fmt::format("merge of {}: {:.2f} s, {:.0f} MB\n", manyCount, used.seconds, used.megabytes);
-    // How long it takes is printed and not asserted: machines are shared.
+    // The duration is printed but not asserted: machines are shared.
     EXPECT_LT(used.megabytes, 500);
     const UsedByTool trends =
         runAlone(folder, "merge -q shard-1 shard-2 shard-3 shard-4 -o again --since all");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Animated files through the whole program: at one time, at several in one report, and as numbered pictures.
+// Animated files through the whole program: at one time, at several times in one report, and as numbered
+// images.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 
@@ -29,8 +30,8 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-// A triangle around (-1, 0, 0), and keys at 0 s and 2 s for a channel of each kind: a translation by 2 m
-// along +X, and a weight from 0 to 1 of the morph target that moves it likewise.
+// A triangle around (-1, 0, 0), with keys at 0 s and 2 s for a channel of each type: a translation by 2 m
+// along +X, and a weight from 0 to 1 of a morph target with the same displacement.
 Json triangleFile() {
     std::string data;
     Json accessors = Json::array();
@@ -74,12 +75,12 @@ Json byATarget() {
     return file;
 }
 
-// The covered pixel of 5 x 5, each a metre wide in the triangle's plane.
+// 5 x 5 pixels, each a metre wide in the triangle's plane; the triangle covers one.
 const std::string posedView =
     " --size 5x5 --camera 'eye=0,0,10 target=0,0,0 fov=28.072486935852957' --channels material_id";
 const std::string reference = " --path reference --reference-mode scene";
 
-// Which columns of the middle row show the triangle, as "01000".
+// Coverage of the middle row's columns, such as "01000".
 std::string columnsIn(const fs::path& exr) {
     const PictureFile picture = readExr(exr);
     std::string row;
@@ -92,7 +93,7 @@ std::string columnsIn(const fs::path& exr) {
 const std::vector<std::pair<double, std::string>> where{
     {0, "01000"}, {1, "00100"}, {2, "00010"}, {9, "00010"}};
 
-// One report of both paths and the reference at four times, which nothing but the time tells apart.
+// One report of both paths and the reference at four times, which differ in nothing but the time.
 TEST(Motion, EveryPathDrawsItWhereItIsAtEachTimeOfOneReport) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
@@ -123,7 +124,7 @@ TEST(Motion, EveryPathDrawsItWhereItIsAtEachTimeOfOneReport) {
     }
 }
 
-// What is at rest in a file is posed as well, and whoever asks is told by what.
+// A morph target at rest is applied too, and plan names the method.
 TEST(Motion, ATargetAtRestIsPosedAndPlanSaysByWhat) {
     const Folder folder;
     Json target = byATarget();
@@ -178,7 +179,7 @@ TEST(Motion, TimesThatCannotBeAreRefused) {
     EXPECT_FALSE(fs::exists(folder / "diptych-report"));
 }
 
-// A line of output for each, and a file by each path.
+// One line of output for each, and one file per path.
 TEST(Motion, FramesAreNumberedPicturesOfTheirTimes) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
@@ -219,7 +220,7 @@ TEST(Motion, FramesInAFolderAreListedAndReplaced) {
         EXPECT_EQ(listed["frames"][i]["settings"]["time"], i);
         EXPECT_EQ(listed["frames"][i]["file"], "out/reference." + number + ".exr");
     }
-    // Fewer replace more, one replaces several, and the other way round.
+    // Fewer files replace more, one replaces several, and vice versa.
     ASSERT_EQ(runTool(folder, asked + " --frames 2").code, 0);
     EXPECT_FALSE(fs::exists(folder / "out/reference.0002.exr"));
     ASSERT_EQ(runTool(folder, asked + " --frames 1").code, 0);
@@ -231,7 +232,7 @@ TEST(Motion, FramesInAFolderAreListedAndReplaced) {
     EXPECT_EQ(Json::parse(ran.out)["frames"].size(), 2u);
 }
 
-// One exposure for all: lit of a sun that rises would flicker otherwise.
+// One exposure for all: otherwise lit would flicker as the sun rises.
 TEST(Motion, PicturesOfAMotionAreExposedAlike) {
     const Folder folder;
     const Ran ran = runTool(folder,
@@ -252,7 +253,7 @@ TEST(Motion, PicturesOfAMotionAreExposedAlike) {
     EXPECT_EQ(same.code, 0) << same.out << "the factor is printed with four digits";
 }
 
-// Before the first is drawn.
+// Checked before the first is rendered.
 TEST(Motion, FramesReplaceNoFileOfOthers) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());

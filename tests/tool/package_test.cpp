@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is installed: the manual page, completions, schemas and adapters, a library that another program
-// links, and a Debian package of it all.
+// The installation: manual page, completions, schemas and adapters, a library that another program links,
+// and a Debian package of it all.
 #include "tests/tool/run.h"
 
 #include <sstream>
@@ -24,7 +24,7 @@ TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
     const Folder folder;
     const Ran page = runTool(folder, "--manual");
     ASSERT_EQ(page.code, 0) << page.err;
-    // As man shows it, where there is one; groff's complaints are faults.
+    // As man shows it, if groff is installed; groff's warnings are faults.
     std::string shown = page.out;
     if (isThere(folder, "groff")) {
         folder.write("diptych.1", page.out);
@@ -37,7 +37,7 @@ TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
     for (const char* command : {"compare", "render", "diff", "tradeoff", "explain", "choose", "audit", "plan",
                                 "view", "bench", "devices"}) {
         EXPECT_NE(page.out.find(".SH OPTIONS OF " + std::string(command)), std::string::npos) << command;
-        // Every option that --help prints, at the beginning of a line.
+        // Every option that --help prints at the beginning of a line.
         const Ran help = runTool(folder, std::string(command) + " --help all");
         std::size_t options = 0;
         for (const std::string& line : linesOf(help.out)) {
@@ -52,7 +52,7 @@ TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
     }
 }
 
-// What bash would offer for these words, of which the last is begun.
+// Bash's completions for these words; the last is incomplete.
 std::string offered(const Folder& folder, const std::vector<std::string>& words) {
     std::string list;
     for (const std::string& word : words) list += " '" + word + "'";
@@ -97,10 +97,10 @@ TEST(Completion, TheOtherShellsTakeTheirs) {
             EXPECT_EQ(checked.code, 0) << checked.err;
         }
     }
-    EXPECT_TRUE(runTool(folder, "--completion tcsh").failedOver("is one of bash|zsh|fish"));
+    EXPECT_TRUE(runTool(folder, "--completion tcsh").failedOver("takes one of bash|zsh|fish"));
 }
 
-// What is installed, once for all tests here.
+// The installed files, made once for all tests here.
 const fs::path& installed() {
     static const fs::path path = [] {
         const fs::path prefix =

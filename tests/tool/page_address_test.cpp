@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's address leads back to what is seen, and a keyboard reaches everything in few steps.
+// The page's address restores the view, and a keyboard reaches everything in few steps.
 #include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-// What a person sees of the card: how both pictures stand, which part of them, the pixel whose values are
-// read.
+// Visible state of a card: comparison mode, visible part of the images, and the pixel whose values are
+// shown.
 constexpr const char* cardLook = R"(
   const card = $('#c0-roughness'), pair = card.querySelector('.pair'), panel = card.querySelector('.panel');
   const seen = () => { const f = panel.getBoundingClientRect(),
@@ -22,7 +22,7 @@ constexpr const char* cardLook = R"(
   await until(() => document.readyState === 'complete'); await wait(300);
 )";
 
-// Both paths of so many scenes: scenes/0.glb and on.
+// Both paths of `count` scenes: scenes/0.glb and on.
 std::vector<Frame> framesOfScenes(int count) {
     std::vector<Frame> frames;
     for (int i = 0; i < count; ++i)
@@ -36,7 +36,7 @@ TEST(PageAddress, LeadsBackToWhatWasSeen) {
     const fs::path page = written(folder, reportOf(rampFrames()));
     for (const char* actions : {
              "key('s');",
-             "await wait(600); key('s');",  // alone, when nothing else is being remembered
+             "await wait(600); key('s');",  // alone, while no other change is pending
              "pair.querySelector('input').value = 30; pair.querySelector('input').dispatchEvent(new "
              "Event('input', { bubbles: true }));",
              "key('+'); key('+'); key('+');",
@@ -60,7 +60,7 @@ TEST(PageAddress, LeadsBackToWhatWasSeen) {
     }
 }
 
-// Pointing at a picture changes nothing of the address: a link has the pixel that was clicked.
+// Hovering over an image does not change the address: a link contains the clicked pixel.
 TEST(PageAddress, PointingAloneDoesNotChangeIt) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
@@ -72,7 +72,7 @@ TEST(PageAddress, PointingAloneDoesNotChangeIt) {
     EXPECT_EQ(seen.told, (json{"", "#c0-normals"}));
 }
 
-// What is chosen on a page of a table stands before the "#": who opens the address sees the same.
+// A table page's filter and order precede the "#": opening the address restores them.
 TEST(PageAddress, AnIndexKeepsItsFilterAndOrder) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;

@@ -14,8 +14,8 @@ namespace diptych {
 #define SKIP_WITHOUT_BROWSER() \
     if (browser().empty()) GTEST_SKIP() << "no chromium here: the page is not looked at"
 
-// Both paths of one scene, all pixels covered: lit is a ramp without repeated rows, roughness fails at (40,
-// 20) and, by less, elsewhere.
+// Both paths of one scene, all pixels covered: lit is a ramp without repeated rows, roughness fails at
+// (40, 20) and, by less, elsewhere.
 inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames) {

@@ -5,7 +5,7 @@
 namespace diptych {
 namespace {
 
-// Words of a plot that cover each other, those outside of it, and how far the page scrolls sideways.
+// Labels of a plot that overlap or extend outside it, and how far the page scrolls sideways.
 constexpr const char* lookAtChoice = R"(
   const words = $$('svg.chart text').filter(text => text.textContent).map(text => [text.textContent, text.getBoundingClientRect(), text.closest('svg').getBoundingClientRect()]);
   const told = { overlaps: [], outside: [], wide: document.documentElement.scrollWidth - innerWidth };

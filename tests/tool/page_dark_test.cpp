@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every word of a page can be read, on a light and on a dark screen: WCAG 2.2's contrast (success criterion
-// 1.4.3), 4.5 to 1, and 3 to 1 for large words.
+// Every word of a page is readable on a light and a dark screen: WCAG 2.2's contrast (success criterion
+// 1.4.3), 4.5 to 1, and 3 to 1 for large text.
 #include "tests/tool/page_builder.h"
 
 namespace diptych {
@@ -8,8 +8,8 @@ namespace {
 
 using nlohmann::json;
 
-// The words with less contrast than they need, each with its figure, and how many were looked at. What lies
-// over a picture is left out: its ground is the picture.
+// Texts with insufficient contrast, each with its ratio, and the number of texts checked. Skips text over
+// images, whose background is the image.
 constexpr const char* lookAtWords = R"(
   await until(() => document.readyState === 'complete');
   $$('details').forEach(d => d.open = true);

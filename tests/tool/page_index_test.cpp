@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A report of a thousand comparisons in a browser: what it builds and loads at once, and what once it is
-// asked.
+// A report of a thousand comparisons in a browser: what it builds and loads at once, and what on demand.
 #include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
@@ -8,7 +7,7 @@
 namespace diptych {
 namespace {
 
-// Of each comparison lit and normals, of 4 x 3 pixels; normals differ in all whose number ends in 7.
+// Channels lit and normals of each comparison, 4 x 3 pixels; normals differ in all whose index ends in 7.
 Report several(std::size_t count) {
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < count; ++i) {
@@ -54,9 +53,10 @@ void expectFluent(const nlohmann::json& told, int count) {
     EXPECT_EQ(told["lines"], count);
     EXPECT_EQ(told["first"], (json{"7.glb", "17.glb"})) << "those that fail";
     EXPECT_EQ(told["sections"], (json{"s7", "s17", "s27", "s37"}));
-    // A line is itself, 8 cells, two links, a verdict and up to four paddings of numbers, and in a single
-    // file the text that waits; four comparisons of two channels, each with its Settings, and the page around
-    // them are 2720; of 40 failures each names its scene in an element of its own.
+    // A line has at most 17 elements: itself, 8 cells, two links, a verdict, up to four paddings of
+    // numbers, and in a single file the text that loads later. Four comparisons of two channels, each with
+    // its Settings, and the page around them have 2720. Of 40 failures, each names its scene in an element
+    // of its own.
     EXPECT_LT(told["nodes"], count * 17 + 3260) << "elements in the page";
     EXPECT_LT(told["images"], 50);
     EXPECT_LE(told["loaded"], told["images"]);

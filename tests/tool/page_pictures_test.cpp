@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The wipe as a browser paints it: left of the divider the baseline's picture, right of it the other's.
+// The wipe as a browser paints it: the baseline's image left of the divider, the other's right of it.
 #include "tests/tool/page_builder.h"
 
 namespace diptych {
@@ -16,8 +16,8 @@ Report twoGreys() {
     return reportOf(std::move(frames));
 }
 
-// Which stage lies under a point of the pair, at several places of the divider; and what is on each side's
-// picture (a canvas reads pixels only of pictures that are in the page itself).
+// Which stage is at a point of the pair, for several divider positions; and the colour of each side's
+// image. A canvas reads pixels only of images embedded in the page.
 constexpr const char* wipeProbe = R"(
   const card = $('#c0-roughness'), pair = card.querySelector('.pair'), slider = pair.querySelector('input');
   const show = () => pair.scrollIntoView({ behavior: 'instant', block: 'center' });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole reports as they are sent and opened: in a single file, as the tool leaves them, and made again.
+// Whole reports as they are sent and opened: in a single file, as the tool writes them, and made again.
 #include "shared/frame/debug_modes.h"
 #include "tests/tool/page_builder.h"
 
@@ -38,7 +38,7 @@ TEST(PageReport, ASingleFileLoadsNoOther) {
     EXPECT_EQ(seen.told["says"], "a single-file report has no values under the cursor");
 }
 
-// As the tool leaves it: whatever can be opened is open, and every picture is there.
+// As the tool writes it: everything opens, and every image is there.
 TEST(PageReport, ARealReportIsWholeAndSilent) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
@@ -72,14 +72,14 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
     EXPECT_EQ(seen.told["marks"], true);
 }
 
-// What a window of 1400 x 900 pixels shows before anything is scrolled, opened or pointed at.
+// A window of 1400 x 900 pixels, before any scrolling, opening or hovering.
 TEST(PageReport, TheFirstScreenShowsPictures) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     for (const bool fails : {false, true}) {
         std::vector<Frame> frames = rampFrames();
         if (!fails) frames[1].channels.at(gpu::DEBUG_roughness) = frames[0].channels.at(gpu::DEBUG_roughness);
-        // A difference within tolerance, so that lit has a picture of it.
+        // A difference within tolerance, so that lit has a difference image.
         frames[1].channels.at(gpu::DEBUG_lit).at(3, 4) += 1e-5f;
         const Report report = reportOf(std::move(frames));
         ASSERT_EQ(report.passed(), !fails);
@@ -112,7 +112,7 @@ TEST(PageReport, TheFirstScreenShowsPictures) {
     }
 }
 
-// What a failing channel's card prints makes the same comparison, of that channel alone.
+// A failing channel's card prints a command that repeats the comparison for that channel alone.
 TEST(PageReport, TheCommandOfAReportMakesItAgain) {
     const Folder folder;
     const Ran first = runTool(folder,
@@ -144,7 +144,7 @@ TEST(PageReport, TheCommandOfAReportMakesItAgain) {
     EXPECT_TRUE(fs::exists(folder / "report-again/index.html"));
 }
 
-// What a reader copies from the card of a failing channel fails again by as much, judged by the same rules.
+// The command on a failing channel's card fails again by the same amount, by the same rules.
 TEST(PageReport, TheCommandOfAFailingCardFailsAgain) {
     const Folder folder;
     folder.write("t.json", R"({"rules": [{"channel": "normals", "max": 0, "because": "to fail"}]})");
@@ -152,7 +152,7 @@ TEST(PageReport, TheCommandOfAFailingCardFailsAgain) {
         runTool(folder, "compare builtin:cutout --size 96x54 --runs 0 --tolerances t.json --json -o report");
     ASSERT_EQ(first.code, 1) << first.err;
     const std::string page = contentsOf(folder / "report/index.html"), start = "<code>diptych ";
-    // One that draws it again, and one that shows it in a window.
+    // One command renders it again, one shows it in a window.
     ASSERT_EQ(countOf(page, start), 2u);
     EXPECT_EQ(countOf(page, "<code>diptych view --debug normals --tolerances t.json"), 1u);
     const std::size_t at = page.find(start) + start.size();

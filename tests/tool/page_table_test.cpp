@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Columns of numbers on a page: decimal points stand one below the other, in a browser's own measure.
+// Columns of numbers on a page: decimal points are aligned, as measured by a browser.
 #include "tests/tool/page_builder.h"
 
 namespace diptych {
@@ -7,8 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-// Where the decimal point of each cell's number ends, or the number if it has none, from the left of the
-// page.
+// Right edge of each cell's decimal point, or of the number if it has none, from the left of the page.
 constexpr const char* decimalPoints = R"(
   await until(() => document.readyState === 'complete');
   const point = cell => {

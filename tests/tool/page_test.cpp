@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The report's page as a browser shows it: real events go in, what stands on the page comes out.
+// The report's page in a browser: sends real events and checks the page.
 #include "tests/tool/page_builder.h"
 
 #include <cmath>
@@ -58,7 +58,7 @@ TEST(Page, SliderKeysAndButtonsWork) {
     is("ctrl", "left", "100%", "left");
 }
 
-// Every panel of a card shows the same part of its picture.
+// Every panel of a card shows the same part of its image.
 TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
@@ -153,7 +153,7 @@ TEST(Page, WorstPixelsLeadIntoThePicture) {
     EXPECT_EQ(seen.told["previous"], (json{80, 47, 24}));
 }
 
-// Where the system asks for less motion, a key alone starts none; a click is a wish.
+// If the system asks for reduced motion, a key alone starts no flicker; a click does.
 TEST(Page, FlickerNeedsAClickWhereMotionIsUnwelcome) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;

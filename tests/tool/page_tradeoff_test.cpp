@@ -49,7 +49,7 @@ TEST(PageTradeoff, PointingFocusAndTapShowTheRowAndItsCommand) {
     EXPECT_EQ(told["byLine"], json{"1"});
 }
 
-// Reasons take the whole width, whatever else the page makes of lists of terms.
+// Reasons take the full width, however the page styles other definition lists.
 TEST(PageTradeoff, WhatWasNotDrawnIsReadableOnAPhone) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
@@ -122,7 +122,7 @@ TEST(PageTradeoff, TheAddressKeepsRowErrorAndOrder) {
     EXPECT_EQ(again.told["plot"], "relative_p99");
     EXPECT_EQ(again.told["sorted"], nlohmann::json{"relative RMSE descending"});
     EXPECT_NE(chosen.told["first"], chosen.told["state"]);
-    // Words that mean nothing here are no error.
+    // Unknown values are no error.
     const Visit other = visit(folder, page, state + "tell(state());", "?row=999&error=x&sort=y");
     EXPECT_EQ(other.console, "");
     EXPECT_EQ(other.told, chosen.told["first"]);

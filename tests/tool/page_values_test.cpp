@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page says of the pixel under the cursor is what the Frames hold.
+// The page's values of the pixel under the cursor equal those in the Frames.
 #include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
     EXPECT_EQ(seen.told["after"].size(), 5u) << "each channel's own file";
 }
 
-// Larger pictures are rounded, and the page says so; the difference keeps its digits.
+// Larger images are quantized, and the page says so; the difference keeps its digits.
 TEST(PageValues, LargerPicturesAreQuantisedAndSaySo) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// No page scrolls sideways, on a phone nothing in it does either; and what is printed needs no mouse.
+// No page scrolls sideways, and on a phone neither does anything in it. The printed page needs no mouse.
 #include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-// What a page of that width tells of itself, with everything in it open: how much wider than its window it
-// is; which boxes scroll sideways; which elements and words reach over the right edge.
+// Measures a page of the given width with everything open: its excess over the window's width, boxes that
+// scroll sideways, and elements and words beyond the right edge.
 constexpr const char* measure = R"(
 addEventListener('load', () => setTimeout(() => {
   const all = s => [...document.querySelectorAll(s)], seen = e => e.getClientRects().length > 0;
@@ -29,7 +29,7 @@ addEventListener('load', () => setTimeout(() => {
                        scrolls: scrolls.map(name), over: [...over, ...cut].map(name).slice(0, 5) }, '*');
 }, 300));)";
 
-// Opens the page in frames of several widths, as on a screen and as printed, and gives what each tells.
+// Opens the page in frames of several widths, for screen and print, and returns each one's result.
 json measured(const Folder& scratch, const fs::path& page, const std::string& planted = "") {
     const std::string text = contentsOf(page);
     const fs::path home = page.parent_path();
@@ -105,7 +105,7 @@ TEST(PageWidth, NeitherDoPagesOfTimes) {
     expectFits(measured(folder, folder / "b/index.html"), "a benchmark");
 }
 
-// Negative control: what is too wide is found, whichever way.
+// Negative control: excess width is detected in every form.
 TEST(PageWidth, WhatIsTooWideIsFound) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;

@@ -35,8 +35,8 @@ double largest(const json& values) {
     return most;
 }
 
-// Every term of lit, and nothing twice: what is left is the rounding of float32 sums, and of the reference,
-// which is double, next to nothing or what it is known to.
+// Every term of lit is counted exactly once. The residual is the rounding of float32 sums; for the
+// reference, in double, it is almost zero or within its known uncertainty.
 void expectTermsAddUp(const json& breakdown) {
     const json& terms = breakdown["terms"];
     const json& residual = named(terms, "kind", "residual");
@@ -47,7 +47,7 @@ void expectTermsAddUp(const json& breakdown) {
     EXPECT_GT(largest(named(terms, "kind", "lit")["test"]), 0) << "a pixel that nothing lights shows nothing";
 }
 
-// What was read of the lists must be as many lights as the pixel evaluates, and hold each that lights it.
+// The list has as many lights as the pixel evaluates, and includes every light that lights it.
 void expectListsAreTold(const json& breakdown) {
     const json& count = named(breakdown["steps"], "name", "light_count");
     for (const std::string side : {"baseline", "test"}) {
@@ -63,7 +63,7 @@ void expectListsAreTold(const json& breakdown) {
     }
 }
 
-// Lights by object cannot be drawn one by one; what they add is told all the same.
+// Per-object lights cannot be rendered one by one; their sum is still reported.
 TEST(PixelTool, LightsByObjectAreOneTerm) {
     const Folder folder;
     for (const std::string scene : {"builtin:points", "builtin:furnace"}) {
@@ -106,14 +106,14 @@ TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
         << albedo;
     EXPECT_EQ(named(breakdown["steps"], "name", "lit")["explained"], true);
     expectTermsAddUp(breakdown);
-    // The other way round both columns change places.
+    // Swapping the baseline swaps both columns.
     const json turned = breakdownOf(
         folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24 --baseline forward_plus");
     EXPECT_EQ(turned["baseline"], "forward_plus");
     EXPECT_EQ(named(turned["steps"], "name", "albedo")["test"], albedo["baseline"]);
 }
 
-// A rule of the user decides in place of the encoding.
+// A user's rule decides instead of the encoding.
 TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
     const Folder folder;
     folder.write("t.json", R"({"rules": [{"channel": "albedo", "max": 0, "because": "no bit may change"}]})");
@@ -124,8 +124,8 @@ TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
     EXPECT_NE(ran.out.find("\nFAIL: at this pixel beyond tolerance: albedo"), std::string::npos) << ran.out;
 }
 
-// Whatever lights the pixel is a term of its own, and the other lights stay in lists and maps while one is
-// drawn.
+// Every light at the pixel is a term of its own; the other lights stay in lists and maps while one is
+// rendered.
 TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
     const Folder folder;
     Image sky(8, 4, 3, 0.2f);
@@ -158,7 +158,8 @@ TEST(PixelTool, TermsAddUpWithShadowsHazeEnvironmentAndBlendedSurfaces) {
     }
 }
 
-// Of several samples lit is the mean; the breakdown says so where its terms, of the first, do not add up.
+// With MSAA lit is the mean of the samples. The breakdown says so if its terms, of the first sample, do
+// not add up.
 TEST(PixelTool, SaysWhyTermsOfOneSampleAreNotTheMeanOfFour) {
     const Folder folder;
     const std::string command = "compare builtin:points --size 64x36 --msaa 4 --pixel ";
@@ -179,7 +180,7 @@ TEST(PixelTool, SaysThatNothingIsDrawnInTheBackground) {
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.out.find("\nbackground: no surface\n"), std::string::npos) << ran.out;
     EXPECT_EQ(ran.out.find("albedo"), std::string::npos) << ran.out;
-    // What is blended before it is light, and no opaque surface.
+    // Only blended fragments contribute light; there is no opaque surface.
     const Ran pane = runTool(folder, "compare builtin:glass --size 64x36 --pixel 10,20");
     EXPECT_NE(pane.out.find("\nbackground: no opaque surface, only blended fragments\n"), std::string::npos)
         << pane.out;

@@ -32,7 +32,7 @@ TEST(ReferenceTool, RendersInBothModes) {
         EXPECT_NE(frame.dump().find("\"reference\""), std::string::npos) << frame.dump();
         EXPECT_TRUE(fs::exists(folder / mode / "reference.exr")) << ran.out;
     }
-    // An untextured triangle shows the same place in both modes, but for the rasterizer's snapping.
+    // An untextured triangle shows the same surface point in both modes, up to the rasteriser's snapping.
     const Ran same = runTool(folder,
                              "diff surface/reference.exr scene/reference.exr --channels lit "
                              "--metric relative_p99 --tolerance 1e-4");
@@ -80,7 +80,7 @@ TEST(ReferenceTool, IsTheLeftPanelOfBothPaths) {
     for (const Json& truth : report["truth"]) {
         ASSERT_EQ(truth["channels"].size(), 5u) << "lit, its two lobes, ambient light and an environment's";
         for (const Json& channel : truth["channels"]) {
-            if (channel["name"] == "lit_environment") continue;  // there is none: black in all three
+            if (channel["name"] == "lit_environment") continue;  // the scene has none: black in all three
             EXPECT_EQ(channel["nearer"], "forward_plus") << "a packed G-buffer is further away";
             EXPECT_GT(channel["by"].get<double>(), 1);
             EXPECT_GT(channel["error"]["deferred"]["mean"].get<double>(),
@@ -139,9 +139,9 @@ std::vector<std::string> drawing(const std::string& size) {
 }
 const std::vector<std::string> longDrawing = drawing("64x36");
 
-// Calls `attempt` with a drawing that is to be caught at work, with more and more pixels until it was: how
-// fast the machine is, and how busy, no test knows. `attempt` begins in a fresh folder and returns false
-// where the drawing ended before.
+// Calls `attempt` with a command to be interrupted, with more and more pixels until that succeeds, because
+// the machine's speed and load are unknown. `attempt` begins in a fresh folder and returns false if the
+// command finished first.
 template <typename Attempt>
 void untilCaughtAtWork(Attempt attempt) {
     for (const std::string size : {"64x36", "128x72", "256x144", "512x288", "1024x576"}) {
@@ -167,8 +167,8 @@ std::vector<fs::path> keptIn(const Folder& folder) {
     return files;
 }
 
-// The numbers of the complete tiles in such a file: a head (magic number, key of the picture, floats of a
-// tile), then for each tile its number, floats and checksum.
+// Indices of the complete tiles in a checkpoint file. Layout: a header (magic number, image key, floats of
+// a tile), then for each tile its index, floats and checksum.
 std::set<std::uint64_t> tilesIn(const fs::path& file) {
     const std::string bytes = contentsOf(file);
     const auto wordAt = [&](std::size_t at) {
@@ -203,7 +203,7 @@ bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, 
         says)
         << tool.err();
     EXPECT_FALSE(fs::exists(folder / "r.exr"));
-    // What was drawn is not drawn again, and the result says so.
+    // Finished tiles are not rendered again, and the result says so.
     const Ran again = runTool(folder, inShell(words));
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(
@@ -222,7 +222,7 @@ bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, 
     return true;
 }
 
-// The estimate is made before the first tile, and stands in the line of progress.
+// The estimate precedes the first tile, and is in the progress line.
 TEST(ReferenceTool, SaysOnATerminalHowLongAllWillTake) {
     untilCaughtAtWork([](const Folder& folder, const std::vector<std::string>& words) {
         const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
@@ -237,7 +237,7 @@ TEST(ReferenceTool, SaysOnATerminalHowLongAllWillTake) {
             return std::regex_search(shown, estimate);
         };
         EXPECT_TRUE(soon([&] { return said() || tool.ended(); }));
-        const bool caught = !tool.ended() && said();  // it says so while it draws
+        const bool caught = !tool.ended() && said();  // while it is still rendering
         ::close(terminal);
         return caught;
     });
@@ -255,8 +255,8 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
     });
 }
 
-// Kills the tool once it has kept `least` tiles in a file that is not among `before`. Returns that file, or
-// nothing where the tool ended before.
+// Kills the tool once it has stored `least` tiles in a file that is not among `before`. Returns that file,
+// or an empty path if the tool ended first.
 fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
                      std::size_t least) {
     fs::path own;
@@ -270,12 +270,12 @@ fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::
     return WIFSIGNALED(tool.wait()) ? own : fs::path();
 }
 
-// For another picture a new checkpoint is begun; that of the first is neither used nor lost.
+// A different image starts a new checkpoint; the first one's is neither used nor lost.
 bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::string>& words) {
     const std::string command = "render builtin:triangle --path reference --size 32x18 --force -o r.exr";
     const Ran first = runTool(folder, command);
     EXPECT_EQ(first.code, 0);
-    EXPECT_EQ(first.err.find("kept of"), first.err.npos) << first.err;
+    EXPECT_EQ(first.err.find("kept from"), first.err.npos) << first.err;
     fs::rename(folder / "r.exr", folder / "sound.exr");
 
     Running other(folder, words);
@@ -293,7 +293,7 @@ bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::st
             "diptych: kept from other interrupted references: " + kept.filename().string() + ";";
         EXPECT_EQ(ran.err.find(line) != ran.err.npos, quiet.empty()) << ran.err;
     }
-    // The command of the first picture can still resume, and removes the file at its end.
+    // The command of the first image can still resume, and removes the file at its end.
     EXPECT_EQ(runTool(folder, inShell(words)).code, 0);
     EXPECT_TRUE(keptIn(folder).empty());
     return true;
@@ -303,14 +303,14 @@ TEST(ReferenceTool, WhatIsKeptOfAnotherPictureStaysAndIsNamed) {
     untilCaughtAtWork(keepsWhatIsOfAnotherPicture);
 }
 
-// Two programs draw the same picture with the same -o and are both killed: no tile of either is lost.
+// Two programs render the same image with the same -o and are both killed: no tile of either is lost.
 bool keepTheirTilesApart(const Folder& folder, const std::vector<std::string>& words) {
     Running one(folder, words);
     EXPECT_TRUE(soon([&] {
         return one.ended() || (!keptIn(folder).empty() && !tilesIn(keptIn(folder).front()).empty());
     }));
     if (one.ended()) return false;
-    ::kill(one.process(), SIGSTOP);  // it holds its file, and draws nothing while the second comes
+    ::kill(one.process(), SIGSTOP);  // stopped with its file locked while the second runs
     const std::vector<fs::path> first = keptIn(folder);
     if (first.empty()) return false;
     EXPECT_EQ(first.size(), 1u);
@@ -324,12 +324,12 @@ bool keepTheirTilesApart(const Folder& folder, const std::vector<std::string>& w
     EXPECT_GE(tilesIn(second).size(), before) << "the second began with what the first had done";
     done.merge(tilesIn(second));
 
-    // The next program takes over all tiles into one file before it adds any.
+    // The next program moves all tiles into one file before it adds any.
     Running third(folder, words);
     EXPECT_TRUE(soon([&] { return third.ended() || keptIn(folder).size() == 1; })) << third.err();
     ::kill(third.process(), SIGSTOP);
     if (third.ended()) return false;
-    // Whichever of both it is: the system may free the lock of a killed program after its end was seen.
+    // Either file is possible: the system may release a killed program's lock after its exit is visible.
     const std::vector<fs::path> taken = keptIn(folder);
     if (taken.empty()) return false;
     EXPECT_EQ(taken.size(), 1u);
@@ -350,7 +350,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputKeepTheirTilesApart) {
     untilCaughtAtWork(keepTheirTilesApart);
 }
 
-// Both programs finish: each writes the whole picture, one after the other, and nothing else is left.
+// Both programs finish: each writes the complete image, one after the other, and nothing else is left.
 TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
     const Folder folder;
     folder.write("panel.json", panel);
@@ -365,7 +365,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
 
 // ---- stored ------------------------------------------------------------------------------------------
 
-// A stored reference gives the same verdicts as one that is drawn now.
+// A stored reference gives the same verdicts as a freshly rendered one.
 TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
     const Folder folder;
     const std::string drawing = "compare builtin:triangle --size 16x9 --runs 0 ";
@@ -378,7 +378,7 @@ TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
         EXPECT_EQ(a["comparisons"][row]["channels"], b["comparisons"][row]["channels"]);
 }
 
-// One that was sampled judges with each pixel's uncertainty, which is no channel of the picture.
+// A sampled reference is judged with each pixel's uncertainty, which is not a channel of the image.
 TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     const Folder folder;
     Image sky(8, 4, 3, 0.2f);
@@ -402,8 +402,8 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     EXPECT_EQ(diff.out.find("uncertainty"), std::string::npos) << diff.out;
 }
 
-// Light is judged as closely when few channels are compared, as a report's own command for one channel does:
-// this ambient light is within what FLIP alone passes.
+// Light is compared as strictly with few channels, as in a report's command for one channel: FLIP alone
+// would pass this ambient light.
 TEST(ReferenceTool, FewerChannelsAreNotJudgedMoreLoosely) {
     const Folder folder;
     const std::string scene = "builtin:spheres --size 64x36 --runs 0 --shadows off ";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is refused, as a whole or for one scene of several, and how scripts learn of it; and what pictures
-// share.
+// Refused inputs, for all or one of several scenes, and how scripts learn of them; and sharing an
+// exposure.
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// One scene that cannot be read does not end a comparison of several.
+// One unreadable scene does not end a comparison of several.
 TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     const Folder folder;
     folder.write("bad.glb", "no glTF");
@@ -27,7 +27,7 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_EQ(report["comparisons"].size(), 2u);
     EXPECT_EQ(report["errors"][0]["scene"], "bad.glb");
     EXPECT_EQ(report["verdict"], "fail");
-    // Alone, given twice (which is one scene), or with others that are as bad, it is one line, and no report.
+    // Alone, given twice (which is one scene), or with other unreadable ones: one line, and no report.
     EXPECT_TRUE(runTool(folder, "compare bad.glb -o none").failedOver("bad.glb: is not JSON"));
     EXPECT_TRUE(runTool(folder, "compare bad.glb bad.glb -o none").failedOver("bad.glb: is not JSON"));
     EXPECT_TRUE(runTool(folder, "compare bad.glb worse.glb -o none").failedOver("none of 2 scenes"));
@@ -46,7 +46,7 @@ TEST(Refusals, AnErrorIsJsonWhereJsonIsAskedFor) {
     }
 }
 
-// A picture takes the exposure of another.
+// An image takes the exposure of another.
 TEST(Refusals, ExposuresAreSaidAndShared) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render --path deferred builtin:spots --size 16x9 --runs 0 -o a.exr").code, 0);
@@ -70,7 +70,7 @@ TEST(Refusals, ExposuresAreSaidAndShared) {
     EXPECT_TRUE(runTool(folder, compare + " --match-exposure a.png").failedOver("holds display colours"));
 }
 
-// A reference with one place a pixel, or fewer than a path has samples, is no truth of their mean.
+// A reference with one sample a pixel, or fewer than a path has, is no ground truth for MSAA.
 TEST(Refusals, SamplesNeedATruthOfSamples) {
     const Folder folder;
     const std::string compare =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report takes on the disk.
+// Size of a report on disk.
 #include "tests/tool/run.h"
 
 #include <map>
@@ -8,7 +8,7 @@
 namespace diptych {
 namespace {
 
-// Megabytes of the usual size, of all but the EXRs; and what --keep and --single-file leave.
+// Megabytes at the default size, without the EXRs; and the files left by --keep and --single-file.
 TEST(ReportFiles, AReportOfWhatPassesIsSmall) {
     const Folder folder;
     const auto sizes = [&](const fs::path& report) {

@@ -52,8 +52,8 @@ struct Ran {
     int code = -1;  // -1: it did not exit by itself
     std::string out, err;
 
-    // Checks for exit code 2 and exactly one line on stderr, from the tool, that contains `word`; stdout is
-    // empty, or with --json an object with the error.
+    // Checks for exit code 2 and exactly one line on stderr, from the tool, that contains `word`; stdout
+    // is empty, or with --json an object with the error.
     testing::AssertionResult failedOver(const std::string& word) const {
         const bool oneLine = std::ranges::count(err, '\n') == 1 && err.ends_with('\n');
         if (code == 2 && (out.empty() || out.starts_with("{\n  \"schema\": 1,\n  \"error\": ")) && oneLine &&

@@ -16,7 +16,7 @@ extern char** environ;
 
 namespace diptych {
 
-// The tool as a child process, its stderr in a file, or where `error` says: a terminal.
+// The tool as a child process, its stderr in a file, or in `error`: a terminal.
 class Running {
 public:
     Running(const Folder& folder, std::vector<std::string> words, const fs::path& error = {})
@@ -30,7 +30,7 @@ public:
         posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
         posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
         posix_spawn_file_actions_addopen(&actions, 2, error_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-        // A shell's background jobs, and with them these tests, ignore SIGINT; what they start would, too.
+        // Background jobs of a shell ignore SIGINT, and child processes inherit that: reset it.
         sigset_t heard;
         sigemptyset(&heard);
         for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&heard, signal);
@@ -69,7 +69,7 @@ private:
     fs::path error_;
 };
 
-// Waits until the condition holds; the time limit is only exceeded by a program that hangs.
+// Waits until the condition is met; only a program that hangs reaches the time limit.
 template <typename Condition>
 bool soon(Condition condition) {
     using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many scenes: folders, patterns and lists; shards and their merge; and going on after an end in the middle.
+// Many scenes: folders, patterns and lists; shards and their merge; resuming after an interruption.
 #include "tests/tool/running.h"
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 namespace diptych {
 namespace {
 
-// Small, and among them one that cannot be drawn. -o and --shard are added.
+// Small scenes, one of them missing. -o and --shard are added.
 const std::string manyScenes =
     "builtin:points builtin:triangle gone.glb builtin:spots builtin:areas builtin:crossed";
 const std::string manyHow = " --size 32x18 --runs 0 --channels lit,normals,roughness";
 
-// All files of a report, without times: the one thing that differs from run to run.
+// All files of a report, without times, which differ between runs.
 std::map<std::string, std::string> timeless(const fs::path& folder) {
     static const std::regex json_times(
         "\"(made_in_ms|compare_ms|encode_ms|ms|record|object_lists)\": [-+.e0-9]+");
@@ -40,7 +40,7 @@ std::map<std::string, std::string> timeless(const fs::path& folder) {
         if (name == "index.html") text = std::regex_replace(text, page_times, "");
         if (name.ends_with(".html") || name.ends_with(".section.js"))
             text = std::regex_replace(text, made_in, "");
-        // What stands in junit.xml as the place of an attachment.
+        // Replaces the folder in the attachment paths of junit.xml.
         for (std::size_t at = text.find(folder.filename().string() + "/");
              name == "junit.xml" && at != text.npos; at = text.find(folder.filename().string() + "/", at))
             text.replace(at, folder.filename().string().size() + 1, "REPORT/");
@@ -94,7 +94,7 @@ TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
     }
 }
 
-// A pixel of one picture, and a digit of one figure.
+// Changes a pixel of one image, and a digit of one number.
 TEST(ManyScenes, ADifferenceOfReportsIsSeen) {
     const Folder folder;
     runTool(folder, "compare -q builtin:points builtin:triangle" + manyHow + " -o a");
@@ -108,7 +108,7 @@ TEST(ManyScenes, ADifferenceOfReportsIsSeen) {
     EXPECT_FALSE(alike(folder / "a", folder / "b"));
 }
 
-// Where CI servers look for them: from the folder that merge was called in.
+// Attachment paths are relative to merge's working folder, where CI servers look for them.
 TEST(ManyScenes, FailuresOfManyScenesAreAttached) {
     const Folder folder;
     folder.write("strict.json", R"({"rules":[{"channel":"lit","max":0,"because":"none"}]})");
@@ -170,7 +170,7 @@ TEST(ManyScenes, MergeNamesWhatItMust) {
 
     EXPECT_TRUE(merged("1 2 3 nowhere").failedOver("nowhere: is not the report of a shard"));
     EXPECT_TRUE(runTool(folder, "merge nowhere -o out").failedOver("nowhere: is not the report of a shard"));
-    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of shards are missing"));
+    EXPECT_TRUE(runTool(folder, "merge -o out").failedOver("the folders of the shards are missing"));
     EXPECT_EQ(before, timeless(folder / "2")) << "no shard is changed";
 }
 
@@ -193,7 +193,7 @@ TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
     EXPECT_TRUE(runTool(folder, "compare --shard 1/2 --single-file").failedOver("--single-file"));
 }
 
-// Each time it is killed somewhere, and what was finished then is not drawn again before the report is there.
+// Killed at random times until the report exists; finished scenes are not rendered again.
 TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
     const Folder folder;
     const std::vector<std::string> words{"compare",
@@ -229,10 +229,9 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
     for (int round = 0; kills < 20; ++round) {
         ASSERT_LT(round, 80);
         const std::string out = fmt::format("cut-{}", round);
-        std::size_t most = 0;  // scenes that were finished when it was killed
+        std::size_t most = 0;  // scenes finished when it was killed
         for (;;) {
-            // A run that was killed after its report, while it removed the scenes, leaves what it has not
-            // removed.
+            // A run killed after its report, while removing the scenes' files, leaves the rest of them.
             const bool ended_before = fs::exists(folder / out);
             Running cut(folder, with(out));
             std::this_thread::sleep_for(std::chrono::milliseconds(when(random)));
@@ -276,7 +275,7 @@ TEST(ManyScenes, FoldersAndListsMeanTheirScenes) {
     EXPECT_TRUE(runTool(folder, "compare nothing/*.glb").failedOver("matches no .gltf or .glb file"));
 }
 
-// Of each scene a tradeoff of its own, whichever shard makes it.
+// Each scene has its own tradeoff, whichever shard makes it.
 TEST(ManyScenes, TradeoffsOfShardsStandBesideEachOther) {
     const Folder folder;
     const std::string tradeoff =
@@ -306,7 +305,7 @@ TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
     Ran ran = runTool(folder, compare + "two --since one");
     EXPECT_NE(ran.out.find("since one: nothing has changed"), std::string::npos) << ran.out;
     EXPECT_TRUE(alike(folder / "one", folder / "one"));
-    // Rules make the same pictures fail.
+    // Rules make the same images fail.
     folder.write("strict.json",
                  R"({"rules":[{"channel":"lit","scene":"*points","max":0,"because":"none"}]})");
     ran = runTool(folder, compare + "three --since one/report.json --tolerances strict.json --json");
@@ -317,7 +316,7 @@ TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
     EXPECT_EQ(since["comparisons"][0]["scene"], "builtin:points");
     ran = runTool(folder, compare + "four --since three");
     EXPECT_NE(ran.out.find("since three: 1 mended: builtin:points"), std::string::npos) << ran.out;
-    // Other light moves figures; another scene is new and one is gone.
+    // Different light changes metrics; one scene is new and one is gone.
     ran = runTool(folder,
                   "compare builtin:points builtin:spots" + manyHow + " --ambient 1,1,1 -o five --since one");
     EXPECT_NE(ran.out.find("since one: 1 moved: builtin:points (lit max"), std::string::npos) << ran.out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each path with Settings of its own, as users see it.
+// Paths with different Settings, as users see them.
 #include "tests/tool/sweep.h"
 
 namespace diptych {
@@ -26,20 +26,20 @@ TEST(SideSettings, LightsByObjectAgainstFroxels) {
     const Json lit = litOf(report["comparisons"][0]);
     EXPECT_EQ(lit["verdict"], "informative");
     EXPECT_GT(lit["max"], 0.1);
-    // The command that it prints draws the same.
+    // The printed command renders the same.
     std::string again = "compare --runs 0 --force";
     for (std::size_t i = 1; i < report["comparisons"][0]["command"].size(); ++i)
         again += " '" + std::string(report["comparisons"][0]["command"][i]) + "'";
     EXPECT_EQ(runTool(folder, again).code, 0);
     EXPECT_EQ(litOf(readJson(folder / "r/report.json")["comparisons"][0])["max"], lit["max"]);
-    // Rules judge it after all.
+    // With rules it is judged after all.
     folder.write("t.json", R"({ "rules": [ { "channel": "lit", "max": 0.01, "because": "close" } ] })");
     EXPECT_EQ(runTool(folder,
                       "compare --forward-plus assign=per_object,pixel-lights=2 --runs 0 --tolerances t.json" +
                           sidesView + "-o s")
                   .code,
               1);
-    // So do explain and the breakdown of a pixel.
+    // explain and the pixel breakdown accept the same options.
     const Ran why =
         runTool(folder, "explain --forward-plus assign=per_object,pixel-lights=2 --json" + sidesView);
     ASSERT_EQ(why.code, 0) << why.err;
@@ -49,7 +49,7 @@ TEST(SideSettings, LightsByObjectAgainstFroxels) {
     EXPECT_EQ(breakdown.code, 0) << breakdown.err;
 }
 
-// What changes no light is judged as ever.
+// Settings that do not change the light are judged as usual.
 TEST(SideSettings, OtherListsOfTheSameLightsAreNoDifference) {
     const Folder folder;
     const Ran ran =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// submit slurm, on a Slurm of two nodes on this machine (tests/slurm/cluster.sh). Where none is installed,
-// what needs one is skipped and says so.
+// submit slurm, on a Slurm of two nodes on this machine (tests/slurm/cluster.sh). Tests that need Slurm
+// are skipped with a message if it is not installed.
 #include "tests/tool/running.h"
 
 #include <fmt/format.h>
@@ -36,8 +36,7 @@ public:
                         folder_ / "work");
     }
     Ran tool(const std::string& words) const { return shell("'" DIPTYCH_PROGRAM "' " + words); }
-    // Until no job is left; tasks that Slurm has put back into the queue start at once, and not after two
-    // minutes.
+    // Waits until no job is left. Tasks that Slurm requeued start at once instead of after two minutes.
     bool idle() const {
         return soon([&] {
             const Ran queue = shell("squeue -h -o '%i %T %r'");
@@ -72,7 +71,7 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
           "/a report.slurm/shard-4' -o '", "/a report.slurm/merge.log\"\n"})
         EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
     EXPECT_FALSE(fs::exists(folder / "a report.slurm")) << "nothing is written";
-    // Five scenes: five shards, if none are asked for.
+    // Five scenes: five shards by default.
     EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + slurmCompare).out.find("--array=1-5\n"),
               std::string::npos);
     EXPECT_TRUE(runTool(folder, "submit slurm").failedOver("a command is missing"));
@@ -111,7 +110,7 @@ TEST(Slurm, ANodeThatIsLostInTheMiddleIsMadeUpFor) {
     fs::create_directories(folder / "work");
     const SlurmCluster cluster(folder);
     SKIP_WITHOUT_SLURM(cluster);
-    // Long enough to be hit in the middle.
+    // Long enough to be interrupted.
     const Ran ran =
         cluster.tool("submit slurm --shards 2 -- " + slurmCompare +
                      " builtin:gallery builtin:spheres builtin:glass builtin:many_materials -v -o r");
@@ -124,7 +123,7 @@ TEST(Slurm, ANodeThatIsLostInTheMiddleIsMadeUpFor) {
     const std::string node = cluster.shell("squeue -h -t R -o '%K %N' | sed -n 's/^1 .*-//p'").out;
     ASSERT_FALSE(node.empty());
     cluster.run("kill " + node.substr(0, 1));
-    ASSERT_TRUE(soon([&] {  // until Slurm has seen it
+    ASSERT_TRUE(soon([&] {  // until Slurm notices the dead node
         return cluster.shell("squeue -h -o '%T'").out.find("PENDING") != std::string::npos &&
                cluster.shell("sinfo -h -o %T").out.find("down") != std::string::npos;
     }));

@@ -60,7 +60,7 @@ TEST(StrictTool, CompareFailsOverAChannelThatTheBaselineLacks) {
     EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
 }
 
-// A misspelled rule stops compare before anything is drawn.
+// A misspelled rule stops compare before rendering.
 TEST(StrictTool, CompareRefusesARuleForNoChannel) {
     const Folder folder;
     folder.write("t.json", R"({"rules": [{"channel": "albdeo", "max": 1, "because": "any"}]})");

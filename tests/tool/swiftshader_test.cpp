@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The program on a second driver: SwiftShader, a conformant Vulkan 1.3 device on the CPU that Debian's
-// chromium-common brings. Skipped where it is not installed.
+// The program on a second driver: SwiftShader, a conformant Vulkan 1.3 device on the CPU from Debian's
+// chromium-common. Skipped if it is not installed.
 #include "tests/support/campaign.h"
 #include "tests/tool/run.h"
 
@@ -41,7 +41,7 @@ TEST_F(SwiftShader, IsTheDeviceAndSaysWhatItLacks) {
     }
 }
 
-// A seeded slice of the scenes, and always area lights, skins and blended surfaces.
+// A seeded selection of the scenes, always with area lights, skins and blended surfaces.
 TEST_F(SwiftShader, BothPathsAgreeOnEveryBuiltinScene) {
     std::istringstream list(run("render --list-scenes").out);
     std::vector<std::string> names;

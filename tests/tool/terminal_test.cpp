@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text from outside that would have a terminal or a page do or show something else, and descriptors that
-// whoever starts the program has closed.
+// Untrusted text that could control a terminal or a page, and standard descriptors that are closed at
+// start.
 #include "shared/image/exr.h"
 #include "shared/text/one_line.h"
 #include "tests/tool/browser.h"
@@ -16,11 +16,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-// ESC, C1's CSI, and what reorders text; as it may stand in the name of a file.
+// ESC, C1's CSI, and bidirectional controls, as a file name may contain them.
 const std::string evil = "e\x1b]0;owned\x07\u009b31m\u202egpj\u2066\u200f\x7f";
 const std::string howSmall = " --size 16x9 --runs 0 --channels lit ";
 
-// Printed characters and ends of lines alone; of what may be wrong the place.
+// Whether the text has only printable characters and newlines; otherwise, the position of the first other.
 testing::AssertionResult isPlain(const std::string& text) {
     for (std::string_view rest = text; !rest.empty();) {
         const auto [code, size] = characterAt(rest);
@@ -165,8 +165,8 @@ TEST(Terminal, WhatSbatchSaysPassesAFilter) {
                         .failedOver("line breaks and control characters"));
 }
 
-// What is opened first would get the number of a closed descriptor, and with it the messages. sbatch looks at
-// the descriptors of the program that started it.
+// The first file opened would get the number of a closed descriptor, and with it the messages. sbatch
+// looks at the descriptors of its parent process.
 TEST(ClosedDescriptors, NoFileGetsTheMessages) {
     const Folder folder;
     folder.write("bin/sbatch",

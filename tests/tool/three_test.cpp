@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// three.js in headless Chromium against ours, where both are installed.
+// three.js in headless Chromium compared with ours, if both are installed.
 #include "tests/tool/browser.h"
 
 namespace diptych {
@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 const fs::path assets = fs::path(DIPTYCH_SOURCE_DIR) / ".." / "shared" / "assets" / "scenes";
 const fs::path adapters = fs::path(DIPTYCH_SOURCE_DIR) / "compare" / "external" / "adapters";
 
-// Why three.js is not run; empty where it is.
+// Why three.js cannot run; empty if it can.
 std::string lackingForThree() {
     const char* const folder = std::getenv("DIPTYCH_THREE");
     if (!folder || !fs::exists(fs::path(folder) / "node_modules/three"))
@@ -20,8 +20,7 @@ std::string lackingForThree() {
     return {};
 }
 
-// The mean FLIP of three.js's picture against forward+'s as diff has it, over the whole picture; and what was
-// left out.
+// Mean FLIP between three.js and forward+ over the whole image, by diff; and the notes on omissions.
 struct AgainstThree {
     double flip = 1;
     std::string notes;
@@ -52,17 +51,17 @@ TEST(Three, ABoxAndPunctualLightsAgree) {
     const fs::path box = assets / "features/box/Box.glb";
     if (!fs::exists(box)) GTEST_SKIP() << "NO ASSETS at " << assets;
     const Folder folder;
-    // Its suns' specular light has what is reflected between microfacets (--multiscatter); it casts none.
+    // three.js models multiple scattering for suns (--multiscatter); it renders no shadows here.
     EXPECT_LT(againstThree(folder, box.string(), "--shadows off --multiscatter energy").flip, 0.01);
     const fs::path lights = assets / "features/lights_punctual/Lights.glb";
     EXPECT_LT(againstThree(folder, lights.string(), "--shadows off").flip, 0.01);
-    // Lights that are added are told; a control: other lights are seen.
+    // Added lights are part of the job. Control: different lights are detected.
     const std::string rig = "--shadows off --seed 3 --lights point:4";
     EXPECT_LT(againstThree(folder, lights.string(), rig).flip, 0.01);
     EXPECT_GT(againstThree(folder, lights.string(), rig, {{"light_factor", 2}}).flip, 0.01);
 }
 
-// What three.js has otherwise than glTF or leaves open (shared/material/README.md).
+// Conventions in which three.js differs from glTF, or that glTF leaves open (shared/material/README.md).
 const std::string conventions =
     "--shadows off --multiscatter energy --base-layer component --spot-cone smoothstep --range-window "
     "squared "
@@ -81,7 +80,7 @@ TEST(Three, AgreesUnderItsConventions) {
     }
 }
 
-// The causes that explain names of its difference from glTF's own.
+// Causes that `explain` names for three.js's difference under glTF's own conventions.
 std::string namedOf(const Folder& folder, const std::string& scene) {
     const Ran ran = runTool(folder, "explain '" + scene +
                                         "' --size 320x180 --shadows off --baseline forward_plus --json "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames of several times on one device: what they share is uploaded and compiled once, and each is drawn in
-// its own pose.
+// Frames at several times on one device: shared data is uploaded and compiled once, and each frame has its
+// own pose.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
@@ -42,7 +42,7 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
         const std::size_t posed = shared.posings.made();
         drawAt(0.25);
         EXPECT_EQ(shared.posings.made(), posed + 1) << "both paths draw one pose";
-        // A target that has no weight at 0.25 has some from 0.5 on: its kernel is compiled when it is needed.
+        // The target weight is 0 at time 0.25 and nonzero from 0.5 on: its shader is compiled on demand.
         drawAt(0.6);
         const std::size_t compiled = shared.pipelines.count();
         const std::uint64_t uploaded = shared.uploader.bytes();
@@ -52,7 +52,7 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
         EXPECT_GT(shared.uploader.bytes(), uploaded) << "the third pose";
         EXPECT_LT(shared.uploader.bytes() - uploaded, shared.geometry.bytes() / 4)
             << "of " << shared.geometry.bytes() << " bytes of geometry";
-        // Of each time another picture, whichever was drawn last.
+        // Each time gives a different image, whichever was rendered last.
         for (std::size_t i = 0; i < 2; ++i) {
             EXPECT_NE(pictures[i].data, pictures[i + 4].data) << i;
             frames[i].passes.run();
@@ -61,7 +61,7 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
     }
 }
 
-// One after the other, as an animation is drawn: nothing of the frames before stays.
+// One after another, as for an animation: nothing of earlier frames remains.
 TEST(Times, ViewsThatAreClearedAreMadeAgainAlike) {
     const Scene scene = loadScene("builtin:motion");
     SceneViews views(scene);

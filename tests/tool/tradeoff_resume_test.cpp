@@ -25,7 +25,7 @@ Json untimedRows(const Json& tradeoff) {
     return rows;
 }
 
-// The rows that the sweep has kept, by their Settings.
+// The rows that the sweep has stored, by their Settings.
 std::map<std::string, Json> keptIn(const fs::path& state) {
     std::map<std::string, Json> rows;
     std::error_code ignored;
@@ -37,7 +37,7 @@ std::map<std::string, Json> keptIn(const fs::path& state) {
     return rows;
 }
 
-// Starts the sweep and ends it with `signal` once `count` rows are kept. Returns the kept rows.
+// Starts the sweep and ends it with `signal` once `count` rows are stored. Returns the stored rows.
 std::map<std::string, Json> cut(const Folder& folder, std::size_t count, int signal,
                                 std::string* said = nullptr) {
     Running tool(folder, longSweep);
@@ -54,7 +54,7 @@ TEST(TradeoffResume, ASweepKilledAtAnyRowGoesOnToTheSameTable) {
     ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
     const Json whole = readJson(folder / "t/tradeoff.json");
     ASSERT_EQ(whole["rows"].size(), 5u);
-    for (std::size_t count = 0; count <= 5; ++count) {  // 5: while rows are visited again
+    for (std::size_t count = 0; count <= 5; ++count) {  // 5: while rows are timed again
         fs::remove_all(folder / "t");
         const std::map<std::string, Json> kept = cut(folder, count, SIGKILL);
         ASSERT_GE(kept.size(), count);
@@ -117,7 +117,7 @@ TEST(TradeoffResume, ARecordThatIsNotWholeIsMeasuredAgain) {
             fs::remove(entry.path().parent_path() / (entry.path().stem().string() + ".png"));
     }
     ASSERT_EQ(damaged, 2u);
-    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // one of them lacks its picture
+    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // one of them lacks its image
     ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
     EXPECT_EQ(readJson(folder / "t/tradeoff.json")["rows_kept"], whole - 1);
 }

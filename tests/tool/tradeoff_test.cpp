@@ -101,7 +101,7 @@ TEST(Tradeoff, EveryRowIsReproducedByItsCommand) {
         ++compared;
         const Ran report = runPrinted(folder, row["compare"], "-q --json --runs 0 --channels lit -o report");
         ASSERT_NE(report.code, 2) << report.err;
-        // The report also has the other path; the one of this row and of the first camera is checked.
+        // The report also has the other path; only this row's path is checked, for the first camera.
         bool found = false;
         const Json all = Json::parse(report.out);
         for (const Json& comparison : all["comparisons"])
@@ -161,7 +161,7 @@ TEST(Tradeoff, WhatItCannotDoIsOneLine) {
     EXPECT_FALSE(fs::exists(folder / "diptych-tradeoff"));
 }
 
-// If the reader of the printed rows ends after the first, the output folder is made all the same.
+// If the reader of the printed rows closes the pipe after the first, the output folder is still written.
 TEST(Tradeoff, AClosedPipeDoesNotEndIt) {
     const Folder folder;
     const Ran ran = runShell(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// compare and explain --against-device: lavapipe against itself everywhere, and against SwiftShader, which
-// Debian's chromium-common brings, where that is installed.
+// compare and explain --against-device: lavapipe against itself everywhere, and against SwiftShader
+// (Debian's chromium-common) if it is installed.
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -70,7 +70,7 @@ TEST(AgainstDevice, SwiftShaderDrawsWhatItMay) {
     for (const Json& frame : report["frames"])
         there += frame["drawn_on"].get<std::string>().find("SwiftShader") != std::string::npos ? 1 : 0;
     EXPECT_EQ(there, report["frames"].size() / 2);
-    // Bounds that nothing comes near to would prove little.
+    // Bounds far above every error would prove little.
     double most = 0;
     for (const Json& comparison : report["comparisons"])
         for (const Json& channel : comparison["channels"])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a warning, a bound that is met exactly, and FLIP's options are to scripts: exit codes and figures.
+// Warnings, bounds met exactly, and FLIP's options, as scripts see them: exit codes and numbers.
 #include "compare/metrics/flip.h"
 #include "shared/image/pfm.h"
 #include "shared/image/picture_file.h"
@@ -27,14 +27,14 @@ TEST(VerdictExit, ABoundItselfPasses) {
     EXPECT_EQ(runTool(folder, max + "0.25").code, 0);
     EXPECT_EQ(runTool(folder, max + "0.24999999").code, 1);
     EXPECT_EQ(runTool(folder, "diff a.pfm a.pfm -q --metric max --tolerance 0").code, 0);
-    // A share: one of 128 pixels is beyond 0.2, none beyond 0.25.
+    // A fraction: one of 128 pixels is beyond 0.2, none beyond 0.25.
     const std::string share = "diff a.pfm b.pfm -q --failing 0.0078125 --tolerance ";
     EXPECT_EQ(runTool(folder, share + "0.2").code, 0) << "1 / 128 itself";
     EXPECT_EQ(runTool(folder, "diff a.pfm b.pfm -q --failing 0.0078 --tolerance 0.2").code, 1);
     EXPECT_EQ(runTool(folder, "diff a.pfm b.pfm -q --failing 0 --tolerance 0.25").code, 0);
 }
 
-// A warning is said everywhere and fails nothing.
+// A warning is reported everywhere and fails nothing.
 TEST(VerdictExit, AWarningIsNoFailure) {
     const Folder folder;
     writePair(folder);
@@ -58,7 +58,7 @@ TEST(VerdictExit, AWarningIsNoFailure) {
     EXPECT_EQ(Json::parse(ran.out)["verdict"], "pass");
 }
 
-// The pixels per degree and the exposures that are asked for are those of the figure.
+// The metric uses the requested pixels per degree and exposures.
 TEST(VerdictExit, FlipsOptionsReachIt) {
     const Folder folder;
     writePair(folder);

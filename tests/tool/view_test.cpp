@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The window on a screen in memory, driven by real events: what is on the screen is what other commands
-// write.
+// The window on a virtual screen, driven by real events: it shows the images that other commands write.
 #include "compare/files/frame_exr.h"
 #include "compare/viewer/canvas.h"
 #include "compare/viewer/interface.h"
@@ -24,7 +23,7 @@ namespace {
 
 constexpr int windowWidth = 1280, windowHeight = 760;  // as view opens it, without a window manager at 0,0
 
-// A window that has drawn all that was asked for.
+// A window that has rendered everything requested.
 class ViewTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -42,7 +41,7 @@ protected:
         display_->events("mousemove 60 650");
     }
 
-    // What it says is kept beside what other programs of the test say.
+    // Its output goes to its own file, apart from other programs of the test.
     void start(const std::vector<std::string>& words) { view_.emplace(folder_, words, folder_ / "view.log"); }
 
     std::size_t times(const std::string& what) const {
@@ -51,28 +50,28 @@ protected:
         for (std::size_t at = 0; (at = said.find(what, at)) != said.npos; ++at) ++count;
         return count;
     }
-    // Waits until it has said `what` once more than `before` times.
+    // Waits until it has printed `what` more than `before` times.
     void await(const std::string& what, std::size_t before) {
         EXPECT_TRUE(soon([&] { return times(what) > before || view_->ended(); })) << what << "\n"
                                                                                   << view_->err();
         ASSERT_FALSE(view_->ended()) << view_->err();
     }
-    // Waits until nothing more is drawn.
+    // Waits until nothing more is rendered.
     void settle() {
         await("view: still", stills_);
-        // What comes after an order that has just been asked for says it again.
+        // Rendering requested just before prints it once more.
         for (std::size_t now = 0; now != times("view: still");) {
             now = stills_ = times("view: still");
             std::this_thread::sleep_for(std::chrono::milliseconds(400));
         }
     }
-    // Presses a key and waits until what it does is seen.
+    // Presses a key and waits until it is handled.
     void key(const std::string& name) {
         const std::size_t before = times("view: key ");
         display_->events("key " + name);
         await("view: key ", before);
     }
-    // And until all of it is drawn.
+    // And until all rendering is done.
     void keyAndSettle(const std::string& name) {
         stills_ = times("view: still");
         key(name);
@@ -91,7 +90,7 @@ protected:
         EXPECT_EQ(WEXITSTATUS(status), 0) << view_->err();
     }
 
-    // The picture that `words` of render write.
+    // The image that render writes for `words`.
     PngPicture rendered(const std::string& words) {
         const Ran ran = runTool(folder_, "render " + words + " --runs 0 --force -o rendered.png");
         EXPECT_EQ(ran.code, 0) << ran.err;
@@ -99,8 +98,8 @@ protected:
         return readPngPicture(std::as_bytes(std::span(bytes)), "rendered.png");
     }
 
-    // How many pixels of the picture are elsewhere than one display level from what the panel shows.
-    // `picture` may have a strip below.
+    // Number of image pixels that differ from the panel by more than one display level. `picture` may have
+    // a strip below.
     int differing(const PngPicture& picture, std::size_t panel, const viewer::CanvasView& view,
                   bool difference = false) {
         const Screen screen = display_->screen();
@@ -170,7 +169,7 @@ TEST(ViewWithoutDisplay, WhatCannotBeShownIsSaidBeforeAnyWindow) {
 }
 
 TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
-    // Coarse bits, so that the two pictures are told apart.
+    // Few bits, so that the two images differ visibly.
     open({"builtin:normals", "--exposure", "1", "--gbuffer", "compact"});
     const std::string scene = "builtin:normals --size 320x180 --exposure 1 --gbuffer compact";
     const PngPicture deferred = rendered(scene + " --path deferred"),
@@ -183,7 +182,7 @@ TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
     keyAndSettle("Tab");
     EXPECT_EQ(differing(forward, 0, wipe()), 0);
     EXPECT_EQ(differing(deferred, 1, wipe()), 0);
-    // The line is dragged to the left edge: all is the right panel's.
+    // Dragging the line to the left edge shows only the right panel.
     const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
     display_->events(fmt::format("mousemove {} 400 mousedown 1 mousemove {} 400 mousemove 0 400 mouseup 1",
                                  canvas.width / 2, canvas.width / 4));
@@ -211,7 +210,7 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     keyAndSettle("e");
     EXPECT_EQ(differing(rendered(scene + "albedo"), 1, single()), 0) << "which is there without it";
     keyAndSettle("0");
-    // C goes through those beyond 9.
+    // C cycles through those beyond 9.
     std::vector<std::string> beyond;
     for (const DebugMode& mode : debugModes())
         if (mode.number > 9) beyond.emplace_back(mode.name);
@@ -224,7 +223,7 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     close();
 }
 
-// The camera of the command that Y copies, and the command itself.
+// The command that Y copies, and its camera's position.
 struct Copied {
     std::string command;
     std::array<double, 3> eye{};
@@ -242,7 +241,7 @@ protected:
             for (std::size_t i = 0; i < 3; ++i) result.eye[i] = std::stod(found[i + 1]);
         return result;
     }
-    // Holds a key for a moment; the view moves and comes to rest.
+    // Presses a key for a moment; the view moves and comes to rest.
     void hold(const std::string& name) {
         stills_ = times("view: still");
         display_->events("keydown " + name + " sleep 0.3 keyup " + name);
@@ -273,7 +272,7 @@ TEST_F(ViewCamera, KeysMoveItAndTheCopiedCommandDrawsWhatIsOnTheScreen) {
         }
         before = after;
     }
-    // The mouse looks around: what is copied then draws what is on the screen.
+    // The mouse looks around: the copied command then renders the image on the screen.
     stills_ = times("view: still");
     display_->events("mousemove 400 400 mousedown 1 mousemove 440 410 mousemove 460 420 mouseup 1");
     settle();
@@ -283,7 +282,7 @@ TEST_F(ViewCamera, KeysMoveItAndTheCopiedCommandDrawsWhatIsOnTheScreen) {
     close();
 }
 
-// The part of the screen that has pictures, and what lies over them.
+// The part of the screen with images and their overlays.
 std::vector<std::array<std::uint8_t, 3>> canvasOf(const Screen& screen) {
     const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
     std::vector<std::array<std::uint8_t, 3>> pixels;
@@ -292,7 +291,7 @@ std::vector<std::array<std::uint8_t, 3>> canvasOf(const Screen& screen) {
     return pixels;
 }
 
-// Each shows something over the pictures, and the second time takes it away.
+// The first press shows an overlay, the second removes it.
 TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     open({"builtin:points", "--exposure", "1"});
     const auto look = [&] {
@@ -309,7 +308,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     key("h");
     key("Escape");
     EXPECT_TRUE(look() == plain) << "Esc closes the help";
-    // Times stand beside the pictures.
+    // Times are shown beside the images.
     const auto side = [&] {
         const Screen screen = display_->screen();
         std::vector<std::array<std::uint8_t, 3>> pixels;
@@ -323,7 +322,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     EXPECT_TRUE(look() == plain) << "no picture is covered";
     EXPECT_TRUE(side() != timed);
     key("i");
-    // Held, the panels change places.
+    // While pressed, it swaps the panels.
     const PngPicture deferred = rendered("builtin:points --size 320x180 --exposure 1 --path deferred");
     display_->events("keydown b");
     viewer::CanvasView other;
@@ -332,7 +331,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     EXPECT_EQ(differing(deferred, 0, other), 0);
     display_->events("keyup b");
     EXPECT_TRUE(look() == plain);
-    // The panels at the side give their room to the pictures.
+    // Hiding the side panels enlarges the images.
     stills_ = times("view: still");
     key("u");
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -340,7 +339,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     key("u");
     EXPECT_TRUE(look() == plain);
     EXPECT_TRUE(canvasOf(wide) != plain);
-    // One pixel under the cursor becomes a large one, with a line around it.
+    // The pixel under the cursor becomes a large one, with a line around it.
     display_->events("mousemove 405 383");
     key("z");
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
@@ -381,7 +380,7 @@ TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
     // N goes to the scene's cameras.
     display_->events("key n");
     EXPECT_TRUE(soon([&] { return times("view: camera ") > 0; })) << view_->err();
-    // O changes what dragging does: around a point ahead, the eye moves.
+    // O changes dragging: the eye orbits a point ahead.
     const std::array<double, 3> still = [&] {
         hold("w");
         return copied().eye;
@@ -395,13 +394,13 @@ TEST_F(ViewCamera, KeysThatChangeTheViewChangeItsCommand) {
     display_->events("mousemove 250 400 mousedown 1 mousemove 290 400 mouseup 1");
     settle();
     EXPECT_NE(copied().eye, still);
-    // G finds no pixel that differs, or goes to it; F fills the screen.
+    // G goes to a differing pixel, if any; F toggles full screen.
     key("g");
     key("f");
     close();
 }
 
-// A field takes every key but those that leave it and the program.
+// A field takes every key but those that leave it or the program.
 TEST_F(View, EscapeAndCtrlQWorkWhileAFieldHasTheFocus) {
     open({"builtin:triangle"});
     const viewer::CanvasRect canvas = viewer::canvasOf({}, windowWidth, windowHeight, 1);
@@ -417,7 +416,7 @@ TEST_F(View, EscapeAndCtrlQWorkWhileAFieldHasTheFocus) {
     };
     type("1");
     key("Escape");
-    key("1");  // no field has it any more
+    key("1");  // no field has the focus any more
     type("2");
     close();
 }
@@ -483,7 +482,7 @@ TEST_F(View, AScreenshotIsWhatRenderWrites) {
             0);
         EXPECT_EQ(contentsOf(folder_ / "r.png"), contentsOf(folder_ / (stem + ".png")));
     }
-    key("p");  // writes over nothing
+    key("p");  // never overwrites
     await("view: written:", 1);
     EXPECT_TRUE(fs::exists(folder_ / "diptych-view-0002.deferred.exr"));
     close();
@@ -533,7 +532,7 @@ TEST_F(View, AReportOpensAtItsFailingChannelsWorstPixel) {
 }
 
 #ifdef DIPTYCH_FAULTS
-// The device that shows the window, which alone submits by vkQueueSubmit.
+// The device that shows the window is the only one that calls vkQueueSubmit.
 TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {
     const auto lose = [&](const char* calls) {
         for (const auto& [name, value] : {std::pair{"LD_PRELOAD", DIPTYCH_FAULTS},
@@ -553,7 +552,7 @@ TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {
     EXPECT_EQ(times("was lost and is started again"), 1u) << view_->err();
     EXPECT_EQ(differing(rendered("builtin:points --size 320x180 --exposure 1"), 1, wipe()), 0);
     close();
-    // Lost again and again, it says so and ends.
+    // If the device keeps being lost, the program reports it and ends.
     lose("100000");
     EXPECT_TRUE(soon([&] { return view_->ended(); }));
     EXPECT_EQ(WEXITSTATUS(view_->wait()), 2) << view_->err();
@@ -561,8 +560,8 @@ TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {
 }
 #endif
 
-// Keys, clicks, drags, wheels and sizes at random, under the validation layers: nothing crashes or hangs, and
-// the layers say nothing.
+// Random keys, clicks, drags, wheel turns and sizes, with validation layers: nothing crashes or hangs, and
+// the layers print nothing.
 TEST_F(View, SurvivesWhateverIsDoneToIt) {
     std::mt19937 random(static_cast<unsigned>(campaignSeed()));
     const auto upTo = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style and the script in this folder, which the page of an audit contains; embedded at build time.
+// Style and script in this folder, embedded at build time into the page of an audit.
 #pragma once
 
 namespace diptych::audit {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/air.glsl"
+#include "shaders/lib/environment/air.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 // haze (20), direction, equivalent metres at height 0 -> transmittance, in-scattered radiance

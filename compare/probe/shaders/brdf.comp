@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/shading/brdf.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 // alpha, n, s -> D

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/octahedral.glsl"
-#include "shaders/lib/packing.glsl"
+#include "shaders/lib/surface/octahedral.glsl"
+#include "shaders/lib/surface/packing.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 // The product packs with constant bit counts, so the index of the function selects the count.

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/gbuffer.glsl"
+#include "shaders/lib/surface/gbuffer.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 // normals, albedo, emission, lightmap, F0, roughness, metallic, occlusion, F90, material -> the same

@@ -15,12 +15,12 @@ ObjectLights object_lights[1];
 ObjectLight object_list[1];
 Light lightAt(uint i) { return Light(vec3(0.0), 0.0, vec3(0.0), 0.0); }
 SpotCone spotConeAt(uint i) { return SpotCone(vec3(0.0), 0.0, 0.0, vec3(0.0)); }
-#include "shaders/lib/object_lights.glsl"
+#include "shaders/lib/lights/object_lights.glsl"
 
 vec4 rowTexel(samplerBuffer texels, int i) { return in4(4 * uint(i)); }
 vec4 rowTexel(sampler2D texels, ivec2 p, int level) { return vec4(0.0); }
 #define texelFetch rowTexel
-#include "shaders/lib/environment.glsl"
+#include "shaders/lib/environment/environment.glsl"
 
 // texels of an environment, normal -> irradiance / pi
 void ofEnvironment() { out3(0, environmentIrradiance(in3(32))); }

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/ltc.glsl"
+#include "shaders/lib/lights/ltc.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 void main() {

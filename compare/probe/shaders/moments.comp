@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 // exponent, the other warp's, nearest depth, bleed, smallest variance, moment bias

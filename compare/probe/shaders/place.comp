@@ -8,8 +8,8 @@
 View view;
 LightGrid grid;
 
-#include "shaders/lib/light_grid.glsl"
-#include "shaders/lib/position.glsl"
+#include "shaders/lib/lights/light_grid.glsl"
+#include "shaders/lib/geometry/position.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 void setDepths(uint i) {

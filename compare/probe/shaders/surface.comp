@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/multiscatter.glsl"
-#include "shaders/lib/specular_aa.glsl"
+#include "shaders/lib/shading/multiscatter.glsl"
+#include "shaders/lib/surface/specular_aa.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
 void main() {

@@ -3,7 +3,7 @@
 const $ = (selector, from = document) => from.querySelector(selector);
 const $$ = (selector, from = document) => [...from.querySelectorAll(selector)];
 
-// ---- The card of a row: shown by pointing at it, kept by a click.
+// ---- The card of a row: hovering shows it; a click or the focus pins it.
 
 const first = $('.row-card:not([hidden])')?.dataset.row;
 let kept = $(`.row-card[data-row="${CSS.escape(choices.get('row') ?? '')}"]`)?.dataset.row ?? first;
@@ -33,7 +33,7 @@ addEventListener('keydown', event => {
   keep(rowOf(event));
 });
 
-// ---- Which error is shown.
+// ---- The error metric of plots and cards.
 
 function showError(button) {
   for (const other of $$('[data-shows]')) {

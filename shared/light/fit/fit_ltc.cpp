@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // fit_ltc FILE.exr: fits the table of linearly transformed cosines and writes it with its error. Run it by
-// hand after the specular lobe of shaders/lib/brdf.glsl changes, and copy the file to
+// hand after the specular lobe of shaders/lib/shading/brdf.glsl changes, and copy the file to
 // shared/light/ltc.exr.
 #include "shared/image/exr.h"
 #include "shared/light/fit/fit.h"

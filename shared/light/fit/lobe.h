@@ -11,7 +11,7 @@
 
 namespace diptych::ltc {
 
-// The specular lobe of shaders/lib/brdf.glsl: D V F (n.l), 1/sr, with Schlick's F from f0 to 1.
+// The specular lobe of shaders/lib/shading/brdf.glsl: D V F (n.l), 1/sr, with Schlick's F from f0 to 1.
 class Lobe {
 public:
     // alpha: GGX width, roughness^2; n_dot_v in (0, 1].

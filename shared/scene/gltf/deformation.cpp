@@ -47,7 +47,7 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
         reader.note("the joint weights of {} do not add up to 1: normalized",
                     counted(uneven, "vertex", "vertices"));
     if (unweighted)
-        reader.note("{} without a joint weight: the first joint is used",
+        reader.note("{} without a joint weight: the first joint that each names is used",
                     counted(unweighted, "vertex", "vertices"));
 }
 

@@ -117,7 +117,7 @@ Bytes decoded(const MeshoptView& v) {
     // Error codes of the library.
     if (result == -1) failView(v.view, "its data has another mode");
     if (result == -2) failView(v.view, "its data is too short for its elements");
-    if (result != 0) failView(v.view, "its data is too long for its elements");
+    if (result != 0) failView(v.view, "its data has the wrong length for its elements");
 
     switch (v.filter) {
         case Filter::none:

@@ -162,7 +162,7 @@ Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& note
         light.color[c] =
             static_cast<float>(bounded(who, "color", l.color[static_cast<std::size_t>(c)], 0, most, notes));
     light.intensity = static_cast<float>(bounded(who, "intensity", l.intensity, 0, most, notes));
-    if (l.range < 0) notes.add(fmt::format("{}: range {}: no range is used", who, l.range));
+    if (l.range < 0) notes.add(fmt::format("{}: range {}: ignored", who, l.range));
     if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
     if (light.kind == LightKind::spot) readCone(l.spot, who, light, notes);
     return light;

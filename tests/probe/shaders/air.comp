@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/air.glsl"
+#include "shaders/lib/environment/air.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // Haze, HazeMarch, direction (unit), reach (below 0: endless) -> transmittance, scattered

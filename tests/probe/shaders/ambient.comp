@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/ambient.glsl"
+#include "shaders/lib/shading/ambient.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // alpha, n.v -> the fit of specularAlbedo(), meanSchlickWeight()

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/area.glsl"
-#include "shaders/lib/multiscatter.glsl"
+#include "shaders/lib/lights/area.glsl"
+#include "shaders/lib/shading/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Filters of a shadow map, each alone, for tests/bench/shadow_filters.cpp: one thread a pixel, its place in
-// the map a little turned, about a texel a pixel.
-#include "shaders/lib/msm.glsl"
+// Shadow map filters, one at a time, for tests/bench/shadow_filters.cpp: one thread a pixel, sampling
+// positions slightly rotated in the map, about one texel a pixel.
+#include "shaders/lib/shadows/msm.glsl"
 
 // 0: none, 1: 5 x 5 comparisons, 2: 16 comparisons by gathers, 3: moments
 layout(constant_id = 100) const uint FILTER = 0u;

@@ -2,10 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/shading/brdf.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90 -> diffuse, specular radiance for 1 W/m^2 (red)
+// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90 -> diffuse, specular radiance for 1 W/m^2
+// (red)
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     Surface s;
@@ -15,7 +16,7 @@ void main() {
     s.albedo = vec3(IN(11, 8));
     s.dielectric_f0 = vec3(IN(11, 9));
     s.dielectric_f90 = IN(11, 10);
-    s.transmission = 0.25;  // which feature_transmission alone minds
+    s.transmission = 0.25;  // read only with feature_transmission
     vec3 v = IN3(11, 0), l = IN3(11, 3);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     addLight(makeBrdf(s, v), s.normal, v, l, vec3(1.0), diffuse, specular);

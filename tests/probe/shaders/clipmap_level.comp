@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/clipmap.glsl"
+#include "shaders/lib/shadows/clipmap.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// position, the reach of level 0, levels with a window -> level
+// position, extent of level 0, number of levels with a window -> level
 const uint WIDTH = 5;
 
 void main() {

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/shading/brdf.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // alpha, n, h -> D

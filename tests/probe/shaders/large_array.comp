@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// More values of a thread than it has registers, indexed by what only the run knows: for the tests of
-// compilers.
+// A per-thread array that exceeds the registers, with dynamic indices: for compiler tests.
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Input { uint values[]; } given;

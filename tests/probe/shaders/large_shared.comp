@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// 128 KiB of shared memory, more than any device of ours has: for the tests of compilers.
+// 128 KiB of shared memory, more than our devices have: for compiler tests.
 #version 460
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer Input { uint values[]; } given;

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_cull.glsl"
+#include "shaders/lib/lights/light_cull.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// A bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
-// the cone does, whether the sphere reaches the cell's row.
+// bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
+// the cone does, whether the sphere reaches the cell's row
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     LightBound bound;

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_rect.glsl"
+#include "shaders/lib/lights/light_rect.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// A sphere's centre and radius, the slab's two depths, the grid's centre, pixel, tile's side and tiles (12)
-// -> columns, rows (4)
+// sphere's centre and radius, the slab's two depths, the grid's centre, pixel size, tile side and tile
+// counts (12) -> columns, rows (4)
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     TileSize size = TileSize(vec2(IN(12, 6), IN(12, 7)), IN(12, 8), IN(12, 9));

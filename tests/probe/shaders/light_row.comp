@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/light_cull.glsl"
-#include "shaders/lib/light_rect.glsl"
+#include "shaders/lib/lights/light_cull.glsl"
+#include "shaders/lib/lights/light_rect.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// What light_rect.comp takes, and a row (13) -> its columns (2)
+// inputs of light_rect.comp, and a row (13) -> its columns (2)
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     TileSize size = TileSize(vec2(IN(13, 6), IN(13, 7)), IN(13, 8), IN(13, 9));

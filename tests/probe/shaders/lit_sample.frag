@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// One sample of each pixel of lit.
+// Reads one sample of each pixel of channel `lit`.
 layout(set = 0, binding = 0) uniform sampler2DMS drawn;
 layout(push_constant, scalar) uniform Constants { uint which; };
 layout(location = 0) out vec4 result;

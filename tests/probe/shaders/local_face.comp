@@ -2,12 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/local_face.glsl"
+#include "shaders/lib/shadows/local_face.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// place from the light, geometric normal; of the light: x, y, z, depth scale and offset, bias; of each of
-// the six faces: centre, texels, reach -> face, texel, depth, and the least that a texel of the filter is
-// compared with over the depth of the surface's plane there
+// position relative to the light, geometric normal; of the light: x, y, z, depth scale and offset, bias;
+// of each of the six faces: centre, texels, extent -> face, texel, depth, and the minimum over filter
+// texels of compared depth minus depth of the surface's plane there
 const uint WIDTH = 6 + 12 + 24;
 
 void main() {

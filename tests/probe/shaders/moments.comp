@@ -2,12 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// depths of two parts of a filter and of the receiver (1 towards the light), the first part's share;
-// exponent, the other warp's, nearest depth, bleed, least variance, bias of moments -> visibility, the four
-// moments as they are stored; for feature_shadows
+// depths of two parts of a filter and of the receiver (1 towards the light), the first part's fraction;
+// exponent, negative exponent, nearest depth, bleed, minimum variance, moment bias -> visibility, the four
+// stored moments; for feature_shadows
 const uint WIDTH = 10;
 
 vec4 stored(float depth, ShadowLight light) {
@@ -25,7 +25,7 @@ void main() {
     light.bleed = IN(WIDTH, 7);
     light.min_variance = IN(WIDTH, 8);
     light.moment_bias = IN(WIDTH, 9);
-    // Weighted before they are added, as a blur does: the largest moments' sum is infinite.
+    // Weighted before adding, as a blur does: the sum of the largest moments overflows.
     vec4 moments = stored(IN(WIDTH, 0), light) * share + stored(IN(WIDTH, 1), light) * (1.0 - share);
     OUT(5, 0) = visibilityOfMoments(moments, receiver, light);
     OUT(5, 1) = moments.x;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// One triangle; at each corner a value.
+// One triangle, with one value at each corner.
 layout(push_constant, scalar) uniform Constants { vec4 corners[3]; vec3 values; uint kept; };
 layout(location = 0) out float v_value;
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// One sample of each pixel, and its depth.
+// Reads one sample of each pixel, and its depth.
 layout(set = 0, binding = 0) uniform usampler2DMS drawn;
 layout(set = 0, binding = 1) uniform sampler2DMS depth;
 layout(push_constant, scalar) uniform Constants { vec4 corners[3]; vec3 values; uint which; };

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/multiscatter.glsl"
+#include "shaders/lib/shading/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90, specularAlbedo() -> diffuse, specular radiance
-// for 1 W/m^2 (red), both for radiance 1 from everywhere
+// v, l (unit, n = +Z), roughness, metallic, albedo, F0, F90, specularAlbedo() -> diffuse, specular
+// radiance for 1 W/m^2 (red), both for uniform radiance 1
 const uint WIDTH = 13;
 
 void main() {

@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/octahedral.glsl"
+#include "shaders/lib/surface/octahedral.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// unit vector, bits -> what comes back
+// unit vector, bits -> decoded vector
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     uint bits = uint(IN(4, 3));

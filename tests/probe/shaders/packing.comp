@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/packing.glsl"
+#include "shaders/lib/surface/packing.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // rgb -> shared exponent and back (3), square root in 8 bits and back (3), red in 12 bits and back (1),

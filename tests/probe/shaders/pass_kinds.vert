@@ -4,8 +4,8 @@
 
 layout(push_constant, scalar) uniform Constants { vec4 color; float depth, corner; };
 
-// A triangle at one depth, which may lie outside of what can be drawn. `corner`: 3 covers the picture,
-// 1 its upper left half.
+// A triangle at one depth, which may be outside the clip volume. `corner`: 3 covers the image, 1 its upper
+// left half.
 void main() {
     gl_Position = vec4(gl_VertexIndex == 1 ? corner : -1.0, gl_VertexIndex == 2 ? corner : -1.0, depth, 1.0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One row of floats in, one row of floats out; see tests/probe/probe.h.
+// Reads one row of floats and writes one; see tests/probe/probe.h.
 #extension GL_EXT_scalar_block_layout : require
 
 layout(local_size_x = 64) in;

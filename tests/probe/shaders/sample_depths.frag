@@ -2,7 +2,8 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 
-// The depth of one sample of each pixel, from a buffer of all; the pipeline's mask keeps the other samples.
+// Writes the depth of one sample of each pixel, from a buffer of all; the pipeline's sample mask protects
+// the others.
 layout(set = 0, binding = 0, scalar) readonly buffer Depths { float depths[]; };
 layout(push_constant, scalar) uniform Which { uint width, samples, which; };
 

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/msm.glsl"
+#include "shaders/lib/shadows/msm.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// four moments as they are stored, the receiver's depth; exponent, the other warp's, nearest depth, bleed,
-// least variance, bias of moments -> visibility; for feature_shadows
+// four stored moments, the receiver's depth; exponent, negative exponent, nearest depth, bleed, minimum
+// variance, moment bias -> visibility; for feature_shadows
 const uint WIDTH = 11;
 
 void main() {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Names of what the layer can hide from the program: every row of DEVICE_FEATURES, every use of a format,
-// every limit and extension. The layer reads one from the environment, DIPTYCH_HIDE; tests go through all.
-//   "feature shaderInt64"  "format R16G16_SNORM drawn"  "limit maxColorAttachments"  "extension VK_EXT_..."
-// A limit is lowered to the least that Vulkan grants; "limit maxTexelBufferElements 2048" to that number.
+// Names of capabilities that the layer can hide from the program: every row of DEVICE_FEATURES, every use
+// of a format, every limit and extension. The layer reads one from the environment, DIPTYCH_HIDE; tests
+// iterate over all.
+//   "feature shaderInt64"  "format R16G16_SNORM drawn"  "limit maxColorAttachments"
+//   "extension VK_EXT_..."
+// A limit is lowered to the minimum that Vulkan requires; "limit maxTexelBufferElements 2048" lowers it to
+// 2048.
 #pragma once
 
 #include "shared/vulkan/device_support.h"
@@ -12,7 +15,7 @@
 
 namespace diptych {
 
-// All that Vulkan leaves to the device: not the uses of formats that it promises.
+// All optional capabilities: not the format uses that Vulkan guarantees.
 inline std::vector<std::string> everythingToHide() {
     std::vector<std::string> all;
 #define DIPTYCH_HIDE_FEATURE(version, name, need, what) all.emplace_back("feature " #name);

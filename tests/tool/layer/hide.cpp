@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan layer that hides one thing of every device, which DIPTYCH_HIDE names (hidden.h); empty: nothing.
-// It stands below the validation layer, which then tells where the program uses what is hidden.
+// Vulkan layer that hides one capability of every device, named by DIPTYCH_HIDE (hidden.h); empty: none.
+// It is below the validation layer, which then reports every use of the hidden capability.
 #include "tests/tool/layer/hidden.h"
 
 #include <vulkan/vk_layer.h>
@@ -28,7 +28,7 @@ bool hides(const std::string& name) {
     return hidden() == name;
 }
 
-// The lowered limit: the number that is named, or `least`.
+// The lowered limit: the given number, or `least`.
 std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32_t least) {
     if (!hidden().starts_with(limit)) return there;
     const std::string number = hidden().substr(limit.size());
@@ -36,7 +36,7 @@ std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32
     return number[0] == ' ' ? static_cast<std::uint32_t>(std::stoul(number)) : there;
 }
 
-// The uses of a format that are hidden, a sum of format_use.
+// The hidden uses of a format, a sum of format_use.
 std::uint32_t hiddenUses(VkFormat format) {
     const char* name = "";
 #define NAME(row, promised, left, helps) \
@@ -67,7 +67,7 @@ std::uint32_t hiddenUses(VkFormat format) {
     X(vkGetPhysicalDeviceImageFormatProperties2) \
     X(vkEnumerateDeviceExtensionProperties)
 
-// The same functions for every instance: those of the loader.
+// One table for every instance: the loader's functions.
 struct Next {
     PFN_vkGetInstanceProcAddr vkGetInstanceProcAddr = nullptr;
 #define POINTER(name) PFN_##name name = nullptr;
@@ -121,7 +121,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     return VK_SUCCESS;
 }
 
-// ---- what is hidden ----------------------------------------------------------------------------------
+// ---- hiding ------------------------------------------------------------------------------------------
 
 void hideFeatures(VkPhysicalDeviceFeatures& v10) {
     VkPhysicalDeviceVulkan12Features v12{};
@@ -273,7 +273,7 @@ VKAPI_ATTR VkResult VKAPI_CALL listExtensions(VkPhysicalDevice device, const cha
     return *count < found ? VK_INCOMPLETE : VK_SUCCESS;
 }
 
-// ---- what the loader asks for ------------------------------------------------------------------------
+// ---- the loader's entry points -----------------------------------------------------------------------
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Preloaded into the tool: makes the n-th call of a kind fail, or kills the program before it.
-//   FAULT_IN     "create" (folders, files, links), "write", "close" (and flush), "move" (renames), "remove",
-//   "lock", a comma between; or
+//   FAULT_IN     "create" (folders, files, links), "write", "close" (and flush), "move" (renames),
+//                "remove", "lock", separated by commas; or
 //                "memory", "vkAllocateMemory", another function of Vulkan below
-//   FAULT_AT     n, from 1; of Vulkan's functions every later call fails too, as a lost device stays lost
-//   FAULT_FOR    set: only so many calls of Vulkan's functions fail, as where a device comes back
+//   FAULT_AT     n, from 1; for Vulkan functions every later call fails too: a lost device stays lost
+//   FAULT_FOR    if set: only this many calls of Vulkan functions fail, as if the device recovers
 //   FAULT_DO     "kill", an errno as a number, or a VkResult
-//   FAULT_FROM   set: every later call fails too, as on a full disk
-//   FAULT_UNDER  the folder that is meant: drivers keep caches elsewhere
-//   FAULT_SEEN   a file that says what happened
-//   FAULT_BYTES  allocations of fewer do not count
+//   FAULT_FROM   if set: every later call fails too, as on a full disk
+//   FAULT_UNDER  only files below this folder: drivers keep caches elsewhere
+//   FAULT_SEEN   file that records the failed calls
+//   FAULT_BYTES  ignores allocations below this size
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
@@ -106,8 +106,8 @@ Function next(const char* name, Function) {
     return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
-// Large allocations of this program and of the libraries that it passes pictures to. How a driver handles a
-// failed allocation is not tested (Mesa crashes).
+// Large allocations of this program and of the libraries that process its images. Failed allocations in
+// drivers are not tested (Mesa crashes).
 bool allocationFails(std::size_t size, const void* caller) {
     if (!isMeant("memory") || size < static_cast<std::size_t>(std::atol(setting("FAULT_BYTES"))))
         return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // report_writer old|new|check FOLDER: writes one of two reports as compare does, or repairs the folder as
-// compare does before it draws. It needs no device, so that a test can run it hundreds of times.
+// compare does before rendering. It needs no device, so that a test can run it hundreds of times.
 #include "compare/files/output.h"
 #include "compare/report/report.h"
 #include "tests/support/report_builder.h"
@@ -15,14 +15,13 @@ int main(int argc, char** argv) {
     const std::string which = argv[1];
     try {
         std::vector<Frame> frames = bothFrames();
-        // Few files, so that a test reaches every call that writes one in a short time.
+        // Few files, so that a test reaches every writing call in a short time.
         for (Frame& frame : frames)
             std::erase_if(frame.channels, [](const auto& channel) {
                 return channel.first != gpu::DEBUG_albedo && channel.first != gpu::DEBUG_roughness &&
                        channel.first != gpu::DEBUG_material_id;
             });
-        // In the new report roughness differs: it has a picture of the difference, which the old one has
-        // not.
+        // In the new report roughness differs, which adds a difference image.
         if (which == "new") frames[1].channels[gpu::DEBUG_roughness].at(1, 2, 0) = 0.25f;
         if (which == "check")
             checkReplaceable({OutputKind::folder, argv[2]}, "report.json", false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of the architecture, checked on the project's own files. Each check has a negative control that
-// plants a fault and must find it.
+// Checks the architecture's rules on the project's own files. Each check has a negative control with a
+// planted fault.
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace diptych {
 namespace {
 
-// A module may include itself and modules on lower floors; if `only` is not empty, only the modules in it.
+// A module may include itself and modules of lower layers. If `only` is not empty, only those modules.
 struct Module {
     std::string path;
     int floor;
@@ -78,7 +78,7 @@ const std::vector<Module> modules = {
     {"tests", 90},
 };
 
-// The innermost module that contains the file; nullptr: none.
+// Innermost module that contains the file; nullptr if there is none.
 const Module* moduleOf(const std::string& path) {
     const Module* best = nullptr;
     for (const Module& module : modules)
@@ -87,7 +87,8 @@ const Module* moduleOf(const std::string& path) {
     return best;
 }
 
-// Quoted includes that lead to a higher floor, to another module of the same floor, or out of the contract.
+// Quoted includes of a higher layer or of another module of the same layer; for the contract, of any other
+// module.
 Faults climbingIncludes(const Files& files, const std::string& path) {
     Faults faults;
     const Module* from = isCode(path) ? moduleOf(path) : nullptr;
@@ -134,7 +135,7 @@ TEST(Architecture, APlantedClimbIsFound) {
     EXPECT_EQ(plant("shared/draw/planted.h", "shared/light/lights.h"), 0u);
 }
 
-// Code outside of every module would have no floor and no page, and nobody would notice.
+// Code outside every module would have no layer and no README.
 Faults withoutModule(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files)
@@ -148,8 +149,8 @@ TEST(Architecture, EveryFileOfCodeIsInAModule) {
               Faults{"compare/planted/a.cpp"});
 }
 
-// A header and its source are one unit. Units with circular includes could only be understood, tested and
-// built together. One line for each cycle, naming one of its units.
+// Circular includes between units; a unit is a header and its source. Each cycle is one line that names
+// one of its units.
 Faults circularIncludes(const Files& files) {
     const auto unitOf = [](const std::string& path) {
         return endsIn(path, {".cpp", ".h"}) ? path.substr(0, path.rfind('.')) : path;
@@ -196,8 +197,8 @@ TEST(Architecture, APlantedCircleIsFound) {
     EXPECT_EQ(circularIncludes(direct).size(), 1u);
 }
 
-// The reference must be independent of the paths: of the contract it may use only the channels, and of other
-// modules only what describes the scene, not how the paths draw it.
+// The reference must be independent of the paths. From the contract it may use only the channels; from
+// other modules only the scene's description.
 Faults borrowedByTheReference(const Files& files) {
     static const std::regex contract("gpu::(?!DEBUG_|uint\\b)\\w+");
     static const std::vector<std::string> open{"compare/reference/", "shared/image/", "shared/frame/",
@@ -228,7 +229,7 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     for (const char* header :
          {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h",
           "shared/light/lights.h", "shared/material/materials.h", "shared/draw/draws.h",
-          "shared/vulkan/device.h", "shaders/lib/brdf.glsl", "compare/render/renderer.h",
+          "shared/vulkan/device.h", "shaders/lib/shading/brdf.glsl", "compare/render/renderer.h",
           "../metrics/channel.h", "../../shared/contract/view.h"})
         EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
     EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);
@@ -238,15 +239,15 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     EXPECT_EQ(plant("#include \"shared/scene/model/scene.h\""), 0u);
 }
 
-// The documentation: the README of the repository is one page, each module has one of its own, and no link
-// between them leads nowhere.
+// Documentation: the top README fits one page, each module has a README, and every link between them
+// resolves.
 Faults documentationFaults(const Files& files) {
     constexpr long most_lines = 150;
     static const std::regex relative_link("\\]\\(([^)#]+)(#[^)]*)?\\)");  // [words](file#heading)
     Faults faults;
     const auto isThere = [&](const std::string& path) { return files.contains(path); };
     for (const Module& module : modules) {
-        // Both folders of shaders share one page.
+        // Both shader folders share one README.
         const std::string folder = module.path.starts_with("shaders/") ? "shaders" : module.path;
         const auto first = files.lower_bound(module.path + "/");
         const bool exists = first != files.end() && first->first.starts_with(module.path + "/");
@@ -277,7 +278,7 @@ TEST(Architecture, APlantedFaultOfTheDocumentationIsFound) {
         {"shared/text/README.md", "[the code](json.h) and [the top](../../README.md)\n"},
         {"shared/text/json.h", ""},
         {"shaders/README.md", ""},
-        {"shaders/lib/brdf.glsl", ""}};
+        {"shaders/lib/shading/brdf.glsl", ""}};
     EXPECT_EQ(joined(documentationFaults(sound)), "");
     Files files = sound;
     files["README.md"] = std::string(151, '\n');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The workflow files in .ci/ that users copy: their commands must parse, and the files that they keep must
-// be written.
+// The workflow files in .ci/ that users copy: their commands must parse, and the commands must write the
+// files that the workflows keep.
 #include "compare/cli/command_line.h"
 #include "tests/support/files.h"
 
@@ -46,7 +46,7 @@ TEST(Workflows, TheirCommandsParseAndTheirFilesAreTheReports) {
     }
 }
 
-// Of many scenes on several machines: the shards' commands and that of the merge.
+// Many scenes on several machines: the commands of the shards and of the merge.
 TEST(Workflows, ShardsAndTheirMergeParse) {
     for (const char* file : {"github-matrix.yml", "gitlab-parallel.yml"}) {
         const std::string text = contentsOf(std::filesystem::path(DIPTYCH_SOURCE_DIR) / ".ci" / file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The conventions of the project's own files: one pi, a licence line, one reader of JSON, one user of libpng,
-// no folder of one machine, the columns of shaders, a line of shader for every channel. Each check has a
+// Checks the project's conventions on its own files: one pi, a licence line, one JSON reader, one user of
+// libpng, no machine-specific paths, short shader lines, shader code for every channel. Each check has a
 // negative control.
 #include "shared/frame/debug_modes.h"
 #include "tests/support/sources.h"
@@ -15,8 +15,8 @@
 namespace diptych {
 namespace {
 
-// pi, 2 pi, pi/2, pi/4, 1/pi written as digits, and the macro M_PI, which is not standard C++. Values
-// computed by hand in tests may contain them.
+// pi, 2 pi, pi/2, pi/4 and 1/pi as digits, and the macro M_PI, which is not standard C++. Tests may
+// contain values computed by hand.
 Faults otherPis(const Files& files) {
     static const std::regex pi("3\\.1415|6\\.2831|1\\.5707|0\\.7853|0\\.3183|M_PI");
     Faults faults;
@@ -66,7 +66,7 @@ TEST(Conventions, AMissingLicenceIsFound) {
     EXPECT_TRUE(withoutLicence({{"diptych", "#!/bin/sh\n# SPDX-License-Identifier: MIT\n"}}).empty());
 }
 
-// libpng reads files in one place, with one set of limits. Tests may use it to make PNG files.
+// One place reads files with libpng, with one set of limits. Tests may write PNG files with it.
 Faults otherUsersOfLibpng(const Files& files) {
     static const std::regex include(
         "(^|\n)[ \t]*#[ \t]*include[ \t]*[<\"](libpng[0-9]*/)?png(conf)?\\.h[>\"]");
@@ -82,8 +82,8 @@ Faults otherUsersOfLibpng(const Files& files) {
     return faults;
 }
 
-// Decisions by the device's kind are made in its profile alone, and by what a Frame says of a device
-// elsewhere.
+// Only the device profile decides by the device's type. Elsewhere only what a Frame declares about the
+// device may matter.
 Faults askersForTheKindOfDevice(const Files& files) {
     static const std::regex asks("== *\"cpu\"|DEVICE_TYPE_CPU|\\bisCpu\\b|llvmpipe");
     Faults faults;
@@ -105,8 +105,8 @@ TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
               Faults{"compare/render/planted.cpp"});
 }
 
-// Vulkan is asked about a device in one place; the window's surface is the viewer's own, and instances list
-// their devices and layers. The functions' names, so that a wrapper of them is found too.
+// One place queries Vulkan about a device. Exceptions: the viewer's window surface, and instances, which
+// list their devices and layers. Matching the functions' names also finds wrappers.
 Faults askersOfVulkan(const Files& files) {
     static const std::regex asks("\\bvkGetPhysicalDevice(\\w+)|\\bvkEnumerateDeviceExtensionProperties");
     Faults faults;
@@ -136,8 +136,8 @@ TEST(Conventions, APlantedQuestionToVulkanIsFound) {
     EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
 }
 
-// What is printed passes the filter of compare/run/print.h. The line of progress and the
-// note on a cache, which is below it, pass it themselves.
+// Everything printed passes the filter of compare/run/print.h. The progress line and the cache's note,
+// which are in lower layers, apply it themselves.
 Faults otherPrinters(const Files& files) {
     static const std::regex prints(
         "fmt::print\\((?!\\w+\\.stream)|std::(cout|cerr|clog)|\\b(printf|puts|putchar|perror)\\(|"
@@ -169,13 +169,13 @@ TEST(Conventions, APlantedPrinterIsFound) {
         EXPECT_TRUE(otherPrinters({{"compare/cli/planted.cpp", line}}).empty()) << line;
 }
 
-// Limits of depth, size and kind hold only where nobody goes round them.
+// Limits on depth, size and type only work if nobody bypasses the common readers.
 Faults readersOfTheirOwn(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files) {
         const bool product = path.starts_with("compare/") || path.starts_with("shared/") ||
                              path.starts_with("forward_plus/") || path.starts_with("deferred/");
-        // The kernel's files under /proc and /sys have no size.
+        // Files under /proc and /sys report no size, so free_memory.cpp reads them itself.
         if (!product || !isCode(path) || path == "shared/text/json.cpp" ||
             path == "shared/image/free_memory.cpp")
             continue;
@@ -201,8 +201,7 @@ TEST(Conventions, APlantedReaderIsFound) {
                     .empty());
 }
 
-// JSON that leaves the program has no raw controls. Pages, whose scripts hold JSON, have a filter of their
-// own.
+// JSON output contains no raw control characters. Pages with JSON in scripts have their own filter.
 Faults writersOfRawJson(const Files& files) {
     static const std::regex writes("\\.dump\\([^)]");
     Faults faults;
@@ -244,7 +243,7 @@ TEST(Conventions, APlantedUseOfLibpngIsFound) {
     EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
 }
 
-// Absolute paths of the machine on which a file was written.
+// Absolute paths of the machine where a file was written.
 Faults pathsOfAMachine(const Files& files) {
     static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");
     Faults faults;
@@ -290,7 +289,7 @@ TEST(Conventions, APlantedLongLineOfAShaderIsFound) {
     EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
 }
 
-// A channel that has no shader code fails by name.
+// Names channels that have no shader code.
 Faults channelsWithoutShader(const std::string& shader) {
     Faults faults;
     for (const DebugMode& mode : debugModes())
@@ -300,13 +299,13 @@ Faults channelsWithoutShader(const std::string& shader) {
 }
 
 TEST(Conventions, EveryChannelHasALineInTheShader) {
-    const std::string shader = sources().at("shaders/lib/debug.glsl");
+    const std::string shader = sources().at("shaders/lib/surface/debug.glsl");
     EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
     EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
               Faults{"roughness"});
 }
 
-// Lines of tests/longer.txt, FOLDER.SUITE.TEST with * and ?, that no TEST of the folder matches.
+// Lines of tests/longer.txt (FOLDER.SUITE.TEST with * and ?) that match no TEST of the folder.
 Faults linesWithoutTest(const std::string& list, const Files& files) {
     static const std::regex test("TEST(?:_F|_P)?\\(\\s*(\\w+),\\s*(\\w+)\\)");
     std::set<std::string> names;
@@ -320,7 +319,7 @@ Faults linesWithoutTest(const std::string& list, const Files& files) {
     for (std::string line; std::getline(lines, line);) {
         std::string pattern = line.substr(0, line.find(' '));
         if (pattern.empty() || pattern == "#") continue;
-        // An instance's prefix and its row stand before and behind the names in the source.
+        // The source lacks the prefix of an instantiated suite and the row after the test's name.
         pattern = std::regex_replace(pattern, std::regex("Asset/\\*$"), "Asset*.*");
         if (const std::size_t row = pattern.find('/'); row != pattern.npos) pattern.resize(row);
         if (std::ranges::none_of(names, [&](const std::string& name) {

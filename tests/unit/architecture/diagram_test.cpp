@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The diagram that a person drew, tests/architecture/overview.svg: its folders exist, and each arrow is an
-// include in the direction drawn. Each check has a negative control.
+// The hand-drawn diagram tests/architecture/overview.svg: its folders exist, and each arrow is an include
+// in the drawn direction. Each check has a negative control.
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ constexpr const char* diagramFile = "tests/architecture/overview.svg";
 
 struct DiagramBox {
     std::vector<std::string> folders;
-    double x = 0, y = 0, width = 0, height = 0;  // of its rectangle, px
+    double x = 0, y = 0, width = 0, height = 0;  // rectangle, px
 
-    // On the border, within the length of an arrow's tip.
+    // True on the border, within the length of an arrow's tip.
     bool touches(double px, double py) const {
         constexpr double tip = 10;  // px
         const bool inside = px > x + tip && px < x + width - tip && py > y + tip && py < y + height - tip;
@@ -30,7 +30,7 @@ struct DiagramBox {
 
 struct DiagramArrow {
     std::string from, to;
-    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // first and last point of its path, px
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // first and last point of the path, px
     std::string words;
 };
 
@@ -45,8 +45,8 @@ struct Diagram {
     }
 };
 
-// Reads the groups of the file: <g class="box" data-folder="A B"> with a rect, and
-// <g class="arrow" data-from="A" data-to="B"> with a path of absolute M and L and a text.
+// Reads the groups of the file: <g class="box" data-folder="A B"> with a rect, and <g class="arrow"
+// data-from="A" data-to="B"> with a path (absolute M and L) and a text.
 Diagram readDiagram(const std::string& svg) {
     static const std::regex box(
         "<g class=\"box\" data-folder=\"([^\"]*)\">\\s*<rect class=\"\\w+\" x=\"(\\d+)\" y=\"(\\d+)\" "

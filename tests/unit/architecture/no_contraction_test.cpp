@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Both paths compute the same sums in different shaders. A driver that makes one operation of a product and a
-// sum in one shader and two in another rounds them differently, so every operation of every module forbids
-// it.
+// Both paths compute the same sums in different shaders. If a driver contracts a product and a sum to one
+// operation in one shader only, they round differently. So every operation of every module is decorated
+// NoContraction.
 #include "shared/vulkan/spirv.h"
 #include "tests/support/sources.h"
 #include "tests/support/spirv_module.h"
@@ -33,10 +33,10 @@ ModuleWords wordsOf(const ShaderModule& module) {
 struct ExactRow {
     std::uint32_t op;
     std::string_view name;
-    std::string_view why;  // both paths have the same result without NoContraction
+    std::string_view why;  // why both paths get the same result without NoContraction
 };
 
-// Instructions whose result is a float but which compute none. Everything else must be decorated.
+// Instructions with a float result that compute nothing. All others must be decorated.
 constexpr std::string_view movesBits = "moves bits";
 constexpr ExactRow exactInstructions[] = {
     {61, "OpLoad", movesBits},
@@ -114,7 +114,7 @@ std::string operationName(const SpirvModule::Operation& operation) {
     return found == names.end() ? fmt::format("opcode {}", operation.op) : found->second;
 }
 
-// Operations that may be contracted, by function and instruction.
+// Operations that may be contracted, with function and instruction.
 Faults contractible(std::span<const std::uint32_t> words) {
     Faults faults;
     for (const SpirvModule::Operation& operation : SpirvModule(words).operations())
@@ -149,7 +149,7 @@ TEST(NoContraction, TheTablesHoldWhatModulesUse) {
     check(exactExtended);
 }
 
-// The module without those decorations, whose targets are given.
+// The module without the NoContraction decorations of these targets.
 ModuleWords withoutDecorations(const ModuleWords& words, const std::set<std::uint32_t>& targets) {
     ModuleWords result(words.begin(), words.begin() + 5);
     for (std::size_t i = 5; i < words.size(); i += words[i] >> 16) {
@@ -179,7 +179,7 @@ TEST(NoContraction, AModuleWithoutItIsFoundWithEachOfItsOperations) {
     EXPECT_GT(decorated, 5'000u);
 }
 
-// One instruction of the first kind becomes one of the second.
+// Replaces one instruction of the first kind by the second.
 ModuleWords withInstructionReplaced(ModuleWords words, std::pair<std::uint32_t, std::uint32_t> op,
                                     std::pair<std::uint32_t, std::uint32_t> extended_op) {
     for (std::size_t i = 5; i < words.size(); i += words[i] >> 16) {
@@ -194,7 +194,7 @@ ModuleWords withInstructionReplaced(ModuleWords words, std::pair<std::uint32_t, 
 }
 
 TEST(NoContraction, AnInstructionThatIsInNoTableIsFound) {
-    // FMax becomes Fma, and a converted integer OpQuantizeToF16.
+    // Replaces FMax by Fma, and an integer conversion by OpQuantizeToF16.
     const ModuleWords words = wordsOf(shaderModule(Shader::deferred_shade_frag));
     const Faults fma = contractible(withInstructionReplaced(words, {opExtInst, opExtInst}, {40, 50}));
     ASSERT_EQ(fma.size(), 1u);

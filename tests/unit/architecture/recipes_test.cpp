@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checks the documentation's recipes "to add X, touch" against the sources: the files that a recipe names
-// are exactly those that mention an existing example. The table in the documentation is the data; this file
-// only has the words that identify each example.
+// Checks the documented recipes "to add X, touch": each recipe names exactly the files that mention an
+// existing example. The documentation's table is the data; this file only has the words that identify each
+// example.
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
@@ -21,12 +21,12 @@
 namespace diptych {
 namespace {
 
-// Where the table stands, and its first line.
+// File with the table, and the table's first line.
 constexpr const char* table_file = "tests/architecture/README.md";
 constexpr const char* table_head = "| to add | touch |";
 
-// A row of the table, and the whole words that identify the files of its example. Words in comments are
-// ignored, words in quotes are not.
+// A row of the table, and the whole words that identify its example's files. Words in comments do not
+// count, words in quotes do.
 struct Example {
     std::string row;
     std::vector<std::string> words;
@@ -64,7 +64,7 @@ std::string tablePage() {
     return sources().at(table_file);
 }
 
-// Whether the file has C++ style comments.
+// Whether the file type has C++ style comments.
 bool hasComments(const std::string& path) {
     return isCode(path) || path.ends_with(".js");
 }
@@ -117,7 +117,7 @@ std::set<std::string> filesThatMention(const Files& files, const std::vector<std
     return found;
 }
 
-// The table's rows: what is added, and the files and folders (with a slash at the end) that it names.
+// Rows of the table: what to add, and the files and folders (with a final slash) it names.
 std::map<std::string, std::set<std::string>> recipesOf(const std::string& page) {
     static const std::regex path("`([^` ]*/[^` ]*)`");
     std::map<std::string, std::set<std::string>> recipes;
@@ -184,7 +184,7 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         Faults{"a channel: compare/planted.cpp mentions X(4,  roughness and the recipe does not name it"});
     EXPECT_EQ(planted("compare/planted.cpp", "// DEBUG_roughness\n/* mae */ int DEBUG_roughness2;"), Faults{})
         << "a comment, and a longer word";
-    EXPECT_EQ(planted("shaders/lib/debug.glsl", "// DEBUG_roughness").size(), 2u) << "and lit_ambient";
+    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// DEBUG_roughness").size(), 2u) << "and lit_ambient";
 
     const auto edited = [&](const std::string& from, const std::string& to) {
         std::string other = page;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of shared/contract against the modules that the program embeds: which features a pass reads,
-// and which descriptors its shaders declare. Each check has a negative control: a table with a planted
-// fault, which must be found.
+// Compares the tables of shared/contract with the embedded modules: the features each pass reads and the
+// descriptors its shaders declare. Each check has a negative control: a table with a planted fault.
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light.h"
@@ -31,7 +30,7 @@
 namespace diptych {
 namespace {
 
-// The facts about each embedded module, read once.
+// Properties of each embedded module, read once.
 struct ReadModule {
     std::string_view name;
     std::set<std::uint32_t> features;
@@ -49,7 +48,7 @@ const std::vector<ReadModule>& readModules() {
     return all;
 }
 
-// The passes that use a module, by its name; empty for modules that draw no picture.
+// Passes that use a module, by its name's prefix; none if the module draws no image.
 struct ModuleKind {
     std::string_view prefix;
     gpu::uint passes;
@@ -90,7 +89,7 @@ TEST(ShaderContract, EveryModuleBelongsToAPassOrToNone) {
     }
 }
 
-// The build sorts the enumeration and the table of modules apart.
+// The build sorts the enumeration and the table of modules separately.
 TEST(ShaderContract, ModulesAreFoundByShader) {
     EXPECT_EQ(shaderModule(Shader::gbuffer_frag).name, "gbuffer.frag");
     EXPECT_EQ(shaderModule(Shader::surface_vert).name, "surface.vert");
@@ -100,7 +99,7 @@ TEST(ShaderContract, ModulesAreFoundByShader) {
     EXPECT_THROW(shaderModule(Shader::none), std::logic_error);
 }
 
-// The program stays small and is built soon while each entry point is one module.
+// One module per entry point keeps the program small and quick to build.
 TEST(ShaderContract, ThereAreFewModulesAndTheyAreSmall) {
     std::size_t bytes = 0;
     for (const ShaderModule& module : shaderModules()) bytes += module.words.size_bytes();
@@ -117,8 +116,8 @@ constexpr PassName passNames[] = {{gpu::PASS_DEPTH, "depth"},       {gpu::PASS_F
                                   {gpu::PASS_LISTS, "light lists"}, {gpu::PASS_SHADOWS, "shadow maps"},
                                   {gpu::PASS_POSING, "posing"},     {gpu::PASS_SAMPLES, "samples"}};
 
-// The depth pass of alpha-masked materials shares surface.vert with shading passes. Outputs of it that
-// depend on features of shading do not matter there, since depth_mask.frag does not read them.
+// Alpha-masked materials' depth pass shares surface.vert with shading passes. Outputs that depend on
+// shading features do not matter there: depth_mask.frag does not read them.
 bool unreadOutput(gpu::uint pass, std::string_view module, gpu::uint feature) {
     return pass == gpu::PASS_DEPTH && module.starts_with("surface.vert") &&
            (feature == gpu::FEATURE_object_lights || feature == gpu::FEATURE_double_sided ||
@@ -127,7 +126,7 @@ bool unreadOutput(gpu::uint pass, std::string_view module, gpu::uint feature) {
 }
 
 // Features that a module of a pass uses but the table lacks, and features that the table assigns to a pass
-// none of whose modules uses them.
+// without a module that uses them.
 Faults wrongReaders(const std::function<gpu::uint(const FeatureRow&)>& passesOf) {
     Faults faults;
     for (const auto& [pass, name] : passNames) {
@@ -162,7 +161,7 @@ TEST(ShaderContract, AForgottenReaderOfAFeatureIsFound) {
                                         std::pair(gpu::FEATURE_spot_lights, gpu::PASS_LISTS),
                                         std::pair(gpu::FEATURE_posed_parts, gpu::PASS_POSING),
                                         std::pair(gpu::FEATURE_captures, gpu::PASS_LIGHTING)}) {
-        // Removing a feature's readers, and adding a reader to another feature, are one fault each.
+        // Removing a feature's reader is one fault; adding a reader to another feature is one fault.
         const auto without = [&](const FeatureRow& row) {
             return row.id == feature ? row.passes & ~pass : row.passes;
         };
@@ -191,13 +190,13 @@ TEST(ShaderContract, MasksAreTheColumnsOfTheTable) {
     EXPECT_FALSE(some.any(featuresSetBy(FeatureSource::pass)));
 }
 
-// A row of a binding table, in terms of the modules.
+// A row of a binding table.
 using Kind = SpirvModule::Kind;
 struct Declared {
     std::string name;
     std::uint32_t set, number;
     Kind kind;
-    bool kernels;  // for the kernels that make light lists, which have their own set 1
+    bool kernels;  // for the compute shaders that build light lists, with their own set 1
 };
 
 std::vector<Declared> bindingTables() {
@@ -236,14 +235,14 @@ std::vector<Declared> bindingTables() {
     return rows;
 }
 
-// Descriptors that a module of a pass declares but no row has, or a row has with another type; and rows that
-// no module declares.
+// Descriptors that a module of a pass declares but no row has, or with another type; and rows that no
+// module declares.
 Faults wrongBindings(const std::vector<Declared>& rows) {
     Faults faults;
     std::set<std::string> declared;
     for (const ReadModule& module : readModules()) {
         const ModuleKind* kind = kindOf(module.name);
-        // Kernels of shadow maps have sets of their own, by MOMENT_BINDINGS and DEPTH_BOUNDS_BINDINGS.
+        // Compute shaders of shadow maps have their own sets: MOMENT_BINDINGS and DEPTH_BOUNDS_BINDINGS.
         if (!kind || kind->passes == 0 || kind->passes == gpu::PASS_SHADOWS) continue;
         const bool kernel = (kind->passes & gpu::PASS_LISTS) != 0;
         for (const SpirvModule::Binding& binding : module.bindings) {
@@ -286,7 +285,7 @@ TEST(ShaderContract, AWrongRowOfABindingTableIsFound) {
     }
 }
 
-// PACKED_VIEW and PACKED_GRID: both sides pack and unpack by the same table.
+// PACKED_VIEW and PACKED_GRID: C++ and shaders pack and unpack by the same table.
 TEST(ShaderContract, ThePackedViewHoldsEveryField) {
     gpu::View view{};
     gpu::LightGrid grid{};
@@ -337,8 +336,8 @@ TEST(ShaderContract, ALaneThatIsFilledTwiceOrNotAtAllIsFound) {
     EXPECT_FALSE(eachLaneOnce(lanes));
 }
 
-// Derivatives, and the mip levels of samples, are differences to the neighbours in a quad of pixels, and
-// undefined where one of them has ended: holes of alpha masks are demoted to helpers instead.
+// Derivatives and mip levels use differences within a pixel quad, undefined if one invocation has ended.
+// So alpha masks demote to helper invocations instead.
 constexpr std::uint32_t opKill = 252, opTerminateInvocation = 4416, opDemote = 5380;
 std::size_t ends(std::span<const std::uint32_t> words) {
     const SpirvModule module(words);
@@ -363,7 +362,7 @@ TEST(ShaderContract, AnInvocationThatEndsIsFound) {
     }
 }
 
-// CONTRACT_LANE, beside each struct that shaders read as texels.
+// CONTRACT_LANE, which accompanies each struct that shaders read as texels.
 TEST(ShaderContract, AMemberThatMovesToAnotherLaneIsFound) {
     struct Swapped {
         float inverse_range_squared;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a scene does not need is not in its shaders: a shipped module with a feature off is, once specialised
-// and rid of dead code, the module of sources from which all of the feature has been taken, its row in the
-// list of features included, so that nothing that still asks for it would compile.
+// A feature that is off costs nothing. The shipped module, specialised and without dead code, equals the
+// module built from sources without the feature. The cut sources also lack its row in the list of
+// features, so leftover uses would not compile.
 #include "shared/contract/features.h"
 #include "shared/vulkan/spirv.h"
 #include "tests/support/files.h"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `old` stands in the file once.
+// `old` occurs once in the file.
 struct Cut {
     std::string_view file, old, put = "";
 };
@@ -30,23 +30,23 @@ struct Without {
     std::string_view feature;
     gpu::uint id;
     std::vector<Cut> cuts;
-    std::vector<std::string_view> modules;  // those that read it
+    std::vector<std::string_view> modules;  // modules that read the feature
 };
 
 std::vector<Without> withouts() {
     return {
         {"haze",
          gpu::FEATURE_haze,
-         {{"shaders/lib/radiance.glsl",
+         {{"shaders/lib/shading/radiance.glsl",
            "    if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;\n"},
-          {"shaders/lib/shade.glsl", "#include \"shaders/lib/haze.glsl\"\n"},
-          {"shaders/lib/shade.glsl",
+          {"shaders/lib/shading/shade.glsl", "#include \"shaders/lib/environment/haze.glsl\"\n"},
+          {"shaders/lib/shading/shade.glsl",
            "    if (on(feature_haze)) {\n"
            "        Hazed hazed = hazeTo(s.position);\n"
            "        radiance.transmittance = hazed.transmittance;\n"
            "        radiance.haze = hazed.scattered;\n"
            "    }\n"},
-          {"shaders/lib/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
+          {"shaders/lib/blending/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
           {"shaders/pass/background.frag", "haze.glsl\"\n", "position.glsl\"\n"},
           {"shaders/pass/background.frag",
            "    if (on(feature_haze)) {\n"
@@ -94,7 +94,7 @@ const ShaderModule& moduleNamed(std::string_view name) {
     throw std::runtime_error(fmt::format("no module {}", name));
 }
 
-// A copy of all that shaders include, `root`/shaders and `root`/shared/contract, with the cuts made.
+// Copies all files that shaders include to `root`/shaders and `root`/shared/contract and makes the cuts.
 void copyWithout(const Without& without, const fs::path& root) {
     const fs::path from = DIPTYCH_SOURCE_DIR;
     for (const char* each : {"shaders/lib", "shaders/pass", "shared/contract"}) {
@@ -106,7 +106,7 @@ void copyWithout(const Without& without, const fs::path& root) {
     const std::size_t row = list.find(fmt::format("    X({},", without.id)), end = list.find('\n', row);
     ASSERT_NE(row, std::string::npos);
     std::string line = list.substr(row, end + 1 - row), kept;
-    if (!line.ends_with("\\\n")) kept = "\n";  // the list's last row: the macro ends with it
+    if (!line.ends_with("\\\n")) kept = "\n";  // the list's last row ends the macro
     cuts.push_back({"shared/contract/features.h", line, kept});
     for (const Cut& cut : cuts) {
         std::string text = contentsOf(root / cut.file);
@@ -122,7 +122,7 @@ void run(const std::string& command) {
     ASSERT_EQ(std::system((command + " >&2").c_str()), 0) << command;
 }
 
-// As the build makes it.
+// Compiles with the build's options.
 void compile(const fs::path& root, std::string_view name, const fs::path& out) {
     run(fmt::format("'{}' -V --quiet --target-env vulkan1.3 '-I{}' -DSTAGE_{} '{}' -o '{}'", DIPTYCH_GLSLANG,
                     root.string(), name.substr(name.find('.') + 1), (root / "shaders/pass" / name).string(),
@@ -132,8 +132,8 @@ void compile(const fs::path& root, std::string_view name, const fs::path& out) {
                     out.string()));
 }
 
-// Freezes every specialization constant, at `values` or else 0, and removes what is dead. Returns what is
-// left, in words that do not depend on numbers of ids or the order of declarations.
+// Freezes every specialization constant at `values`, or else 0, and removes dead code. Returns the rest as
+// words that depend neither on ids nor on the order of declarations.
 std::vector<std::string> specialised(const fs::path& module, const std::string& values,
                                      std::map<std::string, std::size_t>& known) {
     const fs::path small = module.string() + ".small", text = module.string() + ".text";
@@ -149,8 +149,8 @@ std::vector<std::string> specialised(const fs::path& module, const std::string& 
     return canonicalSpirv(contentsOf(text), known);
 }
 
-// Scenes with much of what the list of features has, and with other of its values. Of the channels of light
-// they capture none of haze, which are constants without it.
+// Two sets of other features: many switched on, and other values. Neither captures the haze's channels,
+// which are constant without haze.
 const std::string otherFeatures[] = {
     "0:1 3:1 9:1 12:1 14:1 15:1 16:2 20:61440 23:1 24:3 25:1 29:3 33:1 37:1 41:1 42:7",
     "14:1 20:61440 21:1 25:2 26:2 42:1"};
@@ -178,7 +178,7 @@ TEST_P(SpirvWithout, IsTheModuleOfSourcesWithoutIt) {
             EXPECT_TRUE(a == b) << name << " with " << others << ": "
                                 << (differ.in1 == a.end() ? "nothing" : *differ.in1) << " is not "
                                 << (differ.in2 == b.end() ? "nothing" : *differ.in2);
-            // The control: with the feature it is another.
+            // Negative control: the module with the feature differs.
             const std::string on = fmt::format("{} {}:1", others, without.id);
             EXPECT_FALSE(specialised(with, on, known) == b) << name << " with " << others;
         }
@@ -188,7 +188,7 @@ TEST_P(SpirvWithout, IsTheModuleOfSourcesWithoutIt) {
 INSTANTIATE_TEST_SUITE_P(Features, SpirvWithout, testing::Range<std::size_t>(0, withouts().size()),
                          [](const auto& each) { return std::string(withouts().at(each.param).feature); });
 
-// Every entry point that draws scenes and whose modules use the feature is held to it.
+// The table names every entry point that draws scenes and whose modules use the feature.
 TEST(SpirvWithoutFeatures, NoEntryPointIsForgotten) {
     for (const Without& without : withouts()) {
         std::vector<std::string_view> reading, held = without.modules;
@@ -202,7 +202,8 @@ TEST(SpirvWithoutFeatures, NoEntryPointIsForgotten) {
     }
 }
 
-// The control of the words: another number, decoration or instruction is another; other ids are not.
+// Negative control of the comparison: another value, decoration or instruction counts as a difference;
+// other ids do not.
 TEST(SpirvWithoutFeatures, WordsTellModulesApart) {
     const std::string module =
         "OpCapability Shader\nOpEntryPoint Vertex %3 \"main\" %9\nOpDecorate %9 Binding 2\n%1 = OpTypeVoid\n"

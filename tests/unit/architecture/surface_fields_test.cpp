@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A lit channel of a packed G-buffer is judged by the fields that lighting reads. So each of them has a
-// channel that is judged, and nothing but the decoded surface sets the two variants of forward+ apart.
-#include "compare/verdict/encoding_use.h"
+// A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
+// needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
+#include "compare/verdict/encoding_bits.h"
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,6 @@
 namespace diptych {
 namespace {
 
-// The fields of struct Surface.
 std::set<std::string> fieldsOf(const std::string& source) {
     const std::size_t begin = source.find("struct Surface {"), end = source.find("};", begin);
     std::set<std::string> fields;
@@ -31,9 +30,9 @@ const std::string& shader(const std::string& name) {
 }
 
 TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
-    // Where the channel has another name.
+    // Fields whose channel has another name.
     const std::map<std::string, std::string> names{{"normal", "normals"}};
-    // Read by no light of a surface that the G-buffer stores.
+    // Fields that lighting of G-buffer surfaces does not read.
     const std::map<std::string, std::string> unread{
         {"triangle_normal", "shown as geometric_normal"},
         {"material_id", "shown alone"},
@@ -43,7 +42,7 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         {"tangent_normal", "shown alone"},
         {"transmission", "blended draws alone, which both paths share"},
         {"object_irradiance", "--assign per_object, which deferred does not have"}};
-    const std::set<std::string> fields = fieldsOf(shader("surface.glsl"));
+    const std::set<std::string> fields = fieldsOf(shader("surface/surface.glsl"));
     EXPECT_GE(fields.size(), 20u);
     for (const std::string& field : fields) {
         if (unread.contains(field)) continue;
@@ -57,9 +56,11 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         EXPECT_TRUE(fields.contains(field)) << field << " is gone: strike it here";
         if (reason != "shown alone" && reason != "shown as geometric_normal") continue;
         for (const char* name :
-             {"shade.glsl", "brdf.glsl", "multiscatter.glsl", "environment.glsl", "ambient.glsl",
-              "shadow.glsl", "pcss.glsl", "local_shadow.glsl", "ltc.glsl", "area.glsl", "area_point.glsl",
-              "lights.glsl", "object_lights.glsl", "haze.glsl", "radiance.glsl"})
+             {"shading/shade.glsl", "shading/brdf.glsl", "shading/multiscatter.glsl",
+              "environment/environment.glsl", "shading/ambient.glsl", "shadows/shadow.glsl",
+              "shadows/pcss.glsl", "shadows/local_shadow.glsl", "lights/ltc.glsl", "lights/area.glsl",
+              "lights/area_point.glsl", "lights/lights.glsl", "lights/object_lights.glsl",
+              "environment/haze.glsl", "shading/radiance.glsl"})
             EXPECT_FALSE(std::regex_search(shader(name), std::regex("\\bs\\." + field + "\\b")))
                 << name << " reads " << field;
     }
@@ -70,7 +71,7 @@ TEST(SurfaceFields, TheEncodingChangesNothingButTheSurface) {
     for (const auto& [file, text] : sources())
         if (file.starts_with("shaders/") && text.find("feature_encoded_surface") != std::string::npos)
             readers.insert(file);
-    EXPECT_EQ(readers, std::set<std::string>{"shaders/lib/forward.glsl"});
+    EXPECT_EQ(readers, std::set<std::string>{"shaders/lib/surface/forward.glsl"});
 }
 
 }  // namespace

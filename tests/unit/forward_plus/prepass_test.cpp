@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether a depth pre-pass pays, on devices with round costs.
+// Whether a depth pre-pass pays off, on devices with round costs.
 #include "forward_plus/prepass.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace diptych {
 namespace {
 
-// Two million pixels covered, each drawn so many times; shading a fragment takes 10 + 2 * 5 + 4 * 20 = 100
+// Two million covered pixels, each drawn `times` times; shading a fragment takes 10 + 2 * 5 + 4 * 20 = 100
 // ns.
 PrepassChoice choiceFor(std::uint64_t times, double depthNs, double triangleNs = 0) {
     DeviceProfile device;

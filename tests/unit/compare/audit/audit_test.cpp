@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far audited series hold, by steps that are known; and what is pushed.
+// Ranges in which audited series pass, with known steps; and the stress parameters.
 #include "compare/audit/audit.h"
 #include "compare/audit/plot.h"
 #include "compare/audit/quantities.h"
@@ -41,7 +41,7 @@ const Quantity& quantityOf(const std::string& name) {
     return *quantitiesOf(std::array{name}).front();
 }
 
-// As if its error were `error(magnitude)`.
+// Audits as if the error were `error(magnitude)`.
 QuantityAudit audited(const Quantity& quantity, const Subject& subject, double (*error)(double)) {
     return auditQuantity(quantity, subject, [&](std::span<const Series> series, double magnitude) {
         Step step = stepOf(magnitude, error(magnitude));
@@ -76,7 +76,7 @@ TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
     EXPECT_TRUE(fine.at_original);
     EXPECT_TRUE(fine.up.broken);
     EXPECT_EQ(fine.up.last, 1);
-    EXPECT_EQ(fine.up.first, 10);  // that it holds again at 100 does not count
+    EXPECT_EQ(fine.up.first, 10);  // a second pass at 100 does not count
     EXPECT_EQ(fine.down.last, 1);
     EXPECT_EQ(fine.down.first, 0.1);
     const ValidRange& coarse = ranges[1][0];
@@ -141,7 +141,7 @@ TEST(Audit, ARequirementIsOfBothPathsAndTheirBestSeries) {
         << requirement.because;
 }
 
-// A path that errs where the scene is as it is meets nothing, in either direction.
+// A path that fails on the unchanged scene meets no requirement, in either direction.
 TEST(Audit, WhatDoesNotHoldAtAllMeetsNoRequirement) {
     const Subject subject = gallery();
     const QuantityAudit audit = audited(quantityOf("scale"), subject, [](double) { return 0.5; });
@@ -173,7 +173,7 @@ TEST(Audit, WhatADeviceRefusesIsNoFailure) {
     }
 }
 
-// What draws the same picture, or none, is no series of its own, and that is said.
+// Settings that draw the same image, or none, are not a series, and the audit reports them.
 TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
     const ChosenSeries offset = seriesOf(quantityOf("offset"), gallery());
     ASSERT_EQ(offset.series.size(), 3u);
@@ -194,8 +194,8 @@ TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
     EXPECT_NE(inWords(audit).find(offset.left_out[0]), std::string::npos);
 }
 
-// A bound is no prediction of where something breaks: what breaks before agrees with it as little as it
-// disagrees, and what holds beyond it refutes it.
+// A bound is not a prediction of the breaking point. A failure below the bound neither agrees nor
+// disagrees; a pass beyond it refutes the bound.
 TEST(Audit, ABoundIsRefutedByWhatHoldsBeyondIt) {
     QuantityAudit audit;
     for (const double magnitude : {1.0, 1e6}) audit.steps.emplace_back().magnitude = magnitude;
@@ -260,12 +260,12 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
             pushed.settings == subject.given.settings && pushed.exposure == 0 &&
             pushed.scene.materials.front().roughness == subject.given.scene.materials.front().roughness &&
             quantity.name != "roughness" && quantity.name != "normal_map" &&
-            quantity.name != "texel" &&  // which that file does not hold
+            quantity.name != "texel" &&  // this file has no texture
             lightsFileOf(pushed) == lights && gltfOf(*flattened(pushed)) == gltf;
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
         EXPECT_FALSE(seriesOf(quantity, subject).series.empty()) << quantity.name;
     }
-    // What it lacks is said.
+    // The quantity reports what the scene lacks.
     EXPECT_NE(quantityOf("environment").lacks(subject), "");
 }
 
@@ -299,7 +299,7 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
     EXPECT_NEAR(glm::distance(before.min, whole.min), 0, 1e-5);
 }
 
-// A failure that one triangle under one light shows.
+// One triangle under one light suffices to show this failure.
 TEST(AuditReduce, TheSmallestSceneIsFound) {
     const Subject subject = gallery();
     const Case whole = *flattened(subject.given);
@@ -333,8 +333,8 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
     EXPECT_LE(reduce(subject.given, test, 10)->tried, 10u);
 }
 
-// One that takes two lights and two triangles, as far apart in their lists as can be: what lies between them
-// goes, every one of it.
+// This failure needs two lights and two triangles, the first and the last in their lists. Everything
+// between them is removed.
 TEST(AuditReduce, WhatLiesBetweenTwoIsRemoved) {
     Subject subject = gallery();
     const Case whole = *flattened(subject.given);
@@ -367,13 +367,13 @@ TEST(AuditReduce, WhatLiesBetweenTwoIsRemoved) {
     EXPECT_EQ(reduced->triangles, 2u);
 }
 
-// What is written is read again as what was drawn.
+// The written files read back as the scene that was drawn.
 TEST(AuditReduce, AReducedSceneIsAFile) {
     const Subject subject = gallery();
     Case flat = *flattened(subject.given);
     flat.scene.nodes.resize(2);
     flat.scene.meshes.resize(2);
-    // No two alike, so that none can stand for another.
+    // All normals differ, so a swap would show.
     for (Mesh& mesh : flat.scene.meshes)
         for (std::size_t i = 0; i < mesh.primitives.front().normals.size(); ++i)
             mesh.primitives.front().normals[i] =
@@ -391,7 +391,7 @@ TEST(AuditReduce, AReducedSceneIsAFile) {
                         &b = flat.scene.meshes[i].primitives.front();
         for (std::size_t k = 0; k < a.indices.size(); ++k) {
             EXPECT_EQ(a.positions[a.indices[k]], b.positions[b.indices[k]]);
-            // Made unit again, as files' normals are.
+            // The reader normalizes again, as for any file's normals.
             EXPECT_LT(glm::distance(a.normals[a.indices[k]], b.normals[b.indices[k]]), 1e-6f);
         }
         const Material &material = read.materials[static_cast<std::size_t>(a.material)],

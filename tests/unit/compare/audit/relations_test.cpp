@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether relations bind what they say, and whether pictures that differ are told from those that may.
+// Metamorphic relations: whether they apply where they should, and whether allowed and forbidden image
+// differences are told apart.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
 #include "compare/audit/relation_result.h"
@@ -61,7 +62,7 @@ float above(float value, int ulps = 1) {
     return value;
 }
 
-// Made once: a gallery's textures take half a second.
+// Built once: a gallery's textures take half a second.
 const Scene& relatedBuiltin(const std::string& name) {
     static std::map<std::string, Scene> made;
     const auto found = made.find(name);
@@ -123,12 +124,12 @@ TEST(Relations, SumsAreGrantedByComponent) {
     Frame changed = given;
     changed.channels[relatedLight].at(3, 2, 0) *= 1 + 5e-7f;
     EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
-    // Little of the pixel, but much of its blue.
+    // Small for the pixel, but large for its blue component.
     changed.channels[relatedLight].at(5, 5, 2) = 1.1e-6f;
     const FrameResult result = evaluate(given, changed, toleranceFor(Equality::sums));
     EXPECT_FALSE(result.passes());
     EXPECT_EQ(result.worst()->x, 5);
-    // Surfaces are no sums.
+    // Surface channels are not sums of light.
     changed = given;
     changed.channels[relatedAlbedo].at(3, 2, 0) = above(0.5f);
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
@@ -142,7 +143,7 @@ TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
     EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     changed.channels[relatedLight].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
-    // The same where nothing changes.
+    // No tolerance where neighbouring pixels are equal.
     changed = given;
     changed.channels[relatedLight].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
@@ -151,7 +152,7 @@ TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
 TEST(Relations, LightFollowsANormalAsFastAsItsLobe) {
     const Frame given = twoWalls();
     Frame changed = given;
-    // Of a roughness of 0.5, alpha 0.25: by 12 times what the normal turns by.
+    // Roughness 0.5, alpha 0.25: light may change by 12 times the normal's rotation.
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 1e-5;
     changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
@@ -175,17 +176,16 @@ TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
     EXPECT_TRUE(beside.passes());
     EXPECT_EQ(beside.aside, 1u);
     EXPECT_EQ(beside.most_aside, 8u) << "of few edges";
-    // In the middle of a wall the other surface makes an edge of its own, but the given picture has none
-    // there.
+    // In the middle of a wall the changed pixel makes its own edge, but the given image has none there.
     EXPECT_FALSE(evaluate(given, shows(2, 3), toleranceFor(Equality::rounding)).passes());
-    // A whole column is no accident.
+    // A whole column exceeds the allowed number of pixels.
     Frame changed = given;
     for (int y = 0; y < relatedHeight; ++y)
         for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
             changed.channels[relatedId].at(x, y) = 1 - given.channels.at(relatedId).at(x, y);
     EXPECT_GT(evaluate(given, changed, toleranceFor(Equality::rounding)).aside, 8u);
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
-    // Bits have no edges.
+    // Bitwise equality has no tolerance at edges.
     EXPECT_FALSE(evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::bits)).passes());
 }
 
@@ -200,7 +200,7 @@ TEST(Relations, OfOneDepthEitherSurfaceMayBeSeen) {
     EXPECT_EQ(evaluate(given, changed, tolerance).aside, 1u);
     changed.channels[relatedDepth].at(2, 3) = 1.5f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
-    // The same surface is lit alike.
+    // The same surface must have the same light.
     changed = given;
     changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
@@ -234,7 +234,7 @@ TEST(Relations, WhatIsNoNumberIsBroken) {
         changed.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
         EXPECT_FALSE(evaluate(given, changed, toleranceFor(equality)).passes()) << nameOf(equality);
     }
-    // Of infinite light any share is infinite, and allows nothing.
+    // A share of infinite light is infinite and must not allow anything.
     Frame endless = given;
     endless.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::infinity();
     for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding})

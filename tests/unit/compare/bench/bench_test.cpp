@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark plans, predicts and writes, of made-up times.
+// Plans, predictions and output of a benchmark, with made-up times.
 #include "compare/bench/bench.h"
 #include "compare/bench/workload.h"
 #include "compare/cli/command_line.h"
@@ -257,7 +257,6 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
 }
 
-// The words of a line, told apart by spaces.
 std::vector<std::string> wordsOf(const std::string& line) {
     std::istringstream stream(line);
     return {std::istream_iterator<std::string>(stream), {}};
@@ -321,7 +320,7 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_TRUE(without["frames"][0]["light_count"].is_null());
 }
 
-// Where each point of a mode's line stands in the plot, in its order.
+// Positions in the plot of a mode's points, in order.
 std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::string& mode) {
     std::vector<std::array<double, 2>> points;
     const std::regex line("<g class=\"series " + mode + "\"><path class=\"trace\" d=\"M([^\"]*)\"");
@@ -344,7 +343,7 @@ TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
     EXPECT_GT(every[0][1], every[1][1]) << "longer stands above";
     EXPECT_EQ(every[1][0], clustered[1][0]);
     EXPECT_LT(every[1][1], clustered[1][1]);
-    // Both axes are logarithmic: times 40 and times 5 of one axis.
+    // Both axes are logarithmic: factors 40 and 5 of one axis.
     EXPECT_NEAR((every[0][1] - every[1][1]) / (clustered[0][1] - clustered[1][1]),
                 std::log(40.0) / std::log(5.0), 0.02);
     EXPECT_NE(svg.find("64x48, a &amp; b&#39;s &lt;scene&gt;"), std::string::npos) << svg;

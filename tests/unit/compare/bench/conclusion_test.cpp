@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark says in a sentence, and its plot of a single light count.
+// A benchmark's conclusions as text, and its plot of a single light count.
 #include "compare/bench/conclusion.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ BenchRow timed(const char* path, const char* assign, Times ms, std::vector<PassT
     return made;
 }
 
-// Both paths twice and per_object, of six frames in turn.
+// Both paths twice and per_object, six interleaved frames each.
 Bench oneCount() {
     Bench bench;
     bench.scene = "hall.glb";
@@ -46,7 +46,7 @@ Bench oneCount() {
 }
 
 TEST(PairedRatio, IsTheMedianOfWhatWasTimedTogether) {
-    // The machine slows down by ten from the third frame on: the ratio stays.
+    // The machine becomes ten times slower from the third frame on; the ratio stays.
     const PairedRatio ratio = pairedRatio({2, 2, 20, 20, 20, 22}, {1, 1, 10, 10, 10, 10});
     EXPECT_DOUBLE_EQ(ratio.median, 2);
     EXPECT_DOUBLE_EQ(ratio.low, 2);
@@ -55,15 +55,15 @@ TEST(PairedRatio, IsTheMedianOfWhatWasTimedTogether) {
     EXPECT_TRUE(ratio.isSure());
 }
 
-// Tables of the sign test: of n values the k-th least and the k-th largest enclose the median with these
-// confidences (n = 6, k = 1: 1 - 2 / 64; n = 9, k = 2: 1 - 2 (1 + 9) / 512; n = 20, k = 6: 0.9586).
-// 2^-n is 0 in double from 1,075 pairs on.
+// Tables of the sign test: the k-th smallest and k-th largest of n values enclose the median with these
+// confidences. n = 6, k = 1: 1 - 2 / 64; n = 9, k = 2: 1 - 2 (1 + 9) / 512; n = 20, k = 6: 0.9586. 2^-n
+// underflows to 0 in double from 1,075 pairs on.
 TEST(PairedRatio, ThousandsOfFramesHaveANarrowInterval) {
     std::vector<double> slower, faster(5000, 1.0);
     for (int i = 0; i < 5000; ++i) slower.push_back(1 + i / 5000.0);
     const PairedRatio ratio = pairedRatio(slower, faster);
     EXPECT_NEAR(ratio.confidence, 0.95, 0.002);
-    // The normal approximation: 1.96 sqrt(n) / 2 places to both sides of the middle.
+    // Normal approximation: 1.96 sqrt(n) / 2 ranks to both sides of the median.
     EXPECT_NEAR(ratio.high - ratio.low, 1.96 * std::sqrt(5000.0) / 5000, 5e-4);
 }
 
@@ -152,7 +152,7 @@ TEST(BenchConclusion, AnotherPictureIsMarked) {
     EXPECT_EQ(benchEnd(same).find('*'), std::string::npos);
 }
 
-// The widths of a bar's parts, in their order.
+// Widths of a bar's segments, in order.
 Times barParts(const std::string& svg, const std::string& mode) {
     Times widths;
     const std::regex part("width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>" + mode + ", [^<]*ms</title>");
@@ -174,7 +174,7 @@ TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
     EXPECT_NE(svg.find("deferred, clustered: 10 ms"), std::string::npos);
 }
 
-// Each part begins where the one before it ends.
+// Each segment begins where the previous one ends.
 TEST(BenchPlot, PartsOfABarStandBesideEachOther) {
     const std::string svg = benchPlot(oneCount(), PlotPlace::file);
     const std::regex part(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a counted frame should take on a GPU, of made-up counts.
+// Estimated GPU time of a frame, from made-up counts.
 #include "compare/bench/estimate.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace bench;
 
 namespace {
 
-// 1e9 of everything a second, all of it reached, and passes that begin at once.
+// 1e9 of everything per second, fully used, and no launch time.
 constexpr GpuFigures plainGpu{"plain", 1, 1, 1, 1, 1, 1};
 constexpr EstimateAssumptions exactly{.reached = 1,
                                       .light_flops = 100,
@@ -53,7 +53,8 @@ TEST(BenchEstimate, EachDemandIsItsUnitsOverItsFigure) {
     EXPECT_NEAR(demanded(work, "arithmetic"), 10 + 3 + 100 + 5, 1e-12);
 }
 
-// Waves of 64 threads by the cycles of each, over those of all SIMD units; no part of a data sheet's figure.
+// Arithmetic time: waves of 64 threads times their cycles, over the cycles of all SIMD units. The data
+// sheet's FLOPS and the assumed utilization do not count.
 TEST(BenchEstimate, ArithmeticIsTheCompilersWhereItSaysAny) {
     GpuFigures gpu = plainGpu;
     gpu.simd_cycles = 2;

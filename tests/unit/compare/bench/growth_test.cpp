@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where growth bends and what is said of it, of made-up times.
+// Break points of growth and their text, with made-up times.
 #include "compare/bench/growth.h"
 
 #include <gtest/gtest.h>

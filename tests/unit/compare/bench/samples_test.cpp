@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The benchmark's table by samples a pixel, of made-up times.
+// The benchmark's table by samples per pixel, with made-up times.
 #include "compare/bench/conclusion.h"
 #include "compare/bench/sample_table.h"
 #include "compare/cli/command_line.h"
@@ -51,13 +51,13 @@ TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {
     EXPECT_FALSE(one.kernels);
 }
 
-// What several samples alone give a meaning is asked for once, and a pixel of one sample is drawn without.
+// Settings that only apply to MSAA are requested once; single-sample frames drop them.
 TEST(BenchSamples, WhatSamplesAreForIsLeftToThem) {
     Settings given;
     given.msaa_shading = MsaaShading::sample;
     given.msaa_edges = MsaaEdges::all;
     given.resolve = Resolve::tonemapped;
-    given.pixel_lights = 3;  // no meaning either, but not for want of samples
+    given.pixel_lights = 3;  // has no effect either, but not because of the sample count
     for (const int samples : {1, 4, 8}) {
         const Settings sampled = withSamples(given, samples);
         EXPECT_EQ(sampled.msaa, samples);
@@ -101,7 +101,7 @@ BenchRow sampledRow(Path path, Transparency transparency, int samples, double ms
     return made;
 }
 
-// Deferred with blending and 4 samples took too long.
+// Deferred with blending and 4 samples exceeds the time limit.
 Bench sampledBench() {
     Bench bench;
     bench.scene = "builtin:glass";
@@ -140,7 +140,7 @@ TEST(BenchSamples, LinesArePathsAndColumnsSamples) {
     EXPECT_EQ(sampleTablesText(modes), "");
 }
 
-// 32 bytes a sample are what the paper states: 63, 253 and 506 MiB at 1920x1080.
+// The paper's 32 bytes per sample: 63, 253 and 506 MiB at 1920x1080.
 TEST(BenchSamples, MemoryStandsBesideThePapers) {
     const std::vector<std::string> words = memoryInWords(sampleTables(sampledBench())[0]);
     ASSERT_EQ(words.size(), 2u);
@@ -177,7 +177,7 @@ TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
     EXPECT_EQ(json["frames"][3]["name"], "forward_plus, clustered, sorted, 1 sample");
 }
 
-// Times of other samples are of another picture.
+// Frames with other sample counts show other images, so their times are not compared.
 TEST(BenchSamples, ConclusionsCompareOneNumberOfSamples) {
     const Bench bench = sampledBench();
     const std::vector<Conclusion> all = conclusionsOf(bench);

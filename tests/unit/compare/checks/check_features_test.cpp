@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which features of a scene a person must check by eye, and how each is described.
+// The scene features that a person must check by eye, and their descriptions.
 #include "compare/checks/check_features.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/load.h"
@@ -46,7 +46,7 @@ TEST(CheckFeatures, AFrameShowsItsSceneAsItWasDrawn) {
     EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), Boxes{});
 }
 
-// As the matrix of KHR_texture_transform.
+// The matrix of KHR_texture_transform.
 TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
     Scene scene = plainScene();
     const auto transformed = [&](double x, double y, double degrees, double sx, double sy) {
@@ -77,7 +77,7 @@ TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
         << "nothing reads the emissive slot";
 }
 
-// A wrap mode is only visible where a texture coordinate lies beyond the edge.
+// A wrap mode is only visible where a texture coordinate exceeds the edge.
 TEST(CheckFeatures, SamplersAreToldWhereTheyShow) {
     Scene scene = plainScene();
     TextureSlot& slot = scene.materials[0].base_color_texture;
@@ -126,7 +126,7 @@ TEST(CheckFeatures, WhiteVertexColoursShowNothing) {
     EXPECT_NE(what(scene, "vertex colours"), "");
 }
 
-// alpha is factor x texel x vertex colour: 128 / 255 is just above one half
+// alpha = factor x texel x vertex colour: 128 / 255 is just above one half
 TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
     Scene scene = plainScene();
     Material& m = scene.materials[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a mask cuts out at the very cutoff: alpha that equals it is kept (glTF 2.0, 3.9.4).
+// Alpha exactly at the mask's cutoff is kept (glTF 2.0, 3.9.4).
 #include "tests/support/checks_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Visual checks: where they are in the picture, their number, and their names.
+// Visual checks: their position in the image, their number, and their names.
 #include "compare/checks/material_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/motion/bounds.h"
@@ -15,7 +15,7 @@ namespace diptych {
 
 // ---- where -------------------------------------------------------------------------------------------
 
-// From (-1, -1) to (1, 1) at 2 m: 25 pixels a metre around (100, 50).
+// From (-1, -1) to (1, 1) at 2 m: 25 pixels per metre around (100, 50).
 TEST(VisualChecks, TheBoxOfATriangleByHand) {
     const Scene scene = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {0, 1, -2}}));
     EXPECT_EQ(boxesOf(checksIn(scene, viewOf())), (Boxes{{75, 25, 125, 75}}));
@@ -30,8 +30,8 @@ TEST(VisualChecks, NothingBehindTheCameraOrBesideThePicture) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(5.5f, 0, -2)), viewOf())), Boxes{}) << "from pixel 212 on";
 }
 
-// A floor 1 m below the eye, from 2 m ahead to 5 m behind, is visible from 1 m on, where 2 m are 100 pixels;
-// with a far plane at 3 m, a floor that extends to 10 m ends at 50 + 50 / 3 = 66.7 pixels.
+// A floor 1 m below the eye, from 2 m ahead to 5 m behind, is visible from 1 m on, where 2 m cover 100
+// pixels. With a far plane at 3 m, a floor up to 10 m ends at 50 + 50 / 3 = 66.7 pixels.
 TEST(VisualChecks, WhatReachesThroughAPlaneIsCutOff) {
     const Scene through = sceneOf(shapeOf({{-1, -1, -2}, {1, -1, -2}, {1, -1, 5}, {-1, -1, 5}}));
     EXPECT_EQ(boxesOf(checksIn(through, viewOf())), (Boxes{{50, 75, 150, 100}}));
@@ -43,7 +43,7 @@ TEST(VisualChecks, WhatReachesOutOfThePictureEndsAtItsEdge) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(4, 2, -2)), viewOf())), (Boxes{{175, 0, 200, 25}}));
 }
 
-// Half the height is 2 m: 25 pixels a metre at any distance.
+// Half the height is 2 m: 25 pixels per metre at any distance.
 TEST(VisualChecks, OrthographicByHand) {
     View view = viewOf(0, 100);
     view.camera.orthographic = true;
@@ -74,7 +74,7 @@ TEST(VisualChecks, TransformsThatAreNoNumbersNeedNoCheck) {
 TEST(VisualChecks, WhatNoPixelShowsIsHidden) {
     const Scene scene = sceneOf(squareAt(0, 0, -2));
     Image ids(200, 100, 1, -1);
-    ids.at(10, 10) = 0;  // outside of its box
+    ids.at(10, 10) = 0;  // outside its box
     ids.at(100, 50) = 7;
     EXPECT_EQ(boxesOf(checksIn(scene, viewOf(), &ids)), Boxes{});
     ids.at(80, 30) = ids.at(90, 70) = 0;
@@ -83,7 +83,7 @@ TEST(VisualChecks, WhatNoPixelShowsIsHidden) {
     EXPECT_EQ(seen[0].checks[0].pixels, 2u);
 }
 
-// One behind the other, with the same material; the picture shows only the closer one.
+// Two instances of one material, one behind the other; only the closer one is visible.
 TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes.emplace_back().mesh = 0;
@@ -102,7 +102,7 @@ TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     EXPECT_EQ(checks[0].checks[0].pixels, 2500u);
 }
 
-// Compared with counting pixel by pixel, for sizes that are no multiples of the tiles'.
+// Compared with counting pixel by pixel, for sizes that are not multiples of the tile size.
 TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
     std::mt19937 random(1);
     Image ids(53, 37, 1), positions(53, 37, 3);
@@ -185,7 +185,7 @@ TEST(VisualChecks, LongNamesAreCutBetweenCharacters) {
     Scene scene = sceneOf(squareAt(0, 0, -2));
     scene.nodes[0].name = "x";
     for (int i = 0; i < 1000; ++i)
-        scene.nodes[0].name += "\u00e9";  // two bytes; the 60th byte of the name is its second
+        scene.nodes[0].name += "\u00e9";  // two bytes; the second is the name's 60th byte
     const std::string name = checksIn(scene, viewOf()).at(0).checks.at(0).name;
     std::string expected = "x";
     for (int i = 0; i < 29; ++i) expected += "\u00e9";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is chosen, held against sweeps of every candidate, whose times and errors were recorded.
+// Choices compared with exhaustive sweeps: recorded times and errors of every candidate.
 #include "compare/choose/search.h"
 #include "compare/choose/table.h"
 #include "tests/unit/compare/choose/replay.h"
@@ -20,7 +20,7 @@ namespace diptych::choose {
 
 namespace {
 
-// The best of a table within a budget: the least time, or the least error.
+// Best value within a budget: the smallest time, or the smallest error.
 std::optional<double> bestOf(const RecordedSweep& sweep, const Budget& budget) {
     std::optional<double> best;
     for (const RecordedRow& row : sweep.rows) {
@@ -35,14 +35,14 @@ std::optional<double> bestOf(const RecordedSweep& sweep, const Budget& budget) {
 
 struct Outcome {
     bool right = false;
-    double off = 0;      // of the chosen one's recorded figure to the best
-    double timings = 0;  // share of the exhaustive ones
+    double off = 0;      // chosen value relative to the best one
+    double timings = 0;  // fraction of an exhaustive search's timings
     std::size_t judged = 0;
 };
 
 constexpr double near = 1.05, frames_of_each = 6;
 
-// As the command line has it: what it says comes first, then what has few other values.
+// In the command line's order: the given Settings first, then by the number of changed values.
 std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
     Settings given;
     given.size = {320, 180};
@@ -74,7 +74,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     };
     const std::vector<Settings> table = tableOf(candidates);
     const Choice choice = search(table, evaluator, options);
-    // Whether a frame is in time is said of the device as it was in the race.
+    // Compare the time limit with the device's speed in the middle of the race.
     double raced = 0;
     for (const Candidate& candidate : choice.candidates)
         if (candidate.race_time) raced += 2 * candidate.race_time->rounds;
@@ -85,7 +85,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     outcome.judged = choice.judged;
     const std::optional<double> best = bestOf(sweep, budget);
     if (!choice.chosen) {
-        // Right where nothing fits, or what does is too near to the limit to be told from what does not.
+        // Correct if nothing fits, or if the fitting rows are too close to the limit.
         Budget tight = budget;
         if (tight.ms) *tight.ms /= near;
         outcome.right = !bestOf(sweep, tight);
@@ -104,7 +104,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     return outcome;
 }
 
-// Budgets between the ends of what a sweep holds.
+// Budgets between the extremes of a sweep.
 std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
     std::vector<double> errors, times;
     std::vector<std::uint64_t> bytes;
@@ -129,7 +129,7 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
     return budgets;
 }
 
-// `seeds`: streams of noise, each drawn for every budget; DIPTYCH_REPLAY_SEEDS asks for another number.
+// `seeds`: noise streams for each budget; DIPTYCH_REPLAY_SEEDS overrides it.
 void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
     if (const char* const wished = std::getenv("DIPTYCH_REPLAY_SEEDS")) seeds = std::stoull(wished);
     std::size_t cases = 0, right = 0;
@@ -177,7 +177,7 @@ TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
     sweepAll({.deviation = 0.05, .drift = 0.05}, 4);
 }
 
-// Two frames of each option's values, which multiply the time and add to the error.
+// Each option value multiplies the time and adds to the error by a given law.
 class LawfulEvaluator final : public Evaluator {
 public:
     std::map<std::pair<std::string, std::string>, std::pair<double, double>> law;
@@ -222,7 +222,7 @@ TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     const Settings first;
     std::vector<Settings> table{first};
     for (const auto& [change, does] : evaluator.law) {
-        if (change.first == "shadow-kernel") continue;  // which the table does not have
+        if (change.first == "shadow-kernel") continue;  // the table lacks this option
         table.push_back(first);
         table.back().set(change.first, change.second);
     }
@@ -277,7 +277,7 @@ TEST(ChooseSearch, TheMostAccurateWithinATime) {
     EXPECT_FALSE(search(table, evaluator, options).chosen);
 }
 
-// The table's rows are each path's first and its single usual changes; of few candidates all.
+// The table has each path's first candidate and its single default changes; of a few candidates, all.
 TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
     for (const RecordedSweep& sweep : recordedSweeps()) {
         const std::vector<Settings> candidates = candidatesOf(sweep), table = tableOf(candidates);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One Settings for several scenes, whose times and errors are known.
+// A joint choice for several scenes with known times and errors.
 #include "compare/choose/common.h"
 #include "tests/support/files.h"
 
@@ -29,7 +29,7 @@ Settings known(Path path, const char* gbuffer) {
 const Settings compactOne = known(Path::deferred, "compact"), standardOne = known(Path::deferred, "standard"),
                fullOne = known(Path::deferred, "full"), forwardOne = known(Path::forward_plus, "standard");
 
-// Of the four above, in this order.
+// Times and errors of the four Settings above, in this order.
 class KnownEvaluator final : public Evaluator {
 public:
     explicit KnownEvaluator(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
@@ -63,7 +63,7 @@ private:
     std::mt19937_64 random_;
 };
 
-// Each scene's own choice among all four, and then one for all.
+// Each scene's own choice among all four, then the joint choice.
 struct ForAll {
     ForAll(const std::vector<std::vector<Known>>& scenes, const Budget& budget, CommonOptions options = {}) {
         std::vector<const Choice*> pointers;
@@ -88,7 +88,8 @@ struct ForAll {
     CommonChoice result;
 };
 
-// forward+ is no scene's own choice; 1.2 times the best of either, and what each chose is twice the other's.
+// No scene chooses forward+. It takes 1.2 times each scene's best time, while each scene's own choice
+// takes at least twice the other's best.
 TEST(ChooseForAll, TheLeastSumOfLogarithmsThoughNoScenesOwn) {
     const ForAll all({{{10, 0.01}, {22, 0.01}, {30, 0.01}, {12, 0.01}},
                       {{220, 0.01}, {100, 0.01}, {300, 0.01}, {120, 0.01}}},
@@ -107,7 +108,7 @@ TEST(ChooseForAll, TheLeastSumOfLogarithmsThoughNoScenesOwn) {
     }
 }
 
-// The fastest by far in both scenes exceeds the error in one of them.
+// Compact is fastest in both scenes but exceeds the error budget in one.
 TEST(ChooseForAll, WhatExceedsTheErrorInOneSceneIsOut) {
     const ForAll all(
         {{{1, 0.01}, {10, 0.01}, {30, 0.001}, {12, 0.01}}, {{1, 0.03}, {10, 0.01}, {30, 0.05}, {12, 0.01}}},
@@ -128,7 +129,7 @@ TEST(ChooseForAll, WhereNothingFitsAllTheNearestIsNamedWithItsScene) {
                      {.error = 0.02, .ms = {}, .bytes = {}});
     EXPECT_FALSE(all.result.chosen);
     ASSERT_TRUE(all.result.nearest);
-    // Compact is worst in the second scene, 0.4; every other one is off by 0.5 in some.
+    // Compact's worst error is 0.4, in the second scene; every other candidate reaches 0.5 in some scene.
     const CommonCandidate& nearest = all.result.candidates[*all.result.nearest];
     const std::size_t scene = all.result.nearest_scene;
     EXPECT_EQ(nearest.settings, compactOne);
@@ -136,7 +137,7 @@ TEST(ChooseForAll, WhereNothingFitsAllTheNearestIsNamedWithItsScene) {
     EXPECT_EQ(nearest.scenes[scene].judged.error, 0.4);
 }
 
-// The most accurate takes too long in one scene; of the others the least worst error.
+// The most accurate candidate takes too long in one scene; the smallest worst error of the rest wins.
 TEST(ChooseForAll, TheLeastWorstErrorWithinTheTimeOfEveryScene) {
     const ForAll all({{{10, 0.05}, {11, 0.02}, {12, 0.001}, {13, 0.03}},
                       {{10, 0.05}, {11, 0.03}, {50, 0.001}, {13, 0.02}}},
@@ -161,7 +162,7 @@ TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
     EXPECT_EQ(all.result.left_out, 1u) << "compact; full was not drawn: it is slower";
 }
 
-// Nothing is within the budget: a scene proposes its path's first candidate and its most accurate one.
+// If nothing fits the budget, a scene proposes its path's first candidate and its most accurate one.
 TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
     Choice own;
     for (const auto& [settings, error] :

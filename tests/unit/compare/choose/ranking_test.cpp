@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contenders whose times are known, told apart under noise and drift.
+// Finalists with known times, compared under noise and drift.
 #include "compare/choose/ranking.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace diptych::choose {
 
 namespace {
 
-// Frames that take `ms`, each off by noise, on a device that slows down by a part of its speed a frame.
+// Frames that take `ms` with noise, on a device that slows down by a constant fraction per frame.
 class SlowingDevice {
 public:
     SlowingDevice(std::vector<double> ms, double deviation, double drift, std::uint64_t seed)
@@ -44,7 +44,7 @@ TEST(ChooseRanking, StudentsQuantilesAreThoseOfTheTables) {
     EXPECT_NEAR(studentT(0.001, 30), 3.646, 1e-3);
 }
 
-// 400 pairs of copies: one is told faster in few of them, and no winner by the order of the draws.
+// 400 pairs of identical candidates: few have a significant winner, and the draw order decides none.
 TEST(ChooseRanking, TwoCopiesAreATie) {
     for (const double drift : {0.0, 0.01}) {
         std::size_t winners = 0, first = 0;
@@ -58,7 +58,7 @@ TEST(ChooseRanking, TwoCopiesAreATie) {
     }
 }
 
-// Without noise a drift alone makes no difference: each order is drawn back.
+// Drift alone makes no difference: each order is also drawn in reverse.
 TEST(ChooseRanking, ADriftIsNoDifference) {
     const Ranking result = raced({10, 10, 10}, 0, 0.02, 3);
     for (const FinalistTime& race_time : result.finalists) EXPECT_NEAR(race_time.ratio, 1, 2e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sweeps whose every row was drawn and timed, kept as tables, as a laboratory of choose.
+// Recorded sweeps: every row was drawn and timed. They serve as an evaluator of choose.
 #pragma once
 
 #include "compare/choose/search.h"
@@ -21,14 +21,14 @@ struct RecordedRow {
 struct RecordedSweep {
     std::string scene;
     std::vector<RecordedRow> rows;
-    const RecordedRow& find(const Settings& settings) const;  // throws where there is none
+    const RecordedRow& find(const Settings& settings) const;  // throws if there is none
 };
 
-// All of sweeps/.
+// All sweeps in sweeps/.
 std::vector<RecordedSweep> recordedSweeps();
 
-// What multiplies each time: its deviation; and how much slower the device is at the end of `drifts` timings
-// than at their beginning, about its recorded speed in the middle.
+// Noise of the times: the deviation of a factor, and a drift. Over `drifts` timings the device slows down
+// by `drift`, and has its recorded speed in the middle.
 struct ReplayNoise {
     double deviation = 0, drift = 0;
     double drifts = 100;
@@ -43,8 +43,7 @@ public:
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     std::vector<PassTime> profile(const Settings& settings) override;
 
-    // How much slower the device was so many timings ago than it was recorded, but for what differs from
-    // frame to frame.
+    // Slowdown of the device against its recorded speed, that many timings ago, without per-frame noise.
     double drift(double timings_ago = 0) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Crossings of times whose law is known, under noise; and the variations of a scene.
+// Break-even points of times with a known law, under noise; and variations of a scene.
 #include "compare/choose/sensitivity.h"
 #include "compare/cli/scene_variations.h"
 #include "shared/scene/load.h"
@@ -13,7 +13,7 @@ namespace diptych::choose {
 
 namespace {
 
-// Two paths that take fixed + each * value, ms.
+// Time fixed + each * value, ms.
 struct Law {
     double fixed = 0, each = 0;
     double at(double value) const { return fixed + each * value; }
@@ -39,7 +39,7 @@ Sensitivities decided(const Law (&laws)[2], double value, const std::vector<doub
     return analyzeSensitivity(lawful(laws, value, deviation, random).draw, {property}, 5);
 }
 
-// How often the truth lies in the interval, which says 95 of 100.
+// How often the 95 % interval contains the true value.
 void expectHolds(const Law (&laws)[2], double value, const std::vector<double>& others, double truth,
                  bool extrapolated) {
     int found = 0, held = 0;
@@ -61,17 +61,17 @@ void expectHolds(const Law (&laws)[2], double value, const std::vector<double>& 
 }
 
 TEST(ChooseSensitivity, ACrossingBetweenMeasurementsIsInItsInterval) {
-    const Law laws[2] = {{2, 1}, {10, 0.5}};  // as long at 16
+    const Law laws[2] = {{2, 1}, {10, 0.5}};  // equal at 16
     expectHolds(laws, 8, {4, 32}, 16, false);
 }
 
 TEST(ChooseSensitivity, ACrossingBeyondTheMeasurementsIsInItsInterval) {
-    const Law laws[2] = {{2, 1}, {14, 0.5}};  // as long at 24
+    const Law laws[2] = {{2, 1}, {14, 0.5}};  // equal at 24
     expectHolds(laws, 8, {4, 16}, 24, true);
 }
 
 TEST(ChooseSensitivity, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
-    const Law laws[2] = {{2, 1}, {10, 0.5}};  // as long at 16
+    const Law laws[2] = {{2, 1}, {10, 0.5}};  // equal at 16
     std::mt19937_64 random(1);
     const auto fails = []() -> Variation { throw std::runtime_error("too large for this device"); };
     Property lost{.name = "lost", .unit = "things", .how = "more", .value = 8, .least = 1, .most = 100};
@@ -98,8 +98,7 @@ TEST(ChooseSensitivity, WhereNoValueTurnsItNoneIsSaid) {
     EXPECT_FALSE(still.properties.front().open);
 }
 
-// Lines that are parallel cross somewhere by noise: that is left open, and not reported as a break-even
-// point.
+// Parallel lines cross somewhere by noise. The result stays open and is not reported as a crossing.
 TEST(ChooseSensitivity, ACrossingThatNoiseMakesIsLeftOpen) {
     const Law laws[2] = {{2, 1}, {2.2, 1}};
     int turned = 0, open = 0;
@@ -120,7 +119,7 @@ TEST(ChooseSensitivity, TheOtherPathWinsBelow) {
     EXPECT_FALSE(sensitivities.properties.front().break_even->other_above);
 }
 
-// Of a property of few values nothing is drawn between them.
+// A property with few values is not interpolated.
 TEST(ChooseSensitivity, FewValuesAreToldAsMeasured) {
     std::mt19937_64 random(1);
     const Law laws[2] = {{2, 1}, {4, 0.25}};

@@ -48,7 +48,7 @@ TEST(CommandLine, EverySettingIsAnOptionOfEveryRenderingCommand) {
         });
 }
 
-// Options that are not Settings.
+// Options other than Settings.
 TEST(CommandLine, TheOtherSharedOptionsParse) {
     for (const std::string& command : rendering) {
         const Options options = parseCommandLine(
@@ -69,7 +69,7 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
     }
 }
 
-// Several times are several Frames of each camera; without --times there is one, --time.
+// Several times give several Frames per camera; without --times there is one, at --time.
 TEST(CommandLine, TimesAndFrames) {
     EXPECT_EQ(parseCommandLine({"compare"}).times, std::vector{0.0});
     EXPECT_EQ(parseCommandLine({"compare", "--time", "0.75"}).times, std::vector{0.75});
@@ -82,7 +82,7 @@ TEST(CommandLine, TimesAndFrames) {
     EXPECT_EQ(timeOfFrame(drawn, 3), 1.375);
 }
 
-// The last values that are taken; those beyond are among the usage errors.
+// The last accepted values; values beyond are among the usage errors.
 TEST(CommandLine, LimitsAreTaken) {
     EXPECT_EQ(parseCommandLine({"compare", "--runs", "0"}).runs, 0) << "no times, no profile";
     EXPECT_EQ(parseCommandLine({"diff", "a", "b", "--tolerance", "0"}).diff.tolerance, 0);
@@ -189,7 +189,7 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
     EXPECT_EQ(parseCommandLine({"--version"}).help.find("diptych "), 0u);
 }
 
-// The options that --help prints of a command: its lines that begin with one.
+// Options in a command's --help: the lines that begin with one.
 std::vector<std::string> printedOptions(const std::vector<std::string>& words) {
     const std::string help = parseCommandLine(words).help;
     std::vector<std::string> options;
@@ -200,7 +200,7 @@ std::vector<std::string> printedOptions(const std::vector<std::string>& words) {
     return options;
 }
 
-// Ten at most, which it really has; all others are in --help all, and counted.
+// At most ten, all of them real options. --help all has all others, and --help states their number.
 TEST(CommandLine, HelpBeginsWithTheOptionsUsedMost) {
     for (const Command& command : allCommands()) {
         const auto few = printedOptions({command.name, "--help"}),
@@ -226,7 +226,7 @@ TEST(CommandLine, HelpBeginsWithTheOptionsUsedMost) {
     }
 }
 
-// A line of compare can be given to view as it is.
+// view accepts the words of any compare command.
 TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     const std::vector<std::string> words{
         "compare", "a.glb",     "--gbuffer", "compact", "--baseline", "reference", "--camera", "1",  "--runs",
@@ -245,7 +245,7 @@ TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     EXPECT_FALSE(more.scene_given);
 }
 
-// A report may be from anywhere: nothing that it says writes, runs, or chooses more than what is shown.
+// A report may come from anywhere. Its command must not write or run anything, only choose what is shown.
 TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
     const Options parsed = parseReported({"compare",
                                           "-o",
@@ -409,8 +409,7 @@ TEST(CommandLine, WhatDiffCompares) {
     EXPECT_EQ(o.tolerances, "t.json");
 }
 
-// Without a tolerance only identical pictures pass, whether larger or smaller values of the metric are
-// better.
+// Without a tolerance only identical images pass, whether larger or smaller metric values are better.
 TEST(CommandLine, TheUsualToleranceOfDiffIsIdentity) {
     const auto toleranceOf = [](const char* metric) {
         return parseCommandLine({"diff", "a", "b", "--metric", metric}).diff.tolerance;
@@ -538,7 +537,7 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
             << what;
 }
 
-// What a command accepts for uniformity but does not read is not in its --help.
+// --help omits options that a command accepts for uniformity but does not read.
 TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     const auto help = [](const std::string& command) {
         return parseCommandLine({command, "--help", "all"}).help;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The command that a report prints has every option that decides what counts, as it was given.
+// The command printed in a report has every option that affects the verdict, as given.
 #include "compare/cli/verdict_words.h"
 #include "compare/cli/command_line.h"
 

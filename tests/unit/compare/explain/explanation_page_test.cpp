@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures and the page of an explanation that is made by hand.
+// Images and page of a hand-made explanation.
 #include "compare/explain/html.h"
 #include "compare/explain/pictures.h"
 #include "compare/explain/words.h"
@@ -16,7 +16,7 @@
 namespace diptych::tests {
 namespace {
 
-// Of `count` causes on 3x2 pixels; cause 0 has the first pixel, the last cause a negative share at the
+// `count` causes on 3x2 pixels. Cause 0 has the first pixel, the last cause a negative share at the
 // second.
 Explanation made(std::size_t count) {
     Explanation e;
@@ -38,8 +38,8 @@ Explanation made(std::size_t count) {
     return e;
 }
 
-// What eyes without one kind of cone see (Machado, Oliveira and Fernandes 2009, "A Physiologically-based
-// Model for Simulation of Color Vision Deficiency", full severity), encoded again.
+// Colours as seen without one type of cone, encoded again (Machado, Oliveira and Fernandes 2009, "A
+// Physiologically-based Model for Simulation of Color Vision Deficiency", full severity).
 using Matrix = std::array<std::array<double, 3>, 3>;
 constexpr Matrix everyCone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr Matrix withoutL{
@@ -117,7 +117,7 @@ TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
         EXPECT_EQ(countOf(page, "src=\"dominant.png\""), count > 0 ? 1u : 0u);
         EXPECT_NE(page.find("diptych explain a"), std::string::npos);
     }
-    // Where no picture is kept, none is shown.
+    // Without stored images the page shows none.
     const std::string bare =
         explanationSection(made(2), of, [](const std::string&) { return std::string(); });
     EXPECT_EQ(countOf(bare, "<img"), 0u);

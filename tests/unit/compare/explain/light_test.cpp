@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which light a change of direct light is of, and which factor lit has, held against changes that are made.
+// Attribution of a change of direct light to single lights, and of a factor in lit, compared with known
+// changes.
 #include "compare/explain/by_light.h"
 #include "compare/explain/exposure.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr int width = 20, height = 12;
 
-// Light that falls off around a place, of a colour.
+// Coloured light that falls off around (x, y).
 Image lightAround(double x, double y, double r, double g, double b) {
     Image image(width, height, 3);
     for (int v = 0; v < height; ++v)
@@ -38,7 +39,7 @@ Image times(const Image& image, const auto& factor) {
     return made;
 }
 
-// The share of the whole change that a light is said to have, weighted by its size.
+// The share of the whole change attributed to a light, weighted by the change's magnitude.
 double shareOf(const std::vector<std::vector<float>>& parts, std::size_t light, const Image& change) {
     double part = 0, all = 0;
     for (std::size_t p = 0; p < change.pixels(); ++p) {
@@ -61,7 +62,7 @@ TEST(LightsOfChange, AFactorIsFoundByWhereTheLightIs) {
 TEST(LightsOfChange, ALightThatIsDroppedIsTheOneThatIsMissing) {
     const std::vector<Image> lights = threeLights();
     for (std::size_t light = 0; light < lights.size(); ++light) {
-        // In a tile that is no multiple of the blocks.
+        // Change in an area that is not a multiple of the blocks.
         const Image change = times(lights[light], [](int p) { return p % width < 11 ? 1.0 : 0.0; });
         const auto parts = lightsOfChange(change, lights, LightChange::whole);
         EXPECT_GT(shareOf(parts, light, change), 0.99) << light;
@@ -74,7 +75,7 @@ TEST(LightsOfChange, AShadowIsOfTheLightWhoseColourItHas) {
     EXPECT_GT(shareOf(lightsOfChange(change, lights, LightChange::seen), 2, change), 0.999);
 }
 
-// Of one colour and seen anywhere between not and all, either could have made it.
+// Lights of one colour with partial visibility everywhere: either could have caused the change.
 TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
     const std::vector<Image> lights{times(threeLights()[0], [](int) { return 1; }),
                                     times(threeLights()[0], [](int) { return 2; })};
@@ -84,7 +85,7 @@ TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
     EXPECT_NEAR(shareOf(parts, 1, change), 2.0 / 3, 1e-5);
 }
 
-// Between two lights that both change each has a part.
+// Between two lights that both change, each gets a share.
 TEST(LightsOfChange, WhatOneLightLeavesIsTheNextOnes) {
     const std::vector<Image> lights = threeLights();
     Image change = lights[0];
@@ -114,7 +115,7 @@ TEST(ExposureBetween, IsTheFactorThatHalfOfThePictureHas) {
     const Image right = threeLights()[0];
     Image twice = times(right, [](int) { return 2.0; });
     EXPECT_NEAR(commonFactor(twice, right).value(), 2, 1e-6);
-    // What else is wrong in less than half of it does not hide the factor.
+    // Another error in less than half of the image does not hide the factor.
     for (std::size_t i = 0; i < twice.data.size() * 2 / 5; ++i) twice.data[i] *= 1.3f;
     EXPECT_NEAR(commonFactor(twice, right).value(), 2, 1e-6);
     for (std::size_t i = 0; i < twice.data.size(); ++i) twice.data[i] = std::sqrt(right.data[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a pixel's breakdown says of steps and terms, without drawing.
+// Text of a pixel breakdown for given steps and light terms, without drawing.
 #include "compare/explain/pixel_words.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -36,14 +36,14 @@ PixelBreakdown breakdownOf(std::vector<PixelStep> steps) {
     return breakdown;
 }
 
-// A channel that is no step would be left out without a word.
+// A channel that is not a step would be omitted silently.
 TEST(PixelBreakdown, EveryChannelIsAStepOnce) {
     std::vector<int> steps(pixelSteps().begin(), pixelSteps().end()), all;
     std::ranges::sort(steps);
     for (const DebugMode& mode : debugModes()) all.push_back(mode.number);
     EXPECT_EQ(steps, all);
     EXPECT_EQ(pixelSteps().back(), static_cast<int>(gpu::DEBUG_lit)) << "what all else makes";
-    // The lights' terms stand between what lights the surface and what comes of it.
+    // The light terms come after the inputs of lighting and before its results.
     EXPECT_TRUE(std::ranges::is_partitioned(pixelSteps(), [](int mode) { return !isAfterTerms(mode); }));
 }
 
@@ -58,7 +58,7 @@ TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
     std::string words = inWords(breakdown);
     EXPECT_NE(words.find("2 channels differ: roughness, lit\n"), std::string::npos) << words;
     EXPECT_NE(words.find("FAIL: at this pixel beyond tolerance: lit\n"), std::string::npos) << words;
-    // A difference that is rounding is none.
+    // Rounding does not count as a difference.
     breakdown.steps[1].differs = breakdown.steps[2].differs = false;
     breakdown.steps[2].beyond = false;
     EXPECT_EQ(firstDifference(breakdown), "no step differs by more than rounding");
@@ -67,7 +67,7 @@ TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
     EXPECT_EQ(toJson(breakdown)["first_difference"], nullptr);
 }
 
-// Light that differs while the surface is the same is a step before those that it makes.
+// If only light differs, its term comes before the channels it affects.
 TEST(PixelBreakdown, ATermComesBeforeTheLightItMakes) {
     PixelBreakdown breakdown = breakdownOf(
         {stepOf(gpu::DEBUG_depth, {1}, {1}, 0), stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});

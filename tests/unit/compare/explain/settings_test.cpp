@@ -9,7 +9,7 @@
 namespace diptych::tests {
 namespace {
 
-// A name that was changed would make a Setting a cause that changes nothing.
+// With a misspelled name, a Setting would become a cause without effect.
 TEST(ExplainSettings, ThoseInChannelsAreThere) {
     for (const std::string_view option : settingsInChannels())
         EXPECT_TRUE(std::ranges::any_of(settingFields(), [&](const Field& field) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shares of causes, held against games whose shares are known in closed form.
+// Shares of causes, compared with games whose shares have a closed form.
 #include "compare/explain/shapley.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ double sumOf(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// A value that knows no structure: a random number for each subset.
+// A game without structure: a random number for each subset.
 std::vector<double> randomGame(int causes, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::vector<double> values(std::size_t{1} << causes);
@@ -26,7 +26,7 @@ std::vector<double> randomGame(int causes, std::uint64_t seed) {
     return values;
 }
 
-// Shapley's definition itself: the mean over all orders of what a cause brings when it is swapped.
+// Shapley's definition: a cause's marginal contribution, averaged over all orders.
 std::vector<double> overAllOrders(int causes, const SubsetValue& value) {
     std::vector<int> order(static_cast<std::size_t>(causes));
     std::iota(order.begin(), order.end(), 0);
@@ -56,7 +56,7 @@ TEST(Shapley, IsTheMeanOverAllOrders) {
     }
 }
 
-// Every subset is asked for once, and shares add up to the value of swapping all.
+// Each subset is evaluated once, and the shares add up to the value of swapping all causes.
 TEST(Shapley, SharesAddUp) {
     for (int causes = 1; causes <= mostExactCauses; ++causes) {
         const std::vector<double> game = randomGame(causes, 11);
@@ -82,7 +82,7 @@ TEST(Shapley, IndependentCausesGetWhatTheyBring) {
     for (const double pair : shares.interaction) EXPECT_NEAR(pair, 0, 1e-14);
 }
 
-// Either does the whole: leaving one out changes nothing, and yet both are named.
+// Each cause alone makes the whole difference. Leaving one out changes nothing, yet both get a share.
 TEST(Shapley, RedundantCausesShare) {
     const Shares shares = exactShares(2, [](Subset s) { return s != 0 ? 1.0 : 0.0; });
     EXPECT_EQ(shares.last[0], 0);
@@ -92,7 +92,7 @@ TEST(Shapley, RedundantCausesShare) {
     EXPECT_NEAR(shares.interaction[0], -1, 1e-15);
 }
 
-// Neither does anything without the other.
+// Neither cause has an effect without the other.
 TEST(Shapley, CausesThatHideEachOtherShare) {
     const Shares shares = exactShares(2, [](Subset s) { return s == 3 ? 1.0 : 0.0; });
     EXPECT_EQ(shares.alone[0], 0);
@@ -101,7 +101,7 @@ TEST(Shapley, CausesThatHideEachOtherShare) {
     EXPECT_NEAR(shares.interaction[0], 1, 1e-15);
 }
 
-// Pairs stand at i + j (j - 1) / 2: each at its own place.
+// Pair (i, j) has index i + j (j - 1) / 2.
 TEST(Shapley, PairsHaveTheirPlaces) {
     const int causes = 5;
     for (int j = 1; j < causes; ++j)
@@ -115,7 +115,7 @@ TEST(Shapley, PairsHaveTheirPlaces) {
         }
 }
 
-// The linear form gives the same shares, exact and sampled.
+// The linear form gives the same shares, exact or sampled.
 TEST(Shapley, WeightsGiveTheSameShares) {
     for (const int causes : {1, 4, 7}) {
         const std::vector<double> game = randomGame(causes, 13);
@@ -136,11 +136,11 @@ TEST(Shapley, WeightsGiveTheSameShares) {
     }
 }
 
-// Shares that are sampled add up all the same, and their intervals hold the true ones as often as they say:
-// at least 90 % of 12 causes under 20 seeds (95 % are promised; 240 cases have a deviation of 1.4 %).
+// Sampled shares also add up. Their 95 % intervals must contain the true values in at least 90 % of 240
+// cases (12 causes, 20 seeds); the standard deviation is 1.4 %.
 TEST(Shapley, SampledSharesLieWithinTheirIntervals) {
     const int causes = 12;
-    // A cause's true share: its own, and half of each pair's that it is of.
+    // True share: the cause's own value and half of each of its pairs' values.
     const std::vector<double> own = randomGame(4, 3), pairs = randomGame(8, 5);
     const SubsetValue value = [&](Subset s) {
         double sum = 0;
@@ -164,12 +164,12 @@ TEST(Shapley, SampledSharesLieWithinTheirIntervals) {
                         0.5 * pairs.at(static_cast<std::size_t>(std::max(i, j) * 12 + std::min(i, j)));
             const auto at = static_cast<std::size_t>(i);
             ++cases;
-            // An order and its reverse give a pair's share exactly: nothing is left to deviate.
+            // An order and its reverse give pair shares exactly, so there is no deviation.
             inside += std::abs(shares.share[at] - expected) <= shares.interval[at] + 1e-12;
         }
     }
     EXPECT_EQ(inside, cases);
-    // With triples there is: max(0, ...) of three.
+    // Products of three causes do deviate.
     const SubsetValue triples = [&](Subset s) {
         double sum = 0;
         for (int i = 0; i + 2 < causes; ++i)

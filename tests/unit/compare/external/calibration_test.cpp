@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planted deviations of a renderer, one at a time and two at once: each is named, and nothing else is.
+// Planted deviations of a renderer, one and two at a time: exactly these are reported.
 #include "compare/external/calibration.h"
 
 #include "compare/external/placement.h"
@@ -25,8 +25,8 @@
 namespace diptych::external {
 namespace {
 
-// What a fake renderer does otherwise than it is told. Pictures are the reference's of what it makes of its
-// job, with noise and with some percent more or less light.
+// Deviations of a fake renderer from its job. Its images are the reference's for the changed job, with
+// noise and a few percent more or less light.
 struct Fake {
     double fov = 0;           // degrees
     int right = 0, down = 0;  // half pixels
@@ -40,7 +40,7 @@ struct Fake {
 };
 
 struct Fault {
-    std::string group, name;  // of one group there is one at a time
+    std::string group, name;  // two faults of one group are never combined
     std::function<void(Fake&)> plant;
 };
 
@@ -49,7 +49,7 @@ glm::dmat3 fromRec709(const glm::dmat3& rec709_from) {
 }
 
 std::vector<Fault> faults() {
-    // As ITU-R BT.2087 and SMPTE EG 432-1 have them, column by column.
+    // ITU-R BT.2087 and SMPTE EG 432-1, column by column.
     const glm::dmat3 rec709_from_p3{{1.2249, -0.0420, -0.0196}, {-0.2249, 1.0420, -0.0786}, {0, 0, 1.0982}};
     const glm::dmat3 rec709_from_rec2020{
         {1.6605, -0.1246, -0.0182}, {-0.5876, 1.1329, -0.1006}, {-0.0728, -0.0083, 1.1187}};
@@ -77,7 +77,7 @@ std::vector<Fault> faults() {
             {"curve", "tone_curve", [](Fake& f) { f.curve = [](double v) { return v / (1 + v); }; }},
             {"curve", "tone_curve",
              [](Fake& f) {
-                 f.curve = [](double v) {  // Narkowicz's fit of the film curve of ACES, and its encoding
+                 f.curve = [](double v) {  // Narkowicz's fit of the ACES film curve, with its encoding
                      return std::pow(
                          std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0),
                          1 / 2.2);
@@ -108,7 +108,7 @@ std::vector<Fault> faults() {
             {"brightness", "environment_factor", lamp(Lamp::environment, 1 / pi)}};
 }
 
-// Pictures of the charts, each drawn once.
+// Images of the charts, each drawn once.
 class Studio {
 public:
     Studio() : charts_(loadScene("builtin:calibration")) {
@@ -159,11 +159,13 @@ private:
         return found->second;
     }
 
-    // A picture of one column more has its middle half a pixel further left, seen from the first one.
+    // An additional column or row moves the projection's centre by half a pixel; the image is cropped to its
+    // original size.
     ChartReference draw(const Fake& fake, Lamp lamp) const {
         Scene scene = chartsUnder(charts_, lamp);
         Settings settings = chartSettings(lamp);
-        // Under the sky, where a pixel takes long and only the middles of faces count, of a quarter's size.
+        // Under the environment, where pixels are slow and only the centres of faces count, at a quarter
+        // of the size.
         const int coarse = lamp == Lamp::environment ? 4 : 1;
         const Size whole_size = settings.size;
         const Size size{whole_size.width / coarse, whole_size.height / coarse};
@@ -174,7 +176,7 @@ private:
         for (TextureImage& image : scene.images)
             for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
                 const bool colour = image.name == "128";
-                // Codes that are decoded to what the fake reads: 0.502 of a colour, 0.216 of a number.
+                // Codes that decode to what the fake reads: 0.502 of a colour, 0.216 of a number.
                 for (std::size_t c = 0; colour && fake.colour_linear && c < 3; ++c) image.rgba[i + c] = 188;
                 if (!colour && fake.data_srgb) image.rgba[i + 2] = 55;
             }
@@ -257,7 +259,7 @@ TEST(Calibration, OnePlantedDeviationIsNamed) {
     EXPECT_EQ(tally.right, tally.all) << tally.wrong;
 }
 
-// All of them in a campaign, else one of six.
+// All pairs in a full test run, otherwise one of six.
 TEST(Calibration, TwoAtOnceAreNamed) {
     Tally tally;
     const unsigned stride = isCampaign() ? 1 : 6;
@@ -276,7 +278,7 @@ TEST(Calibration, TwoAtOnceAreNamed) {
     EXPECT_GE(tally.right, 0.95 * tally.all) << tally.wrong;
 }
 
-// What is granted is what would make up for it.
+// An input correction undoes the deviation.
 TEST(Calibration, GrantsAreTheWayBack) {
     const auto correctionOf = [&](const Fake& fake) {
         nlohmann::ordered_json corrections = nlohmann::ordered_json::object();
@@ -313,7 +315,7 @@ TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
         ASSERT_TRUE(shown) << name;
         const glm::dvec3 light =
             lightFrom(charts.environment->radiance, glm::dvec3(primitive.normals.front()), false);
-        // The pictures have up to 5 % more or less light.
+        // The images have up to 5 % more or less light.
         for (int c = 0; c < 3; ++c) EXPECT_NEAR((*shown)[c], light[c], 0.08 * light[c] + 0.002) << name << c;
     }
     EXPECT_EQ(faces, 5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What renderers of others are handed as glTF, read back by our own reader.
+// The glTF files given to external renderers, read back by our loader.
 #include "compare/external/scene_gltf.h"
 
 #include "shared/scene/load.h"
@@ -30,7 +30,7 @@ SceneView viewAt(const Scene& scene, double time) {
     return makeSceneView(scene, request);
 }
 
-// Of an instance's triangles, world space.
+// Centroids of an instance's triangles, world space.
 std::vector<glm::dvec3> middlesOf(const Scene& scene, const Pose& pose, const Instance& instance) {
     const std::vector<glm::dvec3> positions = posedPositions(scene, pose, instance);
     const std::vector<std::uint32_t>& indices = primitiveOf(scene, instance).indices;
@@ -41,7 +41,7 @@ std::vector<glm::dvec3> middlesOf(const Scene& scene, const Pose& pose, const In
     return middles;
 }
 
-// Lights that glTF knows, in the order in which they are posed.
+// Lights that glTF supports, in pose order.
 std::vector<Light> punctual(std::vector<Light> lights) {
     std::erase_if(lights, [](const Light& light) { return isArea(light.kind); });
     return lights;
@@ -95,8 +95,8 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             const Instance& passed = view.pose.instances[i];
             if (primitiveOf(scene, passed).indices.empty()) continue;
             const Instance& written = pose.instances[k++];
-            // The reader leaves out vertices that no triangle uses; a mirrored skeleton's triangles are
-            // turned.
+            // The loader drops vertices that no triangle uses and flips the triangles of a mirrored
+            // skeleton.
             const std::vector<glm::dvec3> a = middlesOf(scene, view.pose, passed),
                                           b = middlesOf(back, pose, written);
             ASSERT_EQ(a.size(), b.size()) << name;

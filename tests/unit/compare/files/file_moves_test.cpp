@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that are moved into a folder together, and what a killed program leaves of that.
+// Moving files into a folder together, and recovery after the program was killed.
 #include "compare/files/file_moves.h"
 
 #include "tests/support/files.h"
@@ -19,7 +19,7 @@ void put(const fs::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-// Moves files of these names, each with "new" in it, into the folder.
+// Moves files with these names and the content "new" into the folder.
 void moveNew(const fs::path& place, const FileMoves& moves) {
     Temporary made(place, "report");
     ASSERT_TRUE(made.createFolder());
@@ -27,7 +27,7 @@ void moveNew(const fs::path& place, const FileMoves& moves) {
     moveFiles(place, made, moves);
 }
 
-// The folder that a program leaves which is killed as soon as its files count: all of `there` and a list.
+// The folder after a program was killed once its files were complete: all of `there`, and a list.
 void begin(const fs::path& place, const Names& there, const std::string& list) {
     for (const std::string& name : there) put(place / ".diptych.put" / name, "new");
     put(place / ".diptych.put" / ".plan.json", list);
@@ -46,7 +46,7 @@ TEST(FileMoves, TakeTheirPlacesAndThoseOfEarlierOnesAlone) {
     EXPECT_FALSE(isMoveBegun(place));
 }
 
-// Where a file stands in the place of the last one's folder, the first ones are moved back.
+// A file blocks the last file's folder, so the first files are moved back.
 TEST(FileMoves, AreUndoneWhereOneFails) {
     const fs::path place = folder();
     put(place / "lit.png", "old");
@@ -76,7 +76,7 @@ TEST(FileMoves, OfAKilledProgramAreFinished) {
     EXPECT_EQ(namesIn(place), (Names{"depth.png", "lit.png"})) << "nothing is left to be finished";
 }
 
-// A list may have been edited: it neither fills nor removes what diptych does not write.
+// An edited list neither adds nor removes files that diptych does not write.
 TEST(FileMoves, AListNamesOurFilesAlone) {
     const fs::path above = folder(), place = above / "report";
     put(above / "beside.png", "old");
@@ -100,7 +100,7 @@ TEST(FileMoves, AListNamesOurFilesAlone) {
     EXPECT_FALSE(fs::exists(above / "new.png"));
 }
 
-// What somebody planted in a folder that is not ours leads nowhere else.
+// Links planted in a folder that is not ours are refused.
 void expectRefused(const fs::path& place, const fs::path& named) {
     try {
         finishMoves(place);
@@ -147,7 +147,7 @@ TEST(FileMoves, LinksInPlaceOfFilesAreReplaced) {
     fs::create_symlink(elsewhere / "file", place / "lit.png");
     moveNew(place, {{"lit.png"}, {}});
     EXPECT_EQ(contentsOf(place / "lit.png"), "new");
-    // What is removed with a list that is done with.
+    // Leftovers removed with a finished list.
     begin(place, {"lit.png"}, R"({"files": ["lit.png"]})");
     fs::create_directory_symlink(elsewhere, place / ".diptych.put/.old");
     fs::create_directories(place / ".diptych.put/1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a layer of another renderer's file is taken for: its channels' suffixes say.
+// The type of a layer in another renderer's file follows from its channels' suffixes.
 #include "compare/files/layers.h"
 
 #include <gtest/gtest.h>

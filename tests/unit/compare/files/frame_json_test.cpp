@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each number of a Frame stands under its own key of report.json.
+// Each number of a Frame has its own key in report.json.
 #include "compare/files/frame_json.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that this program writes, as somebody else may have written them: every reader either takes what it
-// is given or says one line, and nothing outside the output is read or changed.
+// Our file formats, written by an attacker. Every reader accepts the content or reports one line, and
+// nothing outside the output is read or changed.
 #include "compare/cli/commands.h"
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/file_moves.h"
@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Two channels of a few pixels: what files there are matters, not how many.
+// Two channels of a few pixels: the kinds of files matter, not their number.
 Report smallReport(const std::string& scene = "builtin:one") {
     std::vector<Frame> frames = bothFrames(scene);
     for (Frame& frame : frames) {
@@ -43,7 +43,7 @@ Report smallReport(const std::string& scene = "builtin:one") {
     return reportOf(std::move(frames));
 }
 
-// A folder with shards of one command, a file that is none of their business, and ways to it.
+// A folder with shards of one command, an unrelated file, and paths to it.
 struct Shards {
     fs::path root = folder();
     fs::path shard = root / "shard-1";
@@ -72,11 +72,11 @@ struct Shards {
     void change(const fs::path& file, const std::function<void(Json&)>& edit) const {
         Json json = Json::parse(contentsOf(file));
         edit(json);
-        fs::remove(file);  // it may share its bytes
+        fs::remove(file);  // it may be a hard link
         std::ofstream(file) << json.dump();
     }
 
-    // As merge does. Returns the problems that it names, a line each.
+    // Merges as `merge` does. Returns the reported problems, one per line.
     std::string merged(const std::vector<fs::path>& folders) const {
         shards::Joined joined = shards::join(folders);
         std::string problems;
@@ -91,7 +91,7 @@ struct Shards {
     }
     std::string merged() const { return merged({shard}); }
 
-    // Everything but the output.
+    // All files except the output.
     std::vector<std::string> outside() const {
         std::vector<std::string> files = filesIn(root);
         std::erase_if(files, [](const std::string& name) { return name.starts_with("out/"); });
@@ -216,7 +216,7 @@ TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
     EXPECT_EQ(contentsOf(joined), picture);
     for (const std::string& name : filesIn(root / "out"))
         EXPECT_EQ(fs::hard_link_count(root / "out" / name), 1u) << name;
-    // What a command keeps for itself goes with it, and takes no second place on the disk.
+    // The command's own parts are hard links in the output and need no second copy on disk.
     ReportOptions options;
     options.scene_folder = "box/";
     WholeReport own;
@@ -226,7 +226,7 @@ TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
     EXPECT_EQ(fs::hard_link_count(root / "own/box/lit.png"), 2u);
 }
 
-// `cat report.json` shows what it says, whoever wrote the parts of it.
+// `cat report.json` is safe, whoever wrote the parts.
 TEST(HostileParts, JsonHasNoRawControls) {
     const std::string name = "a\u009b2J\u202e\x7f.gltf";
     const Shards shards;
@@ -310,7 +310,7 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
     }
 }
 
-// Of tradeoff: absurd counts are a line, and a scene that is none, or whose file is a link, is named.
+// tradeoff: absurd counts give one line; an invalid scene, or one whose file is a link, is named.
 TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     const fs::path root = folder();
     const Json figures{{"ms", {{"median", 1}}}, {"errors", {{"flip", 0.5}}}};
@@ -361,7 +361,7 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     }
 }
 
-// Every reader, on any bytes.
+// For every reader, on any bytes.
 void expectALine(const std::function<void()>& read, const std::string& text) {
     try {
         read();
@@ -429,7 +429,7 @@ TEST(HostileFuzz, EarlierReports) {
     }
 }
 
-// Through merge, and as a row that a sweep has kept, with all that is then made of it.
+// Through merge, and as a checkpointed row of a sweep, with all outputs made from it.
 TEST(HostileFuzz, Tradeoffs) {
     using namespace tradeoff;
     const fs::path root = folder(), shard = root / "shard";
@@ -502,7 +502,7 @@ TEST(HostileFuzz, Tradeoffs) {
     EXPECT_EQ(contentsOf(root / "secret.png"), "secret");
 }
 
-// Numbers that no frame takes, from a row that another hand wrote.
+// Values that no frame takes, from a manipulated row.
 TEST(HostileFuzz, AnAxisOfAnyNumbersIsFinite) {
     for (const std::vector<double>& values :
          {std::vector<double>{1e300, 1e-300}, {5e-324}, {1.7e308}, {1e308, 1}, {-1e300, 0, 1e300}}) {

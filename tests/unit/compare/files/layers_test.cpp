@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What two picture files have in common: names, types, widths; which pixels count; what forgives.
+// Matching of two image files: names, types, widths; pixel selection; prefilters.
 #include "compare/files/layers.h"
 #include "compare/metrics/prefilter.h"
 #include "compare/verdict/selection.h"
@@ -21,7 +21,7 @@ using namespace metrics;
 
 namespace {
 
-// A layer of a 2 x 1 picture whose component c of pixel i is 10 c + i.
+// A layer of a 2 x 1 image; component c of pixel i is 10 c + i.
 PictureLayer layer(const std::string& name, const std::vector<std::string>& channels,
                    const std::string& sample = "float") {
     PictureLayer l{name, channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
@@ -55,7 +55,7 @@ TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
     EXPECT_EQ(channels[5].kind, ChannelKind::id);
 }
 
-// Of either side, of layers with a name and in 8 bits, too.
+// On either side, and also in named layers and 8-bit files.
 TEST(Layers, AColourWithoutAlphaIsOpaque) {
     const auto with = [] {
         return channelsOf(file({layer("", {"R", "G", "B", "A"}), layer("b", {"b.R", "b.G", "b.B", "b.A"}),
@@ -98,7 +98,7 @@ TEST(Layers, ColoursHaveNamesOfTheirOwn) {
     EXPECT_EQ(channels[2].kind, ChannelKind::color);
 }
 
-// Each picture's only colour, with its alpha; not where both have a meaning of their own.
+// Each image's only colour layer, with its alpha; not if both names have a meaning of their own.
 TEST(Layers, OnlyColoursAreAPair) {
     const auto named = [](const std::string& name) {
         return channelsOf(file({layer(name, {name + ".R", name + ".G", name + ".B", name + ".A"})}), {});
@@ -139,12 +139,12 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
     for (const char* words : {"albedo", "=a", "albedo=", "albedo=a,,b"})
         EXPECT_EQ(faultOf([&] {
                       channelsOf(file({layer("", {"R"})}), {words});
-                  }).find(std::string("--map ") + words + ": is NAME=CHANNEL"),
+                  }).find(std::string("--map ") + words + ": give NAME=CHANNEL,"),
                   0u);
 }
 
-// The reference's uncertainty layer is not a channel of the picture. In another program's file a layer of
-// that name is an ordinary layer.
+// The reference's uncertainty layer is not an image channel. In another program's file a layer with that
+// name is an ordinary layer.
 TEST(Layers, OurUncertaintyIsNoChannel) {
     PictureFile ours = file({layer("", {"R", "G", "B"}), layer("uncertainty", {"uncertainty.Y"})});
     EXPECT_EQ(namesOf(channelsOf(ours, {})), (std::vector<std::string>{"lit", "uncertainty"}));
@@ -207,8 +207,9 @@ TEST(Layers, GreyIsAColour) {
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
     PictureFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
     EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
-    EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
-              "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test d.Y");
+    EXPECT_EQ(
+        faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
+        "--map albedo=R,G,X: neither file has these channels; the reference has R, G, B, the test has d.Y");
 }
 
 TEST(Layers, WhatIsNotInBothIsAnError) {
@@ -220,9 +221,9 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
     EXPECT_EQ(faultOf([&] { matchChannels(a(), c(), {}); }),
               "the images share no layer: the reference has lit, the test has ao; --map can match them");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"normals"}); }),
-              "--channels normals: not in both; both have lit");
+              "--channels normals: not in both images; both have lit");
     EXPECT_EQ(faultOf([&] { matchChannels(a(), a(), {"lti"}); }),
-              "--channels lti: not in both; did you mean lit?");
+              "--channels lti: not in both images; did you mean lit?");
 }
 
 TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {
@@ -275,7 +276,7 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
     EXPECT_EQ(picked(all), "..xxxx.xxxxx");
 }
 
-// What another renderer wrote may have neither ids nor depth: those of the one picture serve.
+// Another renderer's file may have neither ids nor depth. Then the other image's are used.
 TEST(Selection, EdgesAreThoseOfTheOnePictureThatTellsThem) {
     Image ids(6, 1, 1, 4.0f), depth(6, 1, 1, 10.0f);
     ids.at(5, 0) = 7.0f;
@@ -292,7 +293,7 @@ TEST(Selection, EdgesAreThoseOfTheOnePictureThatTellsThem) {
     EXPECT_EQ(by({{nullptr, &ids}, {}}), "xxxx.. edges are where material_id changes in the test");
     EXPECT_EQ(by({{}, {nullptr, &depth}}),
               "..xxxx edges are where depth changes by over 5 % between neighbours in the test");
-    // What both have comes first: an object may lie elsewhere in each.
+    // A plane that both images have comes first: an object may be elsewhere in each.
     EXPECT_EQ(by({{&ids, nullptr}, {&depth, &depth}}),
               "..xxxx edges are where depth changes by over 5 % between neighbours");
 }
@@ -342,7 +343,7 @@ TEST(Selection, MaskIdsAndCrop) {
               "--mask " + options.mask + ": is 3x2, but the images are 2x2");
 }
 
-// ---- what forgives ----
+// ---- prefilters ----
 
 TEST(Prefilter, BlurKeepsTheSumAndLeavesNanAlone) {
     Image point(33, 33, 1);

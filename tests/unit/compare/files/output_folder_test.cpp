@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder that is written anew stays the folder that it was: its mode, its attributes, what leads to it.
+// Rewriting a folder keeps its mode, its attributes and links to it.
 #include "compare/files/output_folder.h"
 #include "compare/files/checkpoint_folder.h"
 #include "compare/shards/slurm.h"
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Writes the one file a.txt anew and returns the folder's inode from before and after.
+// Rewrites the single file a.txt and returns the folder's inode before and after.
 std::pair<ino_t, ino_t> inodesAround(const fs::path& target, const std::string& text) {
     struct stat before {
     }, after{};
@@ -62,7 +62,7 @@ TEST(OutputFolder, ALinkStaysALink) {
     EXPECT_EQ(contentsOf(target / "a.txt"), "new");
 }
 
-// Links that somebody planted in the folder, and under the names of a killed program's temporaries.
+// Links planted in the folder, and under the names of a killed program's temporary files.
 TEST(OutputFolder, LinksInsideAreNotFollowed) {
     const fs::path home = folder(), target = home / "report", elsewhere = home / "elsewhere";
     fs::create_directory(target);
@@ -88,7 +88,7 @@ TEST(OutputFolder, LinksInsideAreNotFollowed) {
     EXPECT_EQ(contentsOf(elsewhere / "lit.png"), "theirs");
 }
 
-// A folder of parts beside an output, as a long command keeps it.
+// The checkpoint folder beside an output, used by a long command.
 TEST(CheckpointFolder, ALinkIsRefusedAndItsFolderKept) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
     fs::create_directory(elsewhere);
@@ -121,7 +121,7 @@ TEST(CheckpointFolder, LinksInItAreReplacedAndNotFollowed) {
     EXPECT_EQ(namesIn(home), (std::vector<std::string>{"inner.txt", "mine.json"}));
 }
 
-// A command that goes on writes into folders of scenes that it finds there.
+// A resumed command writes into the scene folders that it finds there.
 TEST(CheckpointFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
     fs::create_directory(elsewhere);
@@ -141,7 +141,7 @@ TEST(CheckpointFolder, LinksInOneThatIsGoneOnWithAreRemoved) {
     EXPECT_EQ(filesIn(elsewhere), std::vector<std::string>{"part.json"});
 }
 
-// Before sbatch is looked for.
+// Fails before looking for sbatch.
 TEST(OutputFolder, ScriptsOfJobsAreNotPutThroughALink) {
     const fs::path home = folder(), elsewhere = home / "elsewhere";
     fs::create_directory(elsewhere);

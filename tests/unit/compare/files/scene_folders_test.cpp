@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which scenes the words of a command line mean: folders, patterns, lists.
+// Scenes selected on the command line: folders, patterns, lists.
 #include "compare/files/scene_folders.h"
 #include "tests/support/files.h"
 

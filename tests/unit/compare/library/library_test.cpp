@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The interface for other programs: the figures are those of diff, and what cannot be compared says why.
+// The library interface: the same metrics as diff, and a reason if images cannot be compared.
 #include "compare/library/diptych.h"
 #include "compare/verdict/measurement.h"
 #include "tests/support/errors.h"
@@ -78,11 +78,11 @@ TEST(Library, LimitsDecide) {
     EXPECT_FALSE(result.passed);
     options.limits.resize(1);
     EXPECT_TRUE(compare({width, height, a}, {width, height, b}, options).passed);
-    // Equal pictures, and one without limits.
+    // Equal images without limits.
     result = compare({width, height, a}, {width, height, a});
     EXPECT_TRUE(result.passed);
     EXPECT_EQ(result.worst_x, -1);
-    // What no figure of a mean sees.
+    // A NaN, which a mean would miss.
     b[3] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(compare({width, height, a}, {width, height, b}).passed);
     options.limits = {{"mean", 1e9}};

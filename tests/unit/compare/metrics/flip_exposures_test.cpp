@@ -12,7 +12,7 @@ namespace diptych {
 namespace {
 
 TEST(FlipExposures, MapTheBrightestAndTheMedianToTheTarget) {
-    // Of luminances 1, 4 and 16 the median is 4. The curves at the x found are 0.85.
+    // Luminances 1, 4 and 16 have the median 4. The curves reach 0.85 at the x found.
     Image image(3, 1, 3);
     for (int x = 0; x < 3; ++x) set(image, x, 0, std::exp2(2.0f * static_cast<float>(x)));
     for (const ToneMapper mapper : {ToneMapper::aces, ToneMapper::reinhard, ToneMapper::hable}) {

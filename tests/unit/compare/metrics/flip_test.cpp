@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FLIP against figures of its authors' program, and against properties that any implementation must have.
+// FLIP, compared with its authors' program and with properties that every implementation must have.
 #include "compare/metrics/flip.h"
 
 #include "compare/metrics/fast_math.h"
@@ -31,7 +31,7 @@ std::string errorOf(const Image& reference, const Image& test, const HdrFlipOpti
     return faultOf([&] { hdrFlip(reference, test, options); });
 }
 
-// The authors' program 1.6 prints six digits; its conversion to XYZ uses a white point rounded to nine
+// The authors' program 1.6 prints six digits. Its XYZ conversion uses a white point rounded to nine
 // digits, which changes black against white by 4e-6.
 constexpr double digits = 1e-5;
 
@@ -47,7 +47,7 @@ TEST(Flip, FlatPicturesAreAsTheAuthorsProgramHasThem) {
     }
 }
 
-// Pictures for which the figures of the authors' program are known, in a folder beside the repository.
+// Images with published results of the authors' program, in a folder beside the repository.
 const fs::path published = fs::path(DIPTYCH_SOURCE_DIR) / "../shared/flip";
 
 Image displayValues(const fs::path& file) {
@@ -94,7 +94,7 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
     const Image display = noise(300, 140, 1), linear = noise(300, 140, 2, 0, 1000);
     EXPECT_EQ(ldrFlip(display, display).max, 0);
     EXPECT_EQ(hdrFlip(linear, linear).max, 0);
-    // 0 and -0 are equal as values but not in their bits: comparing bits alone would miss that.
+    // 0 and -0 are equal values with different bits; comparing bits alone would report a difference.
     Image zero = display, minus = display;
     set(zero, 150, 70, 0.0f);
     set(minus, 150, 70, -0.0f);
@@ -106,7 +106,7 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
 }
 
 TEST(Flip, APartHasTheErrorsOfTheWholeAwayFromItsBorder) {
-    // The widest filter reaches 10 pixels at 67 pixels per degree. In the crop, tiles are at other
+    // The widest filter has a radius of 10 pixels at 67 pixels per degree. In the crop, tiles have other
     // positions.
     const Image a = noise(700, 300, 3), b = noise(700, 300, 4);
     const Image whole = ldrFlip(a, b).error,
@@ -122,7 +122,7 @@ TEST(Flip, APartHasTheErrorsOfTheWholeAwayFromItsBorder) {
 }
 
 TEST(Flip, ADifferenceIsSeenWhereverItIs) {
-    // Equal tiles are skipped, but no difference in a tile's or the picture's corner may be.
+    // Equal tiles are skipped, but differences in a corner of a tile or of the image must not be.
     const Image a = noise(600, 260, 5);
     for (const auto& [x, y] : {std::pair{0, 0}, {599, 259}, {199, 86}, {200, 87}, {299, 130}, {410, 129}}) {
         Image b = a;
@@ -163,8 +163,8 @@ TEST(Flip, ANanIsOnePixelsError) {
 }
 
 TEST(Flip, NeighboursOfHolesAreMeasuredWithoutThem) {
-    // Two flat pictures differ by the same error everywhere; holes, also at the border and wide ones, must
-    // not change it.
+    // Two flat images have the same error everywhere. Holes must not change it, even wide ones or those at
+    // the border.
     Image a = grey(0.5f), b = grey(0.6f);
     const float expected = ldrFlip(a, b).error.at(20, 15);
     set(a, 10, 10, nan);
@@ -175,7 +175,7 @@ TEST(Flip, NeighboursOfHolesAreMeasuredWithoutThem) {
     const FlipResult r = ldrFlip(a, b);
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         const bool hole = !std::isfinite(a.pixel(i)[0] + b.pixel(i)[0]);
-        // Sums of some 400 weights, rounded to 6e-8 each time, divided by their own sum.
+        // Sums of about 400 weights, each rounded to 6e-8, divided by their own sum.
         ASSERT_NEAR(r.error.data[i], hole ? 1 : expected, 1e-4) << i;
     }
     EXPECT_EQ(r.nonfinite_reference, 31u);
@@ -291,8 +291,8 @@ TEST(FlipPowers, AreWithinTheirStatedErrors) {
     EXPECT_EQ(fast::pow(1, 0.3f), 1);
 }
 
-// With what is of the reference kept, of all its exposures, of some and of none; with holes of the reference
-// alone and of a test, too.
+// Keeps the reference's data for all, some or none of the exposures; with holes in the reference only, and
+// in a test too.
 TEST(Flip, AgainstOneReferenceIsTheSameBitForBit) {
     constexpr int width = 300, height = 140;
     for (const bool holed : {false, true}) {

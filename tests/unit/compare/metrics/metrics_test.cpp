@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Statistics of two images against numbers worked out by hand.
+// Statistics of two images, compared with values computed by hand.
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/nonfinite.h"
@@ -49,7 +49,7 @@ TEST(Metrics, PercentilesAreTheNearestRank) {
 }
 
 TEST(Metrics, RelativeIsOverTheBaselinesLargestComponent) {
-    // Blue moves by 1 beside a green of 4.
+    // Blue changes by 1 beside a green of 4.
     const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, rowOf(3, {0, 4, 1}),
                                         rowOf(3, {0, 4, 2}), everyPixel(1));
     EXPECT_EQ(s.max, 0.25);
@@ -120,7 +120,7 @@ TEST(Metrics, TheSameNonFiniteIsNoDifferenceButIsCounted) {
 }
 
 TEST(Metrics, ANonFiniteBaselinePixelDoesNotLiftTheRelativeFloor) {
-    // If infinity were part of the mean, every difference would be divided by infinity and pass.
+    // If the mean included infinity, every difference would be divided by infinity and pass.
     EXPECT_EQ(scalars(Metric::relative, {inf, 1}, {inf, 1.5f}).max, 0.5);
 }
 
@@ -182,7 +182,7 @@ TEST(Metrics, UnequalPixelsSeesBitsOrUlps) {
     EXPECT_EQ(unequalPixels(rowOf(1, {1, 0, nan}), rowOf(1, {1, -0.0f, nan}), 0), 1u) << "-0 is not 0";
     EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {up}), 0), 1u);
     EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {up}), 16), 0u);
-    // 17 steps of 2^-23 beside a largest component of 1, whatever the small component's own step.
+    // 17 steps of 2^-23, relative to the largest component 1, whatever the small component's own step.
     EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 17 * 0x1p-23f}), 16), 1u);
     EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 15 * 0x1p-23f}), 16), 0u);
     EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {nan}), 16), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks and weighted quantiles against sorting.
+// Ranks and weighted quantiles, compared with sorting.
 #include "compare/metrics/order.h"
 #include "tests/support/nonfinite.h"
 
@@ -54,7 +54,7 @@ TEST(Order, WhatIsNotThereDoesNotCount) {
 }
 
 TEST(Order, WeightedQuantilesByHand) {
-    // The sum is 16: 1, 2, 4, 8, 16 after each.
+    // Total 16; cumulative sums 1, 2, 4, 8, 16.
     const std::vector<float> values{2, 8, 1, 0, 4, 1};
     const Order order(values);
     EXPECT_EQ(order.sum(), 16);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structural similarity against its formula written out, and against closed forms.
+// Structural similarity, compared with its formula and with closed forms.
 #include "compare/metrics/ssim.h"
 
 #include "compare/metrics/standard.h"
@@ -63,7 +63,7 @@ double window(const Image& a, const Image& b, int x, int y) {
     return (2 * ma * mb + c1) * (2 * covariance + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
 }
 
-// Variances of some 0.08, computed as differences of floats below 2, have a relative error of some 1e-6.
+// Variances of about 0.08, as differences of floats below 2, have a relative error of about 1e-6.
 constexpr double floats = 1e-5;
 
 TEST(Ssim, IsTheMeanOfItsWindows) {
@@ -80,7 +80,7 @@ TEST(Ssim, CountsWindowsWhoseMiddleIsCovered) {
     const Image a = plane(40, 37, 3), b = plane(40, 37, 4);
     std::vector<std::uint8_t> covered(a.pixels());
     covered[40 * 20 + 17] = covered[40 * 9 + 30] = 1;
-    covered[2] = 1;  // no window around it
+    covered[2] = 1;  // no complete window around it
     EXPECT_NEAR(ssim(a, b, covered).value(), (window(a, b, 17, 20) + window(a, b, 30, 9)) / 2, floats);
     std::fill(covered.begin() + 3, covered.end(), std::uint8_t{0});
     EXPECT_FALSE(ssim(a, b, covered).has_value());
@@ -126,7 +126,7 @@ double ofColors(const Image& a, const Image& b, Range range) {
 }
 
 TEST(Ssim, OfDisplayColoursIsOfTheirLuma) {
-    // Red of 0.5 and grey of 0.2126 times that have one luma.
+    // Red of 0.5 and grey of 0.2126 x 0.5 have the same luma.
     const Image red = flat(20, 20, 0.5f, 0, 0), grey = flat(20, 20, 0.1063f, 0.1063f, 0.1063f);
     EXPECT_NEAR(ofColors(red, grey, Range::display), 1, floats);
     EXPECT_LT(ofColors(red, flat(20, 20, 0.5f, 0.5f, 0.5f), Range::display), 0.9);
@@ -138,7 +138,7 @@ TEST(Ssim, OfLinearColoursDoesNotDependOnTheirUnit) {
     for (float& v : a1000.data) v *= 1024;
     for (float& v : b1000.data) v *= 1024;
     EXPECT_NEAR(ofColors(a, b, Range::linear), ofColors(a1000, b1000, Range::linear), 1e-6);
-    // Flat: the reference shows as sRGB of 0.18 / 1.18, a test twice as bright as of 0.36 / 1.36.
+    // Flat: the reference's display value is sRGB of 0.18 / 1.18, a test twice as bright has 0.36 / 1.36.
     const auto srgb = [](double v) { return 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
     const double p = srgb(0.18 / 1.18), q = srgb(0.36 / 1.36);
     EXPECT_NEAR(ofColors(flat(20, 20, 3, 3, 3), flat(20, 20, 6, 6, 6), Range::linear),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of two pictures against numbers worked out by hand.
+// Metrics of two images, compared with values computed by hand.
 #include "compare/metrics/standard.h"
 #include "tests/support/test_pictures.h"
 
@@ -29,7 +29,7 @@ StandardMetrics vectors(PixelData reference, PixelData test) {
 }
 
 TEST(StandardMetrics, ByHand) {
-    // Differences 0, 0.5, 0.25, 0; all exact in binary but the relative ones.
+    // Differences 0, 0.5, 0.25, 0; all exact in binary except the relative ones.
     const StandardMetrics m = scalars({1, 2, 3, 4}, {1, 2.5f, 2.75f, 4});
     EXPECT_EQ(m.mse, 0.078125);
     EXPECT_EQ(m.rmse, std::sqrt(0.078125));
@@ -146,7 +146,7 @@ TEST(StandardMetrics, AnglesByHand) {
     EXPECT_EQ(vectors({0, 0, 1}, {0, 0, 3}).angle_max, 0) << "another length";
     EXPECT_EQ(vectors({0, 0, 0}, {0, 0, 1}).angle_max, 180);
     EXPECT_EQ(vectors({1, 0, 0, 0, 1, 0}, {0, 1, 0, 0, 1, 0}).angle_mean, 45);
-    // A float acos has a resolution of 0.02 degrees.
+    // A float32 acos would resolve only 0.02 degrees.
     EXPECT_NEAR(vectors({0, 0, 1}, {0, 1e-6f, 1}).angle_max, 1e-6 * 180 / 3.14159265358979, 1e-10);
     EXPECT_EQ(vectors({0, 0, 1}, {0, nan, 1}).angle_max, endless);
     EXPECT_EQ(colors(rowOf(3, {1, 0, 0}), rowOf(3, {0, 1, 0})).angle_max, 0) << "colours have none";

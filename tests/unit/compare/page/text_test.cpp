@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers and names as every page and table shows them.
+// Numbers and names in pages and tables.
 #include "compare/page/text.h"
 
 #include "shared/contract/debug_mode.h"

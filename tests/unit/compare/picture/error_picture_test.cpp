@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Error maps, light counts and ranges as pictures: the colours of single pixels, and that the legends beside
-// them say what those colours mean.
+// Error maps, light counts and ranges as images: colours of single pixels, and legends that match them.
 #include "compare/page/text.h"
 #include "compare/picture/heat.h"
 #include "compare/picture/picture.h"
@@ -27,8 +26,8 @@ Rgb pixelOf(const Image8& image, std::size_t i) {
     return {p[0], p[1], p[2]};
 }
 
-// Oklab's lightness and hue of a display colour (Ottosson 2020: the way forward, of which the map computes
-// the way back).
+// Oklab lightness and hue of a display colour (Ottosson 2020). This is the forward conversion; the map
+// uses its inverse.
 struct Seen {
     double lightness, hue;
 };
@@ -50,9 +49,8 @@ Seen seen(const Rgb& color) {
     return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, hue < 0 ? hue + 360 : hue};
 }
 
-// The map's lightness is linear in the root of the error: 0.22 where it begins, 0.97 at the top. A byte's
-// half step is 0.004 of lightness at most, and colours that no display shows are clipped, which moves them by
-// up to 0.012.
+// The map's lightness is linear in the square root of the error: from 0.22 to 0.97. Half a byte step is at
+// most 0.004 of lightness; clipping colours outside the display's gamut adds up to 0.012.
 TEST(ErrorPicture, LightnessIsLinearInTheRootOfTheErrorsShareOfTheTop) {
     const double shares[] = {1e-4, 1e-3, 0.01, 1.0 / 16, 0.1, 0.25, 0.4, 9.0 / 16, 0.75, 1};
     for (const double top : {1e-6, 0.37, 1.0, 2500.0}) {
@@ -64,7 +62,7 @@ TEST(ErrorPicture, LightnessIsLinearInTheRootOfTheErrorsShareOfTheTop) {
             const double root = std::sqrt(shares[i]);
             EXPECT_NEAR(seen(pixelOf(picture, i)).lightness, 0.22 + 0.75 * root, 0.016)
                 << top << " x " << shares[i];
-            // As close as the map's 253 colours: half a step of them is no more than two bytes.
+            // The map has 253 colours; half a step between them is at most two bytes.
             for (std::size_t c = 0; c < 3; ++c)
                 EXPECT_NEAR(pixelOf(picture, i)[c], errorColor(root)[c], 2) << top << " x " << shares[i];
         }
@@ -89,7 +87,7 @@ TEST(ErrorPicture, OnlyWhatIsAboveTheTopIsBeyond) {
     EXPECT_EQ(pixelOf(picture, 4), beyondColor);
 }
 
-// What is beyond keeps its order: paler, and white from a thousand times on.
+// Errors out of tolerance keep their order: paler, and white from a thousand times the top.
 TEST(ErrorPicture, BeyondTheTopColoursAreOrdered) {
     Image errors(6, 1, 1);
     errors.data = {0.6f, 5, 50, 490, 500, 1e9f};
@@ -102,7 +100,7 @@ TEST(ErrorPicture, BeyondTheTopColoursAreOrdered) {
 
 // ---- The page's legend ----
 
-// The card's difference: its picture, the ramp's colours and the words below it.
+// The card's difference: its image, the ramp's colours and the text below.
 struct Legend {
     Image8 picture;
     std::vector<Rgb> stops;
@@ -111,7 +109,7 @@ struct Legend {
     std::string swatches;
 };
 
-// `stage`: of which of the card's pictures, the difference or the pair's left one.
+// `stage` selects one of the card's images: the difference, or the left one of the pair.
 Legend legendOf(const Report& report, const std::filesystem::path& out, const std::string& channel,
                 const std::string& stage = "<figure><div class=\"stage\">") {
     writeReport(report, out, {});
@@ -143,7 +141,7 @@ Legend legendOf(const Report& report, const std::filesystem::path& out, const st
     return legend;
 }
 
-// Four pixels of roughness are off by these errors.
+// Four pixels whose roughness differs by these errors.
 Report withErrors(const std::array<double, 4>& errors) {
     std::vector<Frame> frames(2);
     for (const Path path : {Path::deferred, Path::forward_plus}) {
@@ -160,7 +158,7 @@ Report withErrors(const std::array<double, 4>& errors) {
     return reportOf(std::move(frames));
 }
 
-// What the encoding may change roughness by.
+// Quantization error bound of roughness.
 double roughnessTolerance() {
     const Report report = withErrors({0, 0, 0, 0});
     return std::ranges::find(report.comparisons[0].channels, gpu::DEBUG_roughness,
@@ -174,7 +172,7 @@ bool alike(const Rgb& a, const Rgb& b) {
     return true;
 }
 
-// Left 0, in the middle a quarter of the end (the ramp is over the root), right the tolerance: pixels with
+// Left 0, middle a quarter of the end (the ramp uses the square root), right the tolerance. Pixels with
 // these errors have the ramp's colours there.
 TEST(ErrorPicture, ThePagesLegendIsOfThePicture) {
     const double tolerance = roughnessTolerance();
@@ -197,7 +195,8 @@ TEST(ErrorPicture, ThePagesLegendIsOfThePicture) {
         EXPECT_EQ(legend.stops[i], errorColor(static_cast<double>(i) / 12)) << i;
 }
 
-// Nothing is beyond: no swatch. Without a tolerance the map ends at the largest error.
+// Without errors out of tolerance there is no swatch. Without a tolerance the map ends at the largest
+// error.
 TEST(ErrorPicture, TheLegendNamesItsEnd) {
     const double tolerance = roughnessTolerance();
     Report report = withErrors({tolerance / 4, tolerance / 2, 0, 0});
@@ -230,7 +229,7 @@ std::pair<Image8, std::string> shown(int mode, const std::vector<Frame>& frames)
     return {channelPicture(debugMode(mode), frames[0], range), range.words};
 }
 
-// Both panels share a range; bytes are linear in it.
+// Both images share a range; bytes are linear in it.
 TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
     const auto [depth, words] = shown(gpu::DEBUG_depth, {rowFrame(gpu::DEBUG_depth, {1, 2, 3, 4}),
                                                          rowFrame(gpu::DEBUG_depth, {5, 2, 2, 2})});
@@ -253,7 +252,7 @@ TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
 
 // ---- Light counts ----
 
-// Dark blue, cyan, green, yellow, red, white at fifths of the top, mixed evenly between them.
+// Dark blue, cyan, green, yellow, red, white at fifths of the top, interpolated linearly.
 constexpr Rgb heatStops[] = {{20, 20, 90},   {20, 130, 190},  {40, 190, 90},
                              {235, 215, 60}, {250, 150, 110}, {255, 255, 255}};
 
@@ -284,7 +283,7 @@ TEST(HeatPicture, TheTopIsTheNextRoundNumber) {
         EXPECT_EQ(heatTop(largest), top) << largest;
 }
 
-// On a page the picture has nothing in it: the legend stands below, with title, unit and the map's colours.
+// On a page the image has no legend inside. It is below, with title, unit and the map's colours.
 TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames) {
@@ -304,7 +303,7 @@ TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
     }
 }
 
-// The legend's words, read back from its pixels.
+// Reads the legend's text back from its pixels.
 TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
     static const std::map<std::string, char> font{{"###"
                                                    "# #"
@@ -363,7 +362,7 @@ TEST(HeatPicture, TheLegendInThePictureStatesTheScale) {
             x += 2;
         }
         EXPECT_EQ(words, expected);
-        // The bar above them: 100 pixels, each the colour of its middle.
+        // The bar above: 100 pixels, each with the colour of its centre.
         for (int x = 0; x < 100; ++x) EXPECT_EQ(at(3 + x, 52), heatColor((x + 0.5) / 100)) << x;
         for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(heatColor(static_cast<double>(i) / 5), heatStops[i]);
         for (int y = 0; y < 40; ++y)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Channels as pictures.
+// Channels as images.
 #include "compare/picture/picture.h"
 #include "tests/support/report_builder.h"
 
@@ -12,7 +12,7 @@
 namespace diptych {
 namespace {
 
-// One bright pixel in twenty: exposure by the log-average alone would overexpose it.
+// A tenth of the pixels is bright; exposure by the log-average alone would overexpose it.
 TEST(Picture, HighlightsHoldTheAutomaticExposure) {
     Image lit(20, 1, 3, 0.01f);
     for (int x = 0; x < 2; ++x)
@@ -22,7 +22,7 @@ TEST(Picture, HighlightsHoldTheAutomaticExposure) {
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
 }
 
-// Three pixels of a hundred are no highlights to expose for: the 95th percentile is not among them.
+// Three pixels of a hundred do not set the exposure: they are above the 95th percentile.
 TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
     Image lit(100, 1, 3, 0.01f);
     for (int x = 0; x < 20; ++x)
@@ -32,7 +32,7 @@ TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 4, 1e-6);
 }
 
-// What is one object has one colour, and neighbouring numbers have others.
+// One object has one colour; neighbouring ids have different colours.
 TEST(Picture, AnIdHasItsColour) {
     Frame frame = bothFrames()[0];
     const DebugMode& ids = debugMode(gpu::DEBUG_material_id);
@@ -77,8 +77,8 @@ TEST(Picture, SrgbByTheStandard) {
     EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
 }
 
-// Properties of the tone curve: below its shoulder it only subtracts the Fresnel offset of 0.04; it stays
-// within [0, 1] and is monotonic.
+// Below its shoulder the tone curve only subtracts the Fresnel offset of 0.04. It is monotonic and stays
+// within [0, 1].
 TEST(Picture, PbrNeutral) {
     const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
     EXPECT_FLOAT_EQ(mid[0], 0.46f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every probe by itself, without a device: the limits suffice for a device that is as inexact as Vulkan
-// allows, and are not so wide that they forgive a fault.
+// Each probe without a device: a device as inexact as Vulkan allows passes, and the limits are tight
+// enough to find a fault.
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t some_rows = 4096;
 
-// What a device would give that is `off` by that share.
+// Results of a device with the error that Vulkan allows.
 std::vector<float> inexactRows(const Probe& probe, const std::vector<float>& in) {
     std::vector<float> out(in.size() / probe.ins * probe.outs);
     for (std::size_t i = 0; i * probe.ins < in.size(); ++i)
@@ -44,7 +44,7 @@ TEST(DeviceProbes, EachHasANameInputsAndAReason) {
     }
 }
 
-// What a probe that doubles a number gives of results that are `factor` times as large; in a line of four.
+// Result of a probe that doubles a number, if the outputs are `factor` times as large; four rows.
 Result doubled(const Probe& probe, float factor) {
     const std::vector<float> in = inputsOf(probe, 0, 4);
     std::vector<float> out;
@@ -75,7 +75,7 @@ TEST(DeviceProbes, TheTableAndTheJsonSayWhatFailsAndOfWhichInput) {
     EXPECT_NE(table.find("FAIL: 1 of 2 probes, 8 results"), std::string::npos) << table;
     EXPECT_NE(table.find("3 instead of 2 (0 allowed) for input 1"), std::string::npos) << table;
     EXPECT_NE(table.find("allowed: a product"), std::string::npos) << table;
-    // A good one's table has a line a probe, and no reason.
+    // A passing probe's table has one line per probe and no reason.
     const std::string good = tableOf(std::span(results).first(1), false);
     EXPECT_EQ(std::ranges::count(good, '\n'), 4) << good;
     EXPECT_NE(good.find("pass: 1 of 1 probes"), std::string::npos) << good;
@@ -96,7 +96,7 @@ TEST(DeviceProbes, AStepBackFailsWhereNoDeviceMayTakeIt) {
     EXPECT_EQ(judge().tally.backward, 1u) << "it is counted";
 }
 
-// The same inputs in whatever pieces they are made.
+// A row's inputs do not depend on how many rows are made at once.
 TEST(DeviceProbes, ARowsInputsFollowFromItsNumber) {
     for (const Probe& probe : allProbes()) {
         const std::vector<float> all = inputsOf(probe, 0, 8), last = inputsOf(probe, 7, 1);

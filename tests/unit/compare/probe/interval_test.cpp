@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of what Vulkan allows, and what is counted of results.
+// Interval arithmetic with Vulkan's error bounds, and the counts of results.
 #include "compare/probe/inexact.h"
 #include "compare/probe/probe.h"
 
@@ -23,7 +23,7 @@ TEST(Interval, WhatIsExactStays) {
     EXPECT_EQ((half + three).width(), 0);
     EXPECT_EQ((half * three).lo, 1.5);
     EXPECT_EQ((three - half).hi, 2.5);
-    // A third is not, nor is a tenth of float32 times itself.
+    // 0.1f * 0.1f is not exact in float32.
     EXPECT_EQ((Interval(0.1f) * Interval(0.1f)).width(), ulpOf(0.01));
 }
 
@@ -41,7 +41,7 @@ TEST(Interval, WidthsAreThoseOfVulkansTable) {
     EXPECT_EQ((Interval(0x1p-100f) * Interval(0x1p-30f)).lo, 0) << "a denormal may be 0";
 }
 
-// Every operation's result on this machine, which rounds to nearest, is among those allowed.
+// This machine rounds to nearest; each of its results must lie within the interval.
 TEST(Interval, HoldsWhatThisMachineComputes) {
     Random random(1);
     for (int i = 0; i < 20000; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that is equal from all directions: the reference's integral against closed forms and brute force,
-// and the paths' integral against the reference's.
+// Uniform ambient light: the reference's integral against closed forms and brute force, and the paths'
+// integral against the reference's.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
@@ -16,14 +16,14 @@ Reflected ambientAlbedo(const Surface& s) {
     return {diffuseAlbedo(s), specularAlbedo(s)};
 }
 
-// Integrates over all directions of the hemisphere, with parameters that do not depend on the lobe.
+// Integrates over the hemisphere with parameters that do not depend on the lobe.
 Reflected bruteForce(const Surface& surface) {
     const Brdf brdf(surface);
     const auto integrand = [&](double u, double v) {
         const double cosine = u, sine = std::sqrt(1 - u * u), phi = 2 * pi * v;
         return brdf({sine * std::cos(phi), sine * std::sin(phi), cosine}) * (2 * pi);
     };
-    // At least 8 x 8 cells, then adaptively.
+    // At least 8 x 8 cells, then adaptive.
     const auto mustSplit = [](const Cell& cell) {
         return cell.u1 - cell.u0 > 0.125 ? Split::u : cell.v1 - cell.v0 > 0.125 ? Split::v : Split::none;
     };
@@ -42,7 +42,7 @@ TEST(ReferenceAmbient, AWhiteLambertianSurfaceSendsItBack) {
 }
 
 // Height-correlated Smith masking at normal incidence and alpha = 1: D = 1 / pi, G / (4 n.l) = 1 / (2 (1 +
-// n.l)), so that the integral of 2 n.l / (2 (1 + n.l)) over n.l from 0 to 1 is 1 - ln 2.
+// n.l)). The integral of 2 n.l / (2 (1 + n.l)) over n.l from 0 to 1 is 1 - ln 2.
 TEST(ReferenceAmbient, ARoughMirrorSeenFromAboveLosesTheLogarithmOfTwo) {
     EXPECT_NEAR(ambientAlbedo(mirror(1, 0)).specular.g, 1 - std::numbers::ln2, 1e-6);
 }
@@ -72,7 +72,7 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
                 s.dielectric_f0 = glm::dvec3(0.04);
                 s.dielectric_f90 = 1;
                 const Reflected share = ambientAlbedo(s);
-                // A base under Schlick's layer is weighted by 1 - F of the half vector, and so gains energy
+                // A base under Schlick's layer is weighted by 1 - F of the half vector, so it gains energy
                 // at grazing angles.
                 EXPECT_LE(share.specular.g, 1 + 1e-6);
                 EXPECT_LE(share.diffuse.g, 1 + 1e-6);
@@ -81,7 +81,7 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
         }
 }
 
-// The paths' own integrals are derived differently; compared from the smoothest to the roughest, at all
+// The paths' own integrals have another derivation. Compared from the smoothest to the roughest, at all
 // angles.
 TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
     for (const double roughness : {0.045, 0.07, 0.15, 0.3, 0.6, 1.0})
@@ -96,7 +96,7 @@ TEST(ReferenceAmbient, ThePathsTabulateTheSame) {
         }
 }
 
-// The table that the shaders read, read as its contract says, is the integral.
+// The shaders' table contains the integral, read as its contract says.
 TEST(ReferenceAmbient, TheTableHoldsTheIntegrals) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();

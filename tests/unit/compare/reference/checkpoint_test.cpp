@@ -22,7 +22,7 @@ void write(const Path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// Two records of three floats, in an empty folder; returns the stem.
+// Two records of three floats in an empty folder; returns the stem.
 Path twoRecords() {
     const Path stem = folder() / "kept";
     Checkpoint checkpoint(stem, key, 3);
@@ -64,7 +64,7 @@ TEST(ReferenceCheckpoint, WhereverTheFileEndsWhatIsWholeCounts) {
         const std::size_t whole = size < head ? 0 : (size - head) / record;
         EXPECT_EQ(numbersAt(stem).size(), whole) << size;
         if (size < head) continue;
-        // Writing continues after it.
+        // Writing continues after the valid records.
         write(file, bytes.substr(0, size));
         {
             Checkpoint checkpoint(stem, key, 3);
@@ -86,7 +86,7 @@ TEST(ReferenceCheckpoint, EveryBitCounts) {
     }
 }
 
-// ---- of other pictures -------------------------------------------------------------------------------
+// ---- other images ------------------------------------------------------------------------------------
 
 TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
     const Path stem = twoRecords();
@@ -95,7 +95,7 @@ TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "nothing is lost";
 }
 
-// Pictures whose keys differ only in the half that is not in the name, or whose records have another size.
+// Images whose keys differ only in the half that the name lacks, or whose records have another size.
 TEST(ReferenceCheckpoint, WhatHasItsNameByChanceIsLeftAlone) {
     const Path stem = twoRecords();
     EXPECT_TRUE(numbersAt(stem, key ^ 1).empty());
@@ -132,7 +132,7 @@ TEST(ReferenceCheckpoint, WhatOthersLeftIsNamed) {
     EXPECT_TRUE(abandonedCheckpoints(folder() / "absent" / "kept").empty());
 }
 
-// ---- of one picture, at once -------------------------------------------------------------------------
+// ---- one image, two programs -------------------------------------------------------------------------
 
 TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
     const Path stem = twoRecords();
@@ -152,7 +152,7 @@ TEST(ReferenceCheckpoint, TwoAtOnceHaveAFileEach) {
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12, 13}));
 }
 
-// Of two programs the second was killed before it had written anything.
+// The second of two programs was killed before it wrote anything.
 TEST(ReferenceCheckpoint, WhatWasJustBegunIsRemoved) {
     const Path stem = twoRecords(), second = stem.parent_path() / (std::string(keptName) + "-2");
     for (const std::size_t size : {0, 10}) {
@@ -168,7 +168,7 @@ TEST(ReferenceCheckpoint, TheFirstToFinishTakesNothingFromTheOther) {
         Checkpoint one(stem, key, 3), two(stem, key, 3);
         two.keep(12, secondValues);
         one.remove();
-        one.keep(13, secondValues);  // after remove() nothing is kept
+        one.keep(13, secondValues);  // after remove() nothing is stored
         EXPECT_EQ(namesIn(stem.parent_path()), Names{std::string(keptName) + "-2"});
     }
     EXPECT_EQ(numbersAt(stem), (Numbers{10, 11, 12})) << "with what it had from the first";
@@ -203,7 +203,7 @@ TEST(ReferenceCheckpoint, WhatCannotBeWrittenIsNamed) {
     }
 }
 
-// A full disk, simulated by a limit that only leaves room for the head.
+// A full disk, simulated by a limit that only fits the header.
 TEST(ReferenceCheckpoint, WhatFindsNoRoomIsAnError) {
     const Path stem = folder() / "kept";
     struct rlimit before {};

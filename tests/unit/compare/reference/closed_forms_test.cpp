@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's lights on a white plane, against closed forms.
+// The reference's lights on a white plane, compared with closed forms.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/punctual.h"
@@ -9,7 +9,7 @@
 namespace diptych::reference {
 namespace {
 
-// The quadrature's tolerance is 2e-6 of the integral; its actual error is far smaller.
+// The quadrature's tolerance is 2e-6 of the integral; the actual error is far smaller.
 constexpr double exact = 1e-6;
 
 void expectRelative(double value, double expected, double tolerance = exact) {
@@ -70,13 +70,13 @@ TEST(ReferenceClosedForms, RectanglesByLambertsFormula) {
             }
 }
 
-// Most of the light arrives from a millionth of its area.
+// Most of the light arrives from a millionth of the area.
 TEST(ReferenceClosedForms, ALargeLightNearby) {
     for (const double height : {1e-4, 1e-2}) {
         Light rect = lightOf(LightKind::rect, {31, 17, height});
         rect.width = rect.height = 100;
         expectRelative(irradianceBy(rect, lambertian()), lambertIrradiance(cornersOf(rect), {0, 0, 1}));
-        rect.position = {31, height, 0};  // its lower half below the horizon
+        rect.position = {31, height, 0};  // the lower half is below the horizon
         rect.direction = {0, -1, 0};
         rect.axis = {1, 0, 0};
         const glm::dvec3 n = glm::normalize(glm::dvec3(0, 0.01, 1));
@@ -117,8 +117,8 @@ TEST(ReferenceClosedForms, LightsEndAtTheirRangeExactly) {
 
 // ---- tube --------------------------------------------------------------------------------------------
 
-// The outline of a cylinder seen from the origin: two lines along its side and, at each end, half of the
-// rim: the far half if the cap is visible, otherwise the near half.
+// Outline of a cylinder seen from the origin: two lines along its side and half of each rim. It is the far
+// half if the cap is visible, otherwise the near half.
 std::vector<glm::dvec3> outlineOf(const Light& tube) {
     const glm::dvec3 axis = tube.axis, c = tube.position;
     const double radius = tube.radius, half_length = double{tube.length} / 2, along = -glm::dot(c, axis);
@@ -151,11 +151,11 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
     const std::vector<Case> cases{
         {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.1f, 1},          // above
         {{0, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.9f, 3},          // thick and near
-        {{3, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.3f, 2},          // beside its end, which is seen
+        {{3, 0, 1}, {1, 0, 0}, {0, 0, 1}, 0.3f, 2},          // beside its end, which is visible
         {{1.5, 0.1, 0}, {1, 0, 0}, {1, 0, 0.2}, 0.4f, 2},    // on its axis: only the cap is visible
         {{0, 0, 2}, {0.2, 0.1, 1}, {0, 0, 1}, 0.25f, 1},     // cap and side
-        {{0.7, 0.4, 0.2}, {0, 0.3, 1}, {0, 0, 1}, 0.2f, 3},  // its axis through the horizon
-        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.3f, 1},          // its axis on the horizon
+        {{0.7, 0.4, 0.2}, {0, 0.3, 1}, {0, 0, 1}, 0.2f, 3},  // the axis crosses the horizon
+        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.3f, 1},          // the axis lies on the horizon
         {{0.6, -0.2, 0.5}, {1, 0, -1}, {0.3, 0, 1}, 0.1f, 4}, {{0, 0, 5}, {1, 0, 0}, {0, 0, 1}, 0.001f, 100}};
     for (const Case& c : cases) {
         Light tube = lightOf(LightKind::tube, c.position);
@@ -169,7 +169,8 @@ TEST(ReferenceClosedForms, TubesByTheirOutline) {
     }
 }
 
-// As its radius r goes to 0, an infinite tube at distance d gives E = pi r L / d on a surface that faces it.
+// In the limit of radius r to 0, an infinite tube at distance d gives E = pi r L / d on a surface facing
+// it.
 TEST(ReferenceClosedForms, ALongThinTubeIsALine) {
     Light tube = lightOf(LightKind::tube, {0, 0, 2});
     tube.axis = {0, 1, 0};
@@ -194,7 +195,7 @@ TEST(ReferenceClosedForms, ASunsIlluminanceDoesNotDependOnItsAngle) {
         sun.angle = angle;
         sun.intensity = 7;
         expectRelative(irradianceBy(sun, lambertian()), 7);
-        // A disc wholly above the horizon has the irradiance of its centre.
+        // A disc entirely above the horizon has the irradiance of its centre.
         if (angle < 1) expectRelative(irradianceBy(sun, lambertian({1, 0, 1})), 7 / std::sqrt(2.0));
     }
 }
@@ -214,8 +215,8 @@ TEST(ReferenceClosedForms, ASunOnTheHorizon) {
     }
 }
 
-// On a sufficiently rough surface a small disc is equal to a direction, with a difference proportional to
-// the square of the angle.
+// On a sufficiently rough surface a small disc equals a directional light; the difference is proportional
+// to the squared angle.
 TEST(ReferenceClosedForms, ASunsDiscGoesToADirection) {
     Surface s = mirror(0.5, 0.7);
     s.metallic = 0.5;

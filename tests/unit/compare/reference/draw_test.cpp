@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole pictures of the reference: every light and channel, shadows, threads, resuming.
+// Complete images of the reference: every light and channel, shadows, threads, resuming.
 #include "tests/support/reference_scene.h"
 
 #include "compare/reference/checkpoint.h"
@@ -24,7 +24,7 @@ namespace {
 const LightKind kinds[] = {LightKind::directional, LightKind::point, LightKind::spot,
                            LightKind::rect,        LightKind::disc,  LightKind::tube};
 
-// The value of one pixel that looks straight down at the floor's centre, in float32.
+// Value of one pixel that looks straight down at the floor's centre, float32.
 double seenBelow(const Scene& scene, bool shadows = false) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
     return double{d[gpu::DEBUG_lit].at(0, 0, 0)};
@@ -32,8 +32,7 @@ double seenBelow(const Scene& scene, bool shadows = false) {
 
 // ---- kinds and channels ------------------------------------------------------------------------------
 
-// The irradiance of each kind of light on the floor below it, by its formula; a kind that is missing here
-// fails.
+// Irradiance of each light type on the floor below it, by formula. A new type that is missing here fails.
 double irradianceOf(const Light& light) {
     switch (light.kind) {
         case LightKind::directional:
@@ -113,7 +112,7 @@ TEST(ReferenceDraw, Channels) {
 
 // ---- shadows -----------------------------------------------------------------------------------------
 
-// A roof of 1 m, 1 m above the floor's middle, between it and the light; the camera is below it.
+// A roof of 1 m, 1 m above the floor's centre, between floor and light; the camera is below the roof.
 Scene roofed(const Material& of, LightKind kind = LightKind::point) {
     Scene scene = floorScene();
     scene.materials.push_back(of);
@@ -147,7 +146,7 @@ TEST(ReferenceDraw, WhatCastsAShadow) {
     EXPECT_NEAR(below(roofed(m)), 0.25, 1e-6) << "cut out";
     m.base_color.a = 0.51f;
     EXPECT_EQ(below(roofed(m)), 0);
-    // Occluders beyond the light and beside it cast no shadow.
+    // Occluders beyond or beside the light cast no shadow.
     Scene scene = roofed(matte());
     scene.lights[0].position.z = 0.9;
     EXPECT_NEAR(below(scene), 1 / 0.81, 1e-5);
@@ -170,8 +169,8 @@ TEST(ReferenceDraw, AMaskThrowsTheShadowOfItsHoles) {
     EXPECT_EQ(below(scene), 0);
 }
 
-// glTF 2.0, 3.9.4: alpha that equals the cutoff is opaque, whatever code it has and however a float rounds
-// that. Seen from above as by the light.
+// glTF 2.0, 3.9.4: alpha equal to the cutoff is opaque, for every 8-bit code and its float rounding.
+// Tested from the camera above and from the light.
 TEST(ReferenceDraw, AlphaThatEqualsTheCutoffIsOpaque) {
     Material m = matte();
     m.alpha_mode = AlphaMode::mask;
@@ -190,7 +189,7 @@ TEST(ReferenceDraw, AlphaThatEqualsTheCutoffIsOpaque) {
     }
 }
 
-// With shadows, light from behind the triangle does not reach it; without them only the shading normal
+// With shadows, light from behind the triangle does not reach it. Without shadows only the shading normal
 // decides.
 TEST(ReferenceDraw, LightFromBehindTheTriangle) {
     Scene scene = floorScene();
@@ -211,15 +210,15 @@ TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     add(scene, quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 1));
     add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 1));
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 8 + 0.75 * 1), 1e-6);
-    // Two at one place: the later one is in front.
+    // Two at the same depth: the later one is in front.
     scene.materials.push_back(m);
     scene.materials.back().emissive = {4, 4, 4};
     add(scene, quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}, 2));
     EXPECT_NEAR(seenBelow(scene), 0.25 * 8 + 0.75 * (0.25 * 4 + 0.75 * (0.25 * 8 + 0.75 * 1)), 1e-6);
 }
 
-// A lamp on a ceiling whose float32 vertices are rounded to above it, in it or below it: its light arrives,
-// and an object between still casts a shadow.
+// A light on a ceiling whose float32 vertices are rounded above, onto or below it. Its light arrives, and
+// an object between still casts a shadow.
 TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     for (const double height : {2.0, 2.3, 2.5, 2.7}) {
         Scene scene = floorScene();
@@ -243,8 +242,8 @@ TEST(ReferenceDraw, ALampMayLieOnACeiling) {
     }
 }
 
-// The mean of many samples of a coarse picture equals that of a fine one, also at silhouettes, wherever the
-// pixels' centres are.
+// The mean of a coarse image with many samples equals that of a fine image, also at silhouettes and for
+// any pixel centres.
 TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
     Scene scene = floorScene();
     scene.materials[0].emissive = {1, 1, 1};
@@ -264,7 +263,7 @@ TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
 
 // ---- threads and interruptions -----------------------------------------------------------------------
 
-// A light that is sampled, and a sky of that radiance.
+// A sampled light, and an environment with radiance `sky`.
 Scene sampledScene(float sky = 0) {
     Scene scene = roofed(matte(), LightKind::rect);
     scene.environment = Environment{"sky", Image(8, 4, 3, sky)};
@@ -305,13 +304,13 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
     expectSame(whole.picture, again.picture);
     EXPECT_GE(rest, 1);
     EXPECT_LE(rest, 9 - 4) << "of nine tiles four are done";
-    // The finished file remains until the caller removes it.
+    // The finished file stays until the caller removes it.
     rest = 0;
     expectSame(whole.picture, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).picture);
     EXPECT_EQ(rest, 0);
 }
 
-// Everything that decides a pixel also decides whether a file belongs to the same picture.
+// Everything that affects a pixel also decides whether a file belongs to the same image.
 TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
     Scene scene = sampledScene();
     scene.lights[0].kind = LightKind::point;
@@ -321,7 +320,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         {"material", [](Scene& s, View&) { s.materials[1].roughness = 0.5f; }},
         {"geometry", [](Scene& s, View&) { s.meshes[0].primitives[1].positions[0].x -= 1; }},
         {"node", [](Scene& s, View&) { s.nodes[0].parent_from_node[3].z = 0.1; }},
-        {"sky", [](Scene& s, View&) { s.environment->radiance.data[0] = -0.0f; }},  // as black, in other bits
+        {"sky", [](Scene& s, View&) { s.environment->radiance.data[0] = -0.0f; }},  // also black, other bits
         {"sky's shape",
          [](Scene& s, View&) { s.environment->radiance.width = 4, s.environment->radiance.height = 8; }},
         {"camera", [](Scene&, View& v) { v.camera.world_from_camera[3].x += 0.1; }},
@@ -336,7 +335,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
         Scene changed = scene;
         View view = sampledView;
         change(changed, view);
-        // The first progress report tells the number of tiles that are left.
+        // The first progress report reveals how many tiles remain.
         std::mutex one;
         double least = 1;
         const auto first = [&](double fraction) {
@@ -351,7 +350,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
     }
 }
 
-// What a picture will take is known from pixels spread over all of it, and soon.
+// The run-time estimate uses pixels from the whole image and is available early.
 TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
     std::array<std::array<std::atomic<int>, 4>, 4> drawn{};
     const auto slow = [&](int x, int y) {
@@ -360,7 +359,7 @@ TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
     };
     const auto seconds = reference::expectedSeconds(200, 200, slow);
     ASSERT_TRUE(seconds.has_value());
-    // 40,000 pixels of at least 1 ms, on all cores.
+    // 40,000 pixels of at least 1 ms each, on all cores.
     EXPECT_GE(*seconds, 40.0 / tbb::info::default_concurrency() / 2);
     int all = 0;
     for (const auto& row : drawn)
@@ -370,7 +369,7 @@ TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
         }
     EXPECT_LE(all, 400) << "a hundredth";
     EXPECT_FALSE(reference::expectedSeconds(200, 200, [](int, int) {}).has_value()) << "done at once";
-    // However long a pixel takes, it ends.
+    // The estimate ends however long a pixel takes.
     std::atomic<int> few = 0;
     reference::expectedSeconds(
         4000, 4000, [&](int, int) { ++few, std::this_thread::sleep_for(std::chrono::milliseconds(10)); },

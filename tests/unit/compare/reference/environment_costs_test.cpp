@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What approximations of an environment cost, and what geometry hides of it, against closed forms.
+// Errors of environment lighting approximations, and the light that geometry occludes, compared with
+// closed forms.
 #include "compare/reference/environment_costs.h"
 #include "shared/environment/harmonics.h"
 #include "tests/support/reference_scene.h"
@@ -40,7 +41,7 @@ TEST(ReferenceEnvironmentCosts, ItsHarmonicsAreThePaths) {
     }
 }
 
-// Only what is sampled is open there.
+// The bounds only cover sampling noise.
 TEST(ReferenceEnvironmentCosts, AConstantSkyCostsNothing) {
     Surface s = mirror(0.5, 0.7);
     s.metallic = 0;
@@ -56,8 +57,8 @@ TEST(ReferenceEnvironmentCosts, AConstantSkyCostsNothing) {
     EXPECT_LE(costs.lobe, 3 * 0.2);
 }
 
-// Of a sun at the zenith a Lambertian plane gets E / pi = L / pi; order 2 gives (1 + 2 + 5 / 4) / 4 pi of it,
-// and on the other side (1 - 2 + 5 / 4) / 4 pi where there is nothing.
+// A sun at the zenith gives a Lambertian plane E / pi = L / pi. Order 2 gives (1 + 2 + 5 / 4) / 4 pi of
+// it. On the opposite side it gives (1 - 2 + 5 / 4) / 4 pi, where it should be 0.
 TEST(ReferenceEnvironmentCosts, ASunsHarmonicsAreOffByAClampedCosines) {
     Environment sky = evenSky(0, 128, 64);
     for (int c = 0; c < 3; ++c) sky.radiance.at(31, 31, c) = 1000;
@@ -73,7 +74,7 @@ TEST(ReferenceEnvironmentCosts, ASunsHarmonicsAreOffByAClampedCosines) {
     EXPECT_EQ(turned.lobe, 0);
 }
 
-// A light that fills half a lobe costs the split sum much, and less from straight above.
+// Light that fills half a lobe gives the split sum a large error, smaller when seen from straight above.
 TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
     Environment sky = evenSky(0.1f, 64, 32);
     for (int x = 0; x < 64; ++x)
@@ -81,7 +82,7 @@ TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
             for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 5;
     Surface above = mirror(0.6, 0), grazing = mirror(0.6, 1.4);
     for (Surface* s : {&above, &grazing}) {
-        // From +Z up to +Y up.
+        // Rotates from +Z up to +Y up.
         s->normal = {0, 1, 0};
         s->to_viewer = {s->to_viewer.x, s->to_viewer.z, 0};
     }
@@ -90,9 +91,9 @@ TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
     EXPECT_GE(b.split[0] / b.lobe, 0.2);
 }
 
-// ---- what geometry hides -----------------------------------------------------------------------------
+// ---- occlusion by geometry ---------------------------------------------------------------------------
 
-// The mean share that is hidden of a floor, seen from above about (0.05, 0, 0).
+// Mean occluded fraction of light on a floor, seen from above around (0.05, 0, 0).
 double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
     const Pose pose = poseAt(scene, 0);
     const View view = viewFrom({0.05, 0.01, 2}, {0.05, 0, 0}, 12, 12, glm::radians(1.0));
@@ -118,7 +119,7 @@ TEST(ReferenceSurroundings, AWallHidesHalf) {
     Scene scene = floorScene();
     scene.environment = evenSky(1);
     EXPECT_EQ(hiddenShare(scene, glm::dvec3(0)), 0);
-    // Of height H at a distance x: (1 - x / sqrt(x^2 + H^2)) / 2.
+    // Occluded by a wall of height H at distance x: (1 - x / sqrt(x^2 + H^2)) / 2.
     add(scene, quad({0, -1000, 0}, {0, 2000, 0}, {0, 0, 1000}));
     EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0)), 0.5, 0.01);
     scene.environment->radiance = Image(2, 1, 3, 0.25f);

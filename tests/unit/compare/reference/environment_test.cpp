@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference under environments: directions, furnaces, and its stated confidence.
+// The reference under environments: directions, furnace tests, and its confidence intervals.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/environment.h"
@@ -22,8 +22,8 @@ Shading under(const Environment& sky, const Surface& s, std::uint64_t seed, doub
     return Lighting({}, &sky, factor, {0, 0, 0})(s, {}, seed);
 }
 
-// scene.h: azimuth 2 pi (x + 0.5) / width - pi, 0 at -Z and positive towards +X; pi (y + 0.5) / height from
-// +Y.
+// scene.h: azimuth 2 pi (x + 0.5) / width - pi, 0 at -Z, positive towards +X; polar angle pi (y + 0.5) /
+// height from +Y.
 glm::dvec3 ofTexel(double x, double y, int width, int height) {
     const double azimuth = 2 * pi * (x + 0.5) / width - pi, down = pi * (y + 0.5) / height;
     return {std::sin(down) * std::sin(azimuth), std::cos(down), -std::sin(down) * std::cos(azimuth)};
@@ -37,7 +37,8 @@ TEST(ReferenceEnvironment, EachTexelIsWhereTheSceneSaysItIs) {
         for (int x = 0; x < 8; ++x)
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(light.radiance(ofTexel(x, y, 8, 4))[c], 2 * ((y * 8 + x) * 3 + c), 1e-10);
-    // The axes, by hand: -Z is between columns 3 and 4, rows 1 and 2; +X between 5 and 6; +Z across the seam.
+    // The axes by hand: -Z is between columns 3 and 4, rows 1 and 2; +X between columns 5 and 6; +Z at the
+    // seam.
     const auto mean = [&](int a, int b) { return 3.0 * (8 + a + 8 + b + 16 + a + 16 + b) / 4 * 2; };
     EXPECT_NEAR(light.radiance({0, 0, -1}).r, mean(3, 4), 1e-10);
     EXPECT_NEAR(light.radiance({1, 0, 0}).r, mean(5, 6), 1e-10);
@@ -45,7 +46,7 @@ TEST(ReferenceEnvironment, EachTexelIsWhereTheSceneSaysItIs) {
     EXPECT_NEAR(light.radiance({0, 0, 1}).r, mean(0, 7), 1e-10);
 }
 
-// Under it alone all that is reflected is its part, whatever is followed between microfacets.
+// Without other lights, all reflected light is the environment's share, with any multiple scattering.
 TEST(ReferenceEnvironment, ItsPartOfTheLightIsToldApart) {
     const Environment sky = sunnySky(3, 2);
     Surface s = mirror(0.9, 0.5);
@@ -88,7 +89,7 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
                                 std::abs(y) == 1 ? 101 : 1e-3)
                         << y << " " << turn;
         }
-    // Through a pole: rows continue half a turn further.
+    // Across a pole, rows continue rotated by 180 degrees.
     for (int i = 0; i < 16; ++i) {
         const double turn = 2 * pi * i / 16;
         const glm::dvec3 aside(step * std::sin(turn), 0, step * std::cos(turn)), up(0, 1, 0);
@@ -99,7 +100,7 @@ TEST(ReferenceEnvironment, PolesAndSeamAreContinuous) {
     }
 }
 
-// The stated density is that of the samples, and is never 0 where there is light that matters.
+// The stated density is that of the samples, and never 0 where there is relevant light.
 TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
     const Environment sky = sunnySky(15, 1);
     const EnvironmentLight light(sky, 1);
@@ -130,7 +131,7 @@ TEST(ReferenceEnvironment, SamplesComeAsOftenAsTheDensitySays) {
                 sum += density * solid;
             }
         EXPECT_NEAR(sum, 1, 1e-12);
-        // One step of the grid in either direction at each edge is allowed.
+        // Allows one grid step in either direction at each edge.
         for (std::size_t i = 0; i < drawn.size(); ++i)
             EXPECT_NEAR(drawn[i], said[i], 4.0 / steps * said[i] + 2e-3) << i;
     }
@@ -142,8 +143,8 @@ TEST(ReferenceEnvironment, ABlackSkyIsNone) {
     EXPECT_EQ(under(constantSky(1), lambertian(), 1, 0).reflected.size(), 0);
 }
 
-// A plane under a constant sky shows its albedo; with F = 1 the furnace's figures. Of independent errors 95
-// % are within the stated confidence, and none beyond four times of it.
+// A plane under a constant environment shows its albedo; with F = 1, the furnace's values. Of independent
+// errors, 95 % must be within the stated confidence interval, and none beyond four times it.
 void expectConfident(const Environment& sky, const Surface& s, double expected, double worst) {
     int within = 0;
     double mean = 0;
@@ -152,7 +153,7 @@ void expectConfident(const Environment& sky, const Surface& s, double expected, 
         const Shading shading = under(sky, s, static_cast<std::uint64_t>(seed) * 7919);
         const double value = shading.reflected.diffuse.r + shading.reflected.specular.r;
         within += std::abs(value - expected) <= std::max(shading.uncertainty, 1e-12 * expected);
-        EXPECT_LE(shading.uncertainty, 1.03 * worst * expected);  // it is relative to the estimate
+        EXPECT_LE(shading.uncertainty, 1.03 * worst * expected);  // relative to the estimate
         EXPECT_LE(std::abs(value - expected), 4 * shading.uncertainty + 1e-12 * expected) << seed;
         mean += value / seeds;
     }
@@ -169,11 +170,11 @@ TEST(ReferenceEnvironment, ALambertianPlaneUnderAConstantSkyIsItsAlbedo) {
 TEST(ReferenceEnvironment, TheWhiteFurnacesFigures) {
     expectConfident(constantSky(1), mirror(0.5, 0), 0.9158, samplingError);
     expectConfident(constantSky(1), mirror(1, 0), 0.3069, samplingError);
-    // The narrowest lobe loses almost nothing: its albedo, by sums over its half vectors, is 0.99998.
+    // The narrowest lobe loses almost nothing: its albedo, summed over half vectors, is 0.99998.
     expectConfident(constantSky(1), mirror(0.045, 0), 0.99998, samplingError);
 }
 
-// Against a sum over all directions: on the seam, and at a pole.
+// Compared with a sum over all directions: at the seam, and at a pole.
 TEST(ReferenceEnvironment, OneBrightTexel) {
     for (const glm::ivec2 texel : {glm::ivec2(15, 3), {7, 0}}) {
         const Environment sky = sunnySky(texel.x, texel.y);
@@ -191,20 +192,19 @@ TEST(ReferenceEnvironment, OneBrightTexel) {
     }
 }
 
-// Skies with few pixels, which extend from far below to above the horizon, and a lobe that sees nothing of
-// that part.
+// Environments with few pixels, which extend from far below the horizon to above it, and a lobe that does
+// not see this part.
 TEST(ReferenceEnvironment, ASmoothLayerOverAWhiteBaseUnderACoarseSky) {
     Surface s = lambertian({0.2, 1, 0.1});
     s.roughness = 0.045;
     s.dielectric_f0 = glm::dvec3(0.04);
-    s.dielectric_f90 =
-        0.04;  // as much from everywhere: 0.96 of the light reaches the base, the rest is mirrored
+    s.dielectric_f90 = 0.04;  // F90 = F0: 0.96 of the light reaches the base, the rest is mirrored
     s.to_viewer = s.normal;
     for (const glm::ivec2 size : {glm::ivec2(2, 1), {4, 2}, {8, 4}, {16, 8}, {64, 32}})
         expectConfident(constantSky(1, size.x, size.y), s, 0.96 + 0.04 * 0.99998, samplingError);
 }
 
-// Noise correlated between neighbours would be visible as a pattern.
+// Noise correlated between neighbouring pixels would be visible as a pattern.
 TEST(ReferenceEnvironment, NeighboursErrAlone) {
     const Environment sky = constantSky(1);
     constexpr int pixels = 400;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The key of a reference picture: parts that were kept of one picture are taken for no other.
+// The key of a reference image: a checkpoint of one image is never used for another.
 #include "compare/reference/picture_key.h"
 
 #include "tests/support/reference_scene.h"
@@ -11,7 +11,7 @@
 namespace diptych::reference {
 namespace {
 
-// Everything that a Request points to, each part of it there.
+// Everything that a Request points to, with all parts present.
 struct Asked {
     Scene scene = floorScene();
     Pose pose;
@@ -251,7 +251,7 @@ TEST(ReferenceKey, IsOfTheGeometryAndItsPose) {
     expectKeysOfTheirOwn(changes);
 }
 
-// Surfaces that a path captured hold all that mode surface shades, but for what casts shadows.
+// Captured surfaces contain everything that mode surface shades, except shadow casters.
 TEST(ReferenceKey, OfSurfacesTheSceneCountsWhereItCastsShadows) {
     for (const bool shadows : {false, true}) {
         Asked one, other;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's results for glTF files, against values computed by hand: a fault in the loader, which both
-// paths and the reference share, would not show otherwise.
+// The reference's results for glTF files, compared with values computed by hand. Both paths and the
+// reference share the loader, so only this finds its faults.
 #include "tests/support/gltf_builder.h"
 #include "tests/support/png_builder.h"
 #include "tests/support/reference_scene.h"
@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A square of 2 m at z = 0 that faces +Z; u runs along +X, v down: (0, 0) is its left upper corner.
+// A square of 2 m at z = 0 that faces +Z. u runs along +X, v down; (0, 0) is the upper left corner.
 GltfFile square(const Json& material = Json::object()) {
     GltfFile f;
     f.json["nodes"] = {{{"mesh", 0}}};
@@ -31,7 +31,7 @@ GltfFile square(const Json& material = Json::object()) {
     return f;
 }
 
-// Adds RGB pixels as texture 0, without interpolation between them.
+// Adds RGB pixels as texture 0, with nearest filtering.
 void addTexture(GltfFile& f, std::uint32_t width, const std::vector<std::vector<std::uint8_t>>& rows) {
     std::ofstream(testFolder() / "texture.png", std::ios::binary) << pngOf({.width = width, .rows = rows});
     f.json["images"] = {{{"uri", "texture.png"}}};
@@ -39,7 +39,7 @@ void addTexture(GltfFile& f, std::uint32_t width, const std::vector<std::vector<
     f.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
 }
 
-// Four by four pixels of the square, from the front; the left upper one is (0, 0).
+// Four by four pixels of the square, from the front; (0, 0) is the upper left one.
 Drawn front(const Scene& scene) {
     View view = viewFrom({0, 0, 3}, {0, 0, 0}, 4, 4);
     view.camera.orthographic = true;
@@ -56,9 +56,9 @@ void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tole
 
 // ---- nodes -------------------------------------------------------------------------------------------
 
-// A triangle whose normal is (0, -1, 1) / sqrt(2), stretched along y by 2: (0, -1, 2) / sqrt(5); then turned
-// by -90 degrees around x, (x, y, z) to (x, z, -y): (0, 2, 1) / sqrt(5). A third of each corner: (1/3, 1/3,
-// -2/3).
+// A triangle with the normal (0, -1, 1) / sqrt(2). Stretching along y by 2 gives (0, -1, 2) / sqrt(5);
+// rotating by -90 degrees around x, (x, y, z) to (x, z, -y), gives (0, 2, 1) / sqrt(5). Its centroid is
+// (1/3, 1/3, -2/3).
 TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     GltfFile f;
     const double s = std::sqrt(0.5);
@@ -77,7 +77,7 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     f.json["nodes"] = {{{"children", {1, 2}}, {"rotation", {-s, 0, 0, s}}},
                        {{"mesh", 0}, {"scale", {1, 2, 1}}},
                        {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"scale", {5, 5, 5}}}};
-    // The light shines along -Z of its node: rotated with it, along -Y.
+    // The light shines along its node's -Z, here rotated to -Y.
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.25}}}};
     const glm::dvec3 place(1.0 / 3, 1.0 / 3, -2.0 / 3);
@@ -92,8 +92,8 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
 
 // ---- lights ------------------------------------------------------------------------------------------
 
-// 2 m before the square, 8 cd: at (0.25, 0.25) d^2 = 4.125, the cosine 2 / d, twice: towards it and from its
-// axis.
+// 8 cd, 2 m in front of the square. At (0.25, 0.25) d^2 = 4.125; the cosine 2 / d counts twice, at the
+// surface and from the light's axis.
 TEST(ReferenceLoader, ASpotInItsUnits) {
     GltfFile f = square();
     f.json["extensionsUsed"].push_back("KHR_lights_punctual");
@@ -113,7 +113,7 @@ TEST(ReferenceLoader, ASpotInItsUnits) {
     for (const int x : {1, 2})
         for (const int y : {1, 2})
             EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
-    // The cone's edge is at tan(0.5) 2 = 1.09 m, the corner pixels' centres at 1.06.
+    // The cone's edge is at tan(0.5) 2 = 1.09 m, the corner pixels' centres at 1.06 m.
     EXPECT_GT(d[gpu::DEBUG_lit].at(0, 0, 1), 0);
     EXPECT_LT(d[gpu::DEBUG_lit].at(0, 0, 1), 0.01f);
 }
@@ -138,7 +138,7 @@ TEST(ReferenceLoader, AnAreaLightOfExtras) {
 
 // ---- textures ----------------------------------------------------------------------------------------
 
-// 255 0 0 | 0 128 0 over 0 0 55 | 255 255 255. IEC 61966-2-1: 128 is 0.215861, 55 is 0.038204.
+// Rows 255 0 0 | 0 128 0 and 0 0 55 | 255 255 255. IEC 61966-2-1: 128 is 0.215861, 55 is 0.038204.
 TEST(ReferenceLoader, ATexturesFirstRowIsOnTop) {
     GltfFile f = square({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     addTexture(f, 2, {{255, 0, 0, 0, 128, 0}, {0, 0, 55, 255, 255, 255}});
@@ -152,7 +152,7 @@ TEST(ReferenceLoader, ATexturesFirstRowIsOnTop) {
     }
 }
 
-// Roughness from green, metallic from blue, occlusion from red, all linear.
+// Roughness in green, metallic in blue, occlusion in red, all linear.
 TEST(ReferenceLoader, TheOrderOfMetallicAndRoughness) {
     const Json slot = {{"index", 0}};
     Json occlusion = slot;
@@ -177,7 +177,7 @@ TEST(ReferenceLoader, EmissionHasAStrength) {
     expectNear(at(front(f.load())[gpu::DEBUG_emission], 1, 1), {20 * 0.2158605, 10, 0}, 1e-5);
 }
 
-// Red points along u; green to the texture's top, which here is +Y (glTF 2.0, 3.9.3).
+// Red points along u, green to the texture's top, here +Y (glTF 2.0, 3.9.3).
 TEST(ReferenceLoader, ANormalMapsRedIsRightAndGreenIsUp) {
     const auto normalOf = [](const std::vector<std::uint8_t>& pixel, double scale) {
         GltfFile f = square({{"normalTexture", {{"index", 0}, {"scale", scale}}}});

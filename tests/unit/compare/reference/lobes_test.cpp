@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's material, and its reflection of area lights, against formulas and sums made independently
-// here.
+// The reference's material and its reflection of area lights, compared with independent formulas and sums.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/brdf.h"
@@ -10,8 +9,8 @@
 namespace diptych::reference {
 namespace {
 
-// glTF 2.0, appendix B, with KHR_materials_specular's f0 and f90, as written there: V = G / (4 n.l n.v) of
-// the height-correlated Smith term, D of Trowbridge and Reitz. Of the first colour component.
+// glTF 2.0, appendix B, with f0 and f90 of KHR_materials_specular: V = G / (4 n.l n.v) of the
+// height-correlated Smith term, D of Trowbridge and Reitz. First colour component only.
 double appendixB(const Surface& s, const glm::dvec3& l) {
     const double nl = glm::dot(s.normal, l), nv = glm::dot(s.normal, s.to_viewer);
     if (nl <= 0) return 0;
@@ -53,7 +52,8 @@ TEST(ReferenceLobes, TheMaterialIsAppendixB) {
                     for (const double turn : {0.0, 1.0, pi}) {
                         const Surface s = plastic(roughness, view, metallic);
                         const double expected = appendixB(s, direction(light, turn));
-                        // For the narrowest lobe the rounding error of (n.h)^2 (a^2 - 1) + 1 is 2e-16 / a^2.
+                        // For the narrowest lobe (n.h)^2 (a^2 - 1) + 1 has a rounding error of 2e-16 /
+                        // a^2.
                         EXPECT_NEAR(red(Brdf(s)(direction(light, turn))), expected, 1e-9 * expected);
                     }
     EXPECT_EQ(red(Brdf(plastic(0.3, 0.5, 0.5))(direction(1.6, 0))), 0) << "below the horizon";
@@ -72,18 +72,19 @@ TEST(ReferenceLobes, LightAndViewerMayChangePlaces) {
             }
 }
 
-// A bound of the model (compare/reference/README.md, "The model"): a roughness below 0.045 is 0.045.
+// A limit of the model (compare/reference/README.md, "The model"): roughness below 0.045 is clamped to
+// 0.045.
 TEST(ReferenceLobes, AMirrorIsAsRoughAsTheModelsSmoothest) {
     const glm::dvec3 l = direction(0.501, pi);
     EXPECT_EQ(red(Brdf(mirror(0, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));
     EXPECT_NE(red(Brdf(mirror(0.05, 0.5))(l)), red(Brdf(mirror(0.045, 0.5))(l)));
 }
 
-// ---- light from all around ---------------------------------------------------------------------------
+// ---- uniform light -----------------------------------------------------------------------------------
 
-// Integrates over the hemisphere by half vectors distributed as D (n.h) (Walter et al. 2007), with even
-// steps in both random numbers and `steps` over half a turn; the viewer is in the plane of x and z. They are
-// densest at the mirrored direction.
+// Integrates over the hemisphere by half vectors distributed as D (n.h) (Walter et al. 2007). Both random
+// numbers take even steps, with `steps` over half a turn. The viewer is in the xz plane; points are
+// densest at the mirror direction.
 double hemisphere(const Surface& s, int steps) {
     const Brdf brdf(s);
     const double a2 = std::pow(std::max(s.roughness, 0.045), 4);
@@ -100,7 +101,7 @@ double hemisphere(const Surface& s, int steps) {
     return sum * 2 / (double{1} * steps * steps);
 }
 
-// "White furnace": the figures for a GGX of F = 1 with height-correlated Smith masking, seen straight on.
+// White furnace: values for GGX with F = 1 and height-correlated Smith masking, seen straight on.
 TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
     EXPECT_NEAR(hemisphere(mirror(0.5, 0), 400), 0.9158, 5e-5);
     EXPECT_NEAR(hemisphere(mirror(1, 0), 400), 0.3069, 5e-5);
@@ -109,7 +110,7 @@ TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
             EXPECT_LE(hemisphere(mirror(roughness, angle), 200), 1 + 1e-4);
 }
 
-// The loss in %, averaged over all directions of light and viewer, cosine-weighted.
+// Loss in %, averaged over all directions of light and viewer, cosine-weighted.
 TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
     const std::vector<std::pair<double, double>> losses{{0.2, 0.59}, {0.4, 5.97}, {0.5, 11.8},
                                                         {0.6, 19.7}, {0.8, 39.6}, {1.0, 59.1}};
@@ -122,10 +123,10 @@ TEST(ReferenceLobes, TheWhiteFurnacesLosses) {
     }
 }
 
-// ---- light from an area ------------------------------------------------------------------------------
+// ---- area lights -------------------------------------------------------------------------------------
 
 // Simpson's rule with the substitution x = middle + width sinh t: points are dense within `width` of the
-// lobe's middle. The derivative is a further factor.
+// lobe's centre. The derivative is an additional factor.
 struct Crowded {
     double from, to, middle, width;
     template <class F>
@@ -143,7 +144,7 @@ struct Crowded {
     }
 };
 
-// A rectangle at z = 1 facing down, from x0 to x1 and y0 to y1; the lobe's middle is at `mirrored`.
+// A rectangle at z = 1 facing down, from x0 to x1 and y0 to y1; the lobe's centre is at `mirrored`.
 double ceilingLight(const Surface& s, const glm::dvec4& extent, const glm::dvec2& mirrored) {
     const double alpha = s.roughness * s.roughness;
     const Crowded along_x{extent.x, extent.y, mirrored.x, alpha},
@@ -164,8 +165,8 @@ Light ceilingRect(const glm::dvec4& e) {
     return light;
 }
 
-// The mirrored direction in the middle of the light, in a corner, on an edge, and beside it; sizes are exact
-// in float32.
+// The mirror direction hits the light's centre, a corner or an edge, or misses it. Sizes are exact in
+// float32.
 TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
     for (const double roughness : {0.045, 0.1, 0.3, 1.0})
         for (const double angle : {0.0, 0.6, 1.2})
@@ -177,8 +178,7 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
                                                 {0, 8, -4, 4},
                                                 {0.125, 1, 0.25, 1},
                                                 {-0.015625, 0.5, -0.015625, 0.0625}}) {
-                    // In float32 the light's centre is not exact: relative to the narrowest lobe, by 1e-7 /
-                    // alpha.
+                    // The light's float32 centre is off by 1e-7 / alpha, relative to the narrowest lobe.
                     Light light = ceilingRect(place);
                     light.position.x += m.x;
                     const glm::dvec4 e = place + glm::dvec4(m.x, m.x, 0, 0);
@@ -191,7 +191,7 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
             }
 }
 
-// At a grazing angle the lobe becomes a streak, which the plane's horizon cuts.
+// At a grazing angle the lobe becomes a streak, cut by the plane's horizon.
 TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
     for (const double roughness : {0.045, 0.2, 0.6}) {
         const Surface s = plastic(roughness, 1.5, 0);
@@ -212,8 +212,8 @@ TEST(ReferenceLobes, AWallSeenAtAGrazingAngle) {
     }
 }
 
-// A disc and a tube that fill the lobe show a mirror's radiance, whatever their outline: the sum over the
-// hemisphere tells how much of 1 F, masking and D leave.
+// A disc and a tube that fill the lobe show the mirror's albedo, whatever their outline. The hemisphere's
+// sum gives this albedo for F = 1.
 TEST(ReferenceLobes, ALightThatFillsTheLobeIsSeenInIt) {
     const Surface s = mirror(0.045, 0.4);
     const double all = hemisphere(s, 300);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What the reference says of the shadows of points and spots: how much is seen of them, and how far an edge
-// is.
+// The reference's results for shadows of point and spot lights: their visibility, and the distance to a
+// shadow's edge.
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {
 namespace {
 
-// A floor at z = 0 under two lights 2 m above the origin and 2 m to its left, and a screen 1 m above the
-// floor, over x > 0, whose edge throws the first one's shadow from x = 0 on. The picture's one pixel is at x.
+// A floor at z = 0 under a point light 2 m above the origin and a spot light 2 m to the left of it. A
+// screen 1 m above the floor covers x > 0; its edge casts the point light's shadow from x = 0 on. The
+// image's only pixel is at x.
 Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
     Scene scene = floorScene();
     add(scene, quad({0, -4, 1}, {4, 0, 0}, {0, 8, 0}));
@@ -35,7 +36,8 @@ TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
     EXPECT_EQ(visibility(seenAt(0.2, {0})), 0);
     EXPECT_EQ(visibility(seenAt(0.2, {})), 1) << "none casts";
     EXPECT_EQ(visibility(seenAt(0.2, {2})), 1) << "an area light is none of these";
-    // The point is hidden; the spot is aslant by 47.7 degrees, 2.7 within its cone of 45, and is seen.
+    // The point light is occluded. The spot light is visible: the direction is 47.7 degrees from the
+    // vertical, 2.7 degrees off the axis of its cone of 45 degrees.
     const double point = 1 / (4 + 0.04);
     const glm::dvec3 path = glm::normalize(glm::dvec3(2.2, 0, -2));
     const double cone =
@@ -44,8 +46,8 @@ TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
     EXPECT_NEAR(visibility(seenAt(0.2, {0, 1})), spot / (point + spot), 1e-6);
 }
 
-// As a share of the distance from the light, across its rays; a little less, as eight directions are
-// followed.
+// Relative to the distance from the light, across its rays; slightly less, because only eight directions
+// are searched.
 TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
     for (const double x : {-0.4, -0.05, 0.05, 0.4}) {
         const Picture picture = seenAt(x, {0});
@@ -61,7 +63,7 @@ TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
     EXPECT_TRUE(seenAt(0.2, {}).local_shadow_edge.empty());
 }
 
-// Light is the same where neither edges nor what is seen are asked for, and the picture has neither.
+// Without edges and visibility the light is the same, and the image has neither channel.
 TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
     for (const double x : {-0.2, 0.2}) {
         const Picture with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The microsurface by random walk: its single reflection is the analytic BRDF, none of its light is lost, and
-// how far the compensations are from it.
+// The microsurface by random walk: its single reflection is the analytic BRDF, it loses no light, and the
+// compensations' distance from it is known.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
@@ -25,7 +25,7 @@ Surface metal(double roughness, double cosine, double f0) {
     return s;
 }
 
-// A path in the surface's frame: how many facets it meets, where it leaves and what is left of it.
+// A path in the surface's frame: number of reflections, exit direction and remaining weight.
 struct Walk {
     int reflections = 0;
     glm::dvec3 direction{0};
@@ -41,13 +41,13 @@ Walk walk(double roughness, const glm::dvec3& from, Random& random, double f0 = 
     return result;
 }
 
-// An estimate of f(l, v) n.l of two reflections and more.
+// An estimate of f(l, v) n.l for two and more reflections.
 glm::dvec3 again(const Between& paths, const glm::dvec3& to_light, Random& random) {
     return paths.path(random, [&](const Between::Add& add) { add(to_light, glm::dvec3(1)); }).direct *
            paths.share();
 }
 
-// Half a 99.99 % confidence interval of a mean of values in [0, 1] with that mean.
+// Half a 99.99 % confidence interval of the mean of values in [0, 1] with this mean.
 double uncertain(double mean, int count) {
     return 3.9 * std::sqrt(mean * (1 - mean) / count);
 }
@@ -58,7 +58,7 @@ struct Angle {
 constexpr Angle angles[] = {{0.3, 1.0}, {0.3, 0.1},  {0.6, 0.8}, {0.6, 0.05},
                             {0.8, 0.3}, {1.0, 0.95}, {1.0, 0.02}};
 
-// What leaves after one reflection is the integral of GGX with height-correlated masking.
+// Light that leaves after one reflection is the integral of GGX with height-correlated masking.
 TEST(ReferenceMicrosurface, ItsSingleReflectionIsTheBrdf) {
     constexpr int walks = 100'000;
     for (const auto& [roughness, cosine] : angles) {
@@ -71,7 +71,7 @@ TEST(ReferenceMicrosurface, ItsSingleReflectionIsTheBrdf) {
     }
 }
 
-// Every path ends, above the surface, whatever the angle: where F = 1 nothing stays.
+// Every path ends above the surface, at any angle. With F = 1 no light is lost.
 TEST(ReferenceMicrosurface, EveryPathLeaves) {
     for (const auto& [roughness, cosine] : angles) {
         Random random(2);
@@ -86,8 +86,8 @@ TEST(ReferenceMicrosurface, EveryPathLeaves) {
     }
 }
 
-// A white furnace by direction: single reflections by the analytic BRDF, the others by the estimate for each
-// direction of light, which holds phase function, masking and D against each other.
+// A white furnace by direction: single reflections by the analytic BRDF, the others by the estimate for
+// each light direction. This checks phase function, masking and D against each other.
 TEST(ReferenceMicrosurface, AWhiteConductorVanishesInAFurnace) {
     for (const auto& [roughness, cosine] : angles) {
         const Surface s = mirror(roughness, std::acos(cosine));
@@ -96,7 +96,7 @@ TEST(ReferenceMicrosurface, AWhiteConductorVanishesInAFurnace) {
         Random random(3);
         double sum = 0, squares = 0;
         for (int i = 0; i < walks; ++i) {
-            // By the cosine.
+            // Cosine-weighted.
             const glm::dvec3 l = towards(std::sqrt(1 - random()), 2 * pi * random());
             const double value = again(paths, l, random).g * pi / l.z;
             sum += value;
@@ -122,11 +122,11 @@ TEST(ReferenceMicrosurface, IsReciprocal) {
         there += again(paths_a, b, random) / (b.z * walks);
         back += again(paths_b, a, random) / (a.z * walks);
     }
-    // Single estimates deviate by less than three times their mean.
+    // The standard deviation of single estimates is less than three times their mean.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(there[c] / back[c], 1, 3.9 * 3 * std::sqrt(2.0 / walks)) << c;
 }
 
-// The mean over cosine-weighted views of a white conductor of alpha 1 after one reflection.
+// Mean over cosine-weighted views of a white conductor with alpha 1 after one reflection.
 TEST(ReferenceMicrosurface, ARoughMirrorReflectsFourTenthsAtOnce) {
     constexpr int walks = 200'000;
     Random random(5);
@@ -136,8 +136,8 @@ TEST(ReferenceMicrosurface, ARoughMirrorReflectsFourTenthsAtOnce) {
     EXPECT_NEAR(static_cast<double>(once) / walks, 0.409, 0.0005 + uncertain(0.409, walks));
 }
 
-// The reference with --multiscatter walk: what is reflected of light from everywhere is all of it where F =
-// 1, and of the sun what the estimate gives.
+// The reference with --multiscatter walk: with F = 1 it reflects all ambient light, and of the sun what
+// the estimate gives.
 TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
     const auto shaded = [](const Surface& s, std::span<const Light> lights, double ambient) {
         return Lighting(lights, nullptr, 1, {0, 0, 0}, glm::dvec3(ambient), {}, false, Multiscatter::walk)(
@@ -154,7 +154,7 @@ TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
                 << roughness << " " << cosine;
             EXPECT_LE(shading.uncertainty, 0.02) << roughness << " " << cosine;
         }
-    // A dielectric's base gets what its layer leaves, of which the walk is a small part.
+    // A dielectric's base gets the light that its layer transmits; the random walk is a small part.
     Surface s = mirror(0.9, 0.5);
     Light sun = lightOf(LightKind::directional, {}, {0.3, 0.4, -1});
     s.metallic = 0;
@@ -162,7 +162,7 @@ TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
     s.dielectric_f90 = 1;
     EXPECT_NEAR(shaded(s, std::span(&sun, 1), 0).reflected.diffuse.g,
                 Brdf(s, compensationOf(s, Multiscatter::energy))(-sun.direction).diffuse.g, 1e-3);
-    // A sun, and a disc that covers as little of the sky.
+    // A sun, and a disc with the same solid angle.
     s.metallic = 1;
     s.albedo = {0.9, 0.6, 0.2};
     Light disc = lightOf(LightKind::disc, sun.direction * -10.0, sun.direction);
@@ -180,9 +180,9 @@ TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
     }
 }
 
-// Of light from everywhere what `compensation` sends back, less what the walk does: the mean over
-// cosine-weighted views, and half the integral of the difference over directions of light for a view 45
-// degrees aside, as a share of the walk's: light that comes from elsewhere than it should.
+// Difference of `compensation` from the random walk under ambient light. energy: reflected light, mean
+// over cosine-weighted views. shape: half the integrated absolute difference over light directions,
+// relative to the walk, for a view at 45 degrees. It measures light from wrong directions.
 struct Distance {
     double energy, shape;
 };
@@ -228,8 +228,8 @@ Distance distanceOf(Multiscatter compensation, double roughness, double f0, int 
     return {energy, apart / (2 * all)};
 }
 
-// Rows of the table of shared/environment/MEASURED.md, which is made with a hundred times as many walks: with
-// 36 bins these alone are some 0.015 apart in shape. Both compensations come far nearer than none; the
+// Rows of the table in shared/environment/MEASURED.md, which uses a hundred times as many walks. With 36
+// bins these walks alone differ by some 0.015 in shape. Both compensations are far closer than none; the
 // Lambertian lobe has the better shape.
 TEST(ReferenceMicrosurface, HowFarTheCompensationsAre) {
     struct Row {

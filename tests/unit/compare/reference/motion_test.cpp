@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's pictures of animated scenes: skins, morph targets and animations at a given time.
+// The reference's images of animated scenes: skins, morph targets and animations at a given time.
 #include "tests/support/reference_scene.h"
 
 #include "compare/reference/geometry.h"
@@ -38,8 +38,8 @@ bool isSurface(const Picture& picture, int x, int y) {
     return at(picture, gpu::DEBUG_material_id, x, y).x >= 0;
 }
 
-// A patch of 1 m at x = -1, animated from 0 s to 1 s, without other objects. Seen from +Z with one pixel a
-// metre: 5 by 5 pixels around the origin.
+// A patch of 1 m at x = -1, animated from 0 s to 1 s, without other objects. Seen from +Z with one pixel
+// per metre: 5 by 5 pixels around the origin.
 Scene patch() {
     Scene scene;
     scene.materials = {matte()};
@@ -73,7 +73,7 @@ Scene byAJoint() {
     Scene scene = patch();
     Primitive& p = scene.meshes[0].primitives[0];
     p.joint_sets = {{std::vector<glm::u16vec4>(4, {1, 0, 0, 0}), std::vector<glm::vec4>(4, {1, 0, 0, 0})}};
-    // The first joint is at rest and moves nothing.
+    // The first joint does not move.
     scene.skins = {{"", {2, 1}, {glm::mat4(1), glm::mat4(1)}, -1}};
     scene.nodes[0].skin = 0;
     animate(scene, 1, AnimatedPart::translation, {0, 0, 0, 2, 0, 1}, 3);
@@ -106,7 +106,8 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     }
 }
 
-// Half of a joint at rest and half of one that is half as wide, by hand: see Posed.ANormalIsTheMean...
+// Half the weight of a joint at rest, half of one with half the width; by hand, see
+// Posed.ANormalIsTheMean...
 TEST(ReferenceMotion, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     Scene scene = patch();
     Primitive& p = scene.meshes[0].primitives[0];
@@ -131,7 +132,7 @@ TEST(ReferenceMotion, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     }
 }
 
-// The patch turns from dark to white, and begins to glow.
+// The patch changes from black to white and begins to glow.
 TEST(ReferenceMotion, MaterialsAreThoseOfTheTime) {
     Scene scene = patch();
     Animation a;
@@ -145,8 +146,8 @@ TEST(ReferenceMotion, MaterialsAreThoseOfTheTime) {
             << seconds;
 }
 
-// A joint with half the weight bends the patch: its shading normal follows from the joints, its geometric
-// normal from the corners.
+// A joint with half the weight bends the patch: the shading normal follows the joints, the geometric
+// normal the corners.
 TEST(ReferenceMotion, NormalsArePosedToo) {
     Scene scene = byAJoint();
     scene.animations.clear();
@@ -159,13 +160,13 @@ TEST(ReferenceMotion, NormalsArePosedToo) {
     EXPECT_NEAR(at(turned, gpu::DEBUG_lit, left, row).x, std::cos(angle) / pi, 1e-6);
 }
 
-// The patch moves between a floor below and the sun: its shadow goes with it.
+// The patch moves between a floor and the sun, and its shadow moves with it.
 TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
     for (const Mover& mover : movers) {
         Scene scene = mover.scene();
         scene.meshes.emplace_back().primitives = {quad({-10, -10, -1}, {20, 0, 0}, {0, 20, 0})};
         scene.nodes.emplace_back().mesh = 1;
-        // From the side, so that the patch does not hide its own shadow.
+        // Light from the side, so that the patch does not hide its own shadow.
         scene.lights[0].direction = glm::normalize(glm::dvec3(0, -2, -1));
         const auto shaded = [&](double seconds, double x, double z) {
             const View view = viewFrom({x, -2 * (z + 1), 8}, {x, -2 * (z + 1), 0}, 1, 1, 0.01);
@@ -178,7 +179,7 @@ TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
     }
 }
 
-// Colours and texture coordinates are those of the pose: of what is seen, and of what throws a shadow.
+// Morphed colours and texture coordinates affect visible surfaces and shadow casters.
 TEST(ReferenceMotion, ColorsAndTexcoordsAreMorphed) {
     Scene scene = patch();
     Primitive& p = scene.meshes[0].primitives[0];
@@ -217,7 +218,7 @@ TEST(ReferenceMotion, AMaskThatIsMorphedAwayThrowsNoShadow) {
     EXPECT_GT(at(drawnAt(scene, 0.75, view), gpu::DEBUG_lit, 0, 0).x, 0) << "alpha is 0.25";
 }
 
-// In mode surface, too, rays of shadows and occlusion meet what is posed.
+// In mode surface, too, shadow and occlusion rays hit the posed geometry.
 TEST(ReferenceMotion, RaysMeetThePose) {
     for (const Mover& mover : movers) {
         const Scene scene = mover.scene();
@@ -233,7 +234,7 @@ TEST(ReferenceMotion, RaysMeetThePose) {
     }
 }
 
-// A vertex without a valid position removes its triangle, and nothing else.
+// A vertex without a valid position removes its triangle and nothing else.
 TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
     Scene scene = byATarget();
     scene.meshes[0].primitives[0].targets[0].positions = {{0, 0, 0}, {1e18f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -244,7 +245,7 @@ TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
     EXPECT_TRUE(isSurface(picture, 1, 2)) << "above it";
 }
 
-// A checkpoint of the same picture at another time is not used, whatever it is that moves.
+// A checkpoint of the same image at another time is not used, whatever moves.
 TEST(ReferenceMotion, APictureOfAnotherTimeIsBegunAnew) {
     View view = fromAbove;
     view.width = view.height = 40;  // nine tiles

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The compensations in the reference: against the figures of their papers, and in a white furnace.
+// The reference's energy compensations, compared with their papers' values and in a white furnace.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/ambient.h"
@@ -17,7 +17,7 @@ double allBy(Multiscatter multiscatter, const Surface& s) {
     return specularBy(multiscatter, s) + diffuseAlbedo(s, compensationOf(s, multiscatter)).g;
 }
 
-// F0 0.9, alpha 1, n.v 0.95: what the formulas give with the albedo of that view, three digits known.
+// F0 0.9, alpha 1, n.v 0.95: results of the formulas with that view's albedo, known to three digits.
 TEST(ReferenceMultiscatter, ARoughMetalReflectsWhatThePapersSay) {
     Surface s = mirror(1, std::acos(0.95));
     s.albedo = glm::dvec3(0.9);
@@ -37,8 +37,8 @@ TEST(ReferenceMultiscatter, AWhiteMetalIsInvisibleInAFurnace) {
         }
 }
 
-// Its base gets what its layer does not reflect; without compensation the two do not add up to 1 (glTF's
-// appendix B).
+// The base gets the light that the layer does not reflect. Without compensation the two do not add up to 1
+// (glTF 2.0, appendix B).
 TEST(ReferenceMultiscatter, AWhiteDielectricIsInvisibleInAFurnace) {
     double most = 0;
     for (const double roughness : {0.0, 0.3, 1.0})
@@ -54,7 +54,8 @@ TEST(ReferenceMultiscatter, AWhiteDielectricIsInvisibleInAFurnace) {
     EXPECT_GT(most, 1.5) << "appendix B gains nothing at grazing angles: has it changed?";
 }
 
-// The compensation of a mix is the mix of two compensations. That of the mixed F0 is 0.05 and more off.
+// The compensation of a mix is the mix of two compensations. Compensating the mixed F0 is off by 0.05 and
+// more.
 TEST(ReferenceMultiscatter, DielectricAndMetalAreCompensatedApart) {
     Surface s = mirror(1, 0.3);
     s.albedo = {1.0, 0.6, 0.2};
@@ -75,8 +76,7 @@ TEST(ReferenceMultiscatter, DielectricAndMetalAreCompensatedApart) {
     }
 }
 
-// A directional light at a time, over the hemisphere: direct light is compensated as light from everywhere
-// is.
+// Summing directional lights over the hemisphere: direct light has the same compensation as ambient light.
 TEST(ReferenceMultiscatter, DirectLightSumsToTheSame) {
     Surface s = mirror(0.9, 0.7);
     s.metallic = 0.6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One light of the samples of a pixel: the mean of their radiance, or weighted by a tone curve.
+// Resolving a pixel's samples: the mean of their radiance, or weighted by a tone curve.
 #include "compare/reference/resolve.h"
 
 #include "tests/support/reference_scene.h"
@@ -31,7 +31,7 @@ glm::dvec3 radianceOf(const Image& image, int x = 0, int y = 0) {
 const glm::vec3 lampRadiance(9, 0.5f, 2), floorRadiance(0.125f, 0.25f, 0);
 const View onePixelView = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
 
-// A black floor that glows darkly, and above it, where x is below 0, a bright sheet: half of the pixel.
+// A dimly glowing black floor, and a bright sheet above it where x < 0: half of the pixel.
 Scene halfCovered() {
     Scene scene = floorScene();
     scene.materials[0].base_color = {0, 0, 0, 1};
@@ -46,7 +46,7 @@ TEST(ReferenceResolve, AHalfCoveredPixel) {
     for (const int samples : {64, 256}) {
         const glm::dvec3 mean =
             radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::linear)[gpu::DEBUG_lit]);
-        // Of evenly spread samples a whole number lies on either side.
+        // With evenly spread samples, an integer number is on either side.
         const glm::dvec3 a(lampRadiance), b(floorRadiance);
         const double covered = std::round(samples * (mean.x - b.x) / (a.x - b.x)), rest = samples - covered;
         EXPECT_NEAR(covered, samples / 2, 1);
@@ -63,8 +63,8 @@ TEST(ReferenceResolve, AHalfCoveredPixel) {
     }
 }
 
-// What covers a part is there twice, as a surface and as a layer that hides all: light is weighted as it is
-// seen, with what blends.
+// Covers half of the pixel with a surface, or with a fully opaque blended layer. Weights use the visible
+// light, after blending.
 TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
     Scene scene = halfCovered();
     scene.materials[1].alpha_mode = AlphaMode::blend;
@@ -72,7 +72,7 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
                 layer = resolved(scene, onePixelView, 64, Resolve::tonemapped);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(radianceOf(solid[gpu::DEBUG_lit])[c], radianceOf(layer[gpu::DEBUG_lit])[c], 1e-6) << c;
-    // What lies behind it is resolved as if it were not there: half of it is another lamp.
+    // Surfaces behind the layer are resolved as if it were absent: half of it is another bright sheet.
     Scene behind = floorScene();
     behind.materials = scene.materials;
     behind.materials[1].alpha_mode = AlphaMode::opaque;
@@ -89,8 +89,8 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
     EXPECT_GT(radianceOf(covered[gpu::DEBUG_lit]).x, 1) << "the layer is there";
 }
 
-// A pixel that shows one radiance shows it by either; so does one sample, bit for bit, and the captured
-// surface, of which there is one.
+// A pixel with a single radiance keeps it in either mode. A single sample and the captured surface (one
+// sample) keep it bit for bit.
 TEST(ReferenceResolve, OfOneRadianceIsThatRadiance) {
     Scene scene = halfCovered();
     scene.materials[0].emissive = lampRadiance;
@@ -107,7 +107,7 @@ TEST(ReferenceResolve, OfOneRadianceIsThatRadiance) {
               resolved(scene, view, 1, Resolve::tonemapped, &surfaces).picture.channels.at(0).data);
 }
 
-// The parts of light are weighted as all of it, so that they still are its parts.
+// The light's components get the weights of the total, so they still add up to it.
 TEST(ReferenceResolve, PartsAddUpToLit) {
     Scene scene = halfCovered();
     for (Material& m : scene.materials) {
@@ -134,11 +134,11 @@ TEST(ReferenceResolve, PartsAddUpToLit) {
     EXPECT_GE(changed, 4) << "or the picture has no edges";
 }
 
-// ---- what is known of it -----------------------------------------------------------------------------
+// ---- uncertainty -------------------------------------------------------------------------------------
 
 const double sampleRadiance[] = {0.01, 0.4, 3, 50};
 
-// Of grey samples, of which one is off by so much and known to so much.
+// The mean of grey samples; one is off by `off` and has the uncertainty `known`.
 Pixel meanOf(Resolve resolve, std::size_t which, double off, double known) {
     ResolvedLight light(resolve, 4);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -164,8 +164,8 @@ TEST(ReferenceResolve, TellsHowFarAnErrorOfASampleMovesIt) {
         }
 }
 
-// Noise of a sample, far below what bends the curve there: the mean over the noise is off by no more than
-// what is stated beyond the slope, and by a part of it that is that of the other samples' weights.
+// Noise of one sample, small compared with the curve's bend. The bias of the mean over the noise is the
+// stated uncertainty beyond the slope, times the other samples' share of the weight.
 TEST(ReferenceResolve, TellsWhatTheCurveMakesOfNoise) {
     double weights = 0;
     for (const double c : sampleRadiance) weights += resolveWeight(Resolve::tonemapped, glm::dvec3(c));

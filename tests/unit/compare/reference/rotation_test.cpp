@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The reference draws what a file's quaternion turns, whatever its length: a tilted plane at its exact
-// places.
+// The reference applies a file's quaternion of any length: a tilted plane at its exact positions.
 #include "tests/support/gltf_builder.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {
 namespace {
 
-// The plane z = 0, turned by 30 degrees about +X, seen along -Z from 5 m: on the ray through (x, y) of the
-// plane at distance 1, y = v t and z = 5 - t meet z = y tan 30.
+// The plane z = 0, rotated by 30 degrees around +X, seen along -Z from 5 m. The ray through (x, y) of the
+// image plane at distance 1 has y = v t and z = 5 - t; it hits the plane where z = y tan 30.
 TEST(ReferenceRotation, OfAnyLengthDrawsTheSamePlane) {
     const double angle = glm::radians(30.0), slope = std::tan(angle);
     const View view = viewFrom({0, 0, 5}, {0, 0, 0}, 8, 8, glm::radians(20.0));

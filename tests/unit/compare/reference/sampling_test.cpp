@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How sure the mean of independent estimates is, and the points that are sampled.
+// The confidence interval of a mean of independent estimates, and the sample points.
 #include "compare/reference/sampling.h"
 
 #include "tests/support/reference_builder.h"
@@ -15,7 +15,7 @@ Reflected diffuseOf(const glm::dvec3& value) {
     return reflected;
 }
 
-// The probability that Student's distribution is between -t and t: its density integrated by Simpson's rule.
+// Probability that Student's distribution is between -t and t: its density integrated by Simpson's rule.
 double studentWithin(double t, int freedom) {
     const double n = freedom;
     const double scale = std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2)) / std::sqrt(n * pi);
@@ -26,7 +26,7 @@ double studentWithin(double t, int freedom) {
     return 2 * sum * t / (3 * steps);
 }
 
-// Alternately 1 - 0.25 and 1 + 0.25 in green, by less in the others. The table has t to four digits.
+// Alternately 1 - 0.25 and 1 + 0.25 in green, less in the others. The table has t to four digits.
 TEST(ReferenceSampling, TheIntervalIsStudentsOf95Percent) {
     for (int count = 2; count <= 40; ++count) {
         Rounds rounds;
@@ -55,7 +55,7 @@ TEST(ReferenceSampling, OneEstimateSaysNothingOfItsError) {
     EXPECT_EQ(rounds.halfWidth(), 0);
 }
 
-// What one lobe has more and the other less is no error of their sum.
+// Opposite errors of the two lobes cancel in their sum.
 TEST(ReferenceSampling, TheErrorIsOfBothLobesTogether) {
     Rounds rounds;
     for (const double more : {0.25, -0.25, 0.125}) {
@@ -67,7 +67,7 @@ TEST(ReferenceSampling, TheErrorIsOfBothLobesTogether) {
     EXPECT_NEAR(rounds.halfWidth(), 0, 1e-12);
 }
 
-// Of every run of n points each half of the square, and each quarter, has its share.
+// In every run of n points, each half and each quarter of the square gets its share.
 TEST(ReferenceSampling, PointsAreSpreadEvenly) {
     for (const std::uint64_t first : {0u, 1000u})
         for (const glm::dvec2& shift : {glm::dvec2(0), glm::dvec2(0.7, 0.9)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The distance from the edge of a shadow, for edges whose distance is known.
+// Distance to the edge of a shadow, for known edges.
 #include "compare/reference/shadow_edge.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 const glm::dvec3 place(3, 0, -4), up(0, 1, 0);
 
-// A half plane of shadow on the ground, `away` m from the place in the direction `angle`.
+// A half plane of shadow on the ground, `away` metres from `place` in the direction `angle`.
 SeesLight straightEdge(double away, double angle) {
     const glm::dvec3 outwards(std::cos(angle), 0, std::sin(angle));
     return [=](const glm::dvec3& p) { return glm::dot(p - place, outwards) < away; };
@@ -25,15 +25,15 @@ TEST(ShadowEdge, AStraightEdgeIsNoFartherThanItIs) {
             const double angle = i * std::numbers::pi / 20 + 0.01;
             const double found = edgeDistance(straightEdge(away, angle), place, up, up, 100);
             EXPECT_LE(found, away) << away << " " << angle;
-            // The directions' angle, twice, and a sixteenth of the ring; nearer than the first ring is 0 or
-            // more.
+            // Error of the directions' angle, twice, and a sixteenth of the ring. Closer than the first
+            // ring, any value from 0 is allowed.
             if (away > 5 * 0x1p-13) {
                 EXPECT_GE(found, 0.8 * away) << away << " " << angle;
             }
         }
 }
 
-// Across the light, not along the ground: the shadow of an edge that is 1 m away under a sun 30 degrees high.
+// Measured across the light, not along the ground: an edge 1 m away under a sun 30 degrees high.
 TEST(ShadowEdge, IsMeasuredAcrossTheLight) {
     const glm::dvec3 to_light(std::sqrt(0.75), 0.5, 0);
     const double along = edgeDistance(straightEdge(1, 0), place, up, to_light, 100),
@@ -52,7 +52,7 @@ TEST(ShadowEdge, WhereThereIsNoneItIsInfinite) {
         << "at the camera itself";
 }
 
-// A hole of light around the place, as wide as a leaf's gap.
+// A spot of light around `place`, as wide as a gap between leaves.
 TEST(ShadowEdge, ASpotEndsWhereItEnds) {
     const auto spot = [](const glm::dvec3& p) { return glm::distance(p, place) < 0.05; };
     const double found = edgeDistance(spot, place, up, up, 100);

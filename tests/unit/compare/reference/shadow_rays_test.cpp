@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where the reference's shadow rays begin and end: screens a millimetre from the surface or from the light,
-// before and behind it, seen from near and far.
+// Start and end of the reference's shadow rays: screens a millimetre from the surface or from the light,
+// on either side, seen from near and far.
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {
 namespace {
 
-// A wall z = 0 that faces +Z, seen straight on at the origin in a picture of one pixel; light comes aslant,
-// at 80 degrees from its normal, so that what stands in its way does not stand before the camera.
+// A wall z = 0 that faces +Z, seen straight on at the origin in an image of one pixel. Light arrives at 80
+// degrees from the normal, so screens between light and wall are not in the camera's view.
 const glm::dvec3 toLight{std::sin(glm::radians(80.0)), 0, std::cos(glm::radians(80.0))};
 
 Scene wallScene(const Light& light) {
@@ -21,7 +21,7 @@ Light lampAt(double distance) {
     return light;
 }
 
-// A square of this half width at right angles to the light's way, `from` metres from the surface.
+// A square with this half width, perpendicular to the light, `from` metres from the surface.
 void addScreen(Scene& scene, double from, double half) {
     const glm::dvec3 y(0, 1, 0), x = glm::cross(y, toLight), corner = toLight * from - (x + y) * half;
     add(scene, quad(glm::vec3(corner), glm::vec3(x * (2 * half)), glm::vec3(y * (2 * half))));
@@ -29,13 +29,13 @@ void addScreen(Scene& scene, double from, double half) {
 
 enum class From { scene, capture, rounded_capture };
 
-// The radiance of the pixel over that in full light, cos 80 / pi.
+// The pixel's radiance relative to full light, cos 80 / pi.
 double litShare(const Scene& scene, double camera, From from) {
     const View view = viewFrom({0, 0, camera}, {0, 0, 0}, 1, 1);
     Drawn first = drawn(scene, view, true);
     const double whole = toLight.z / pi;
     if (from == From::scene) return double{first[gpu::DEBUG_lit].at(0, 0, 0)} / whole;
-    // As a path's capture: where its depth is that of the scene, the ray's begin is found again exactly.
+    // Shades a path's capture. With the scene's depth, the ray's start is found again exactly.
     if (from == From::rounded_capture) first.picture.channels.at(gpu::DEBUG_depth).data[0] *= 1.001f;
     const Picture shaded = draw({.scene = scene,
                                  .pose = first.pose,
@@ -60,9 +60,9 @@ TEST(ReferenceShadowRays, InTheOpenTheWallIsFullyLit) {
                     << camera << " " << distance;
 }
 
-// The least distance from the surface at which a screen throws its shadow: a tenth of a millimetre above the
-// wall, 0.58 mm along the ray. A capture that is off by more than its depth's rounding begins 1e-5 of the
-// camera's distance away: there 0.1 m^-3 of it is asked for, ten times that.
+// Smallest distance at which a screen must cast a shadow: a tenth of a millimetre above the wall, 0.58 mm
+// along the ray. A capture with more error than its depth's rounding starts 1e-5 of the camera's distance
+// away; this test requires ten times that.
 TEST(ReferenceShadowRays, BeginAtTheSurface) {
     for (const double camera : cameras)
         for (const double distance : {0.5, 1.0, 30.0})
@@ -76,7 +76,7 @@ TEST(ReferenceShadowRays, BeginAtTheSurface) {
                 }
 }
 
-// What lies behind the surface is not in the way, a tenth of a millimetre or a centimetre below it.
+// Geometry behind the surface does not occlude, from a tenth of a millimetre to two centimetres below it.
 TEST(ReferenceShadowRays, DoNotBeginBehindTheSurface) {
     for (const double camera : cameras)
         for (const From from : {From::scene, From::capture})
@@ -89,8 +89,8 @@ TEST(ReferenceShadowRays, DoNotBeginBehindTheSurface) {
             }
 }
 
-// A screen before the light hides it and one behind it does not, by what is more than the ray's own 1e-5 of
-// its length: half a millimetre, 2 mm, 6 mm and 2 cm, of a lamp that is 5 cm to 30 m away.
+// A screen before the light hides it, one behind it does not. Gaps of 0.5, 2, 6 and 20 mm exceed the ray's
+// own 1e-5 of its length, for a light at 5 cm to 30 m.
 TEST(ReferenceShadowRays, EndAtTheLight) {
     for (const double camera : cameras)
         for (const double distance : {0.05, 1.0, 30.0})
@@ -106,7 +106,7 @@ TEST(ReferenceShadowRays, EndAtTheLight) {
                 }
 }
 
-// A light on a ceiling is not hidden by the ceiling; one a millimetre above it is.
+// A ceiling does not hide a light that lies on it, but hides a light a millimetre above it.
 TEST(ReferenceShadowRays, ALampOnACeilingShines) {
     for (const double gap : {0.0, 1e-3}) {
         Scene scene = wallScene(lampAt(3));
@@ -115,8 +115,8 @@ TEST(ReferenceShadowRays, ALampOnACeilingShines) {
     }
 }
 
-// Of the sun a screen hides all, however far it is; of an area light, that covers it, from a millimetre
-// before it.
+// A screen at any distance hides all of the sun. A screen that covers an area light hides it from a
+// millimetre before it.
 TEST(ReferenceShadowRays, OfTheSunAndOfAreasReachTheirLights) {
     Light sun = lightOf(LightKind::directional, {0, 0, 0}, -toLight);
     sun.intensity = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's shadows of area lights, against the visible part of their polygon.
+// The reference's shadows of area lights, compared with the visible part of their polygon.
 #include "tests/support/reference_builder.h"
 
 #include "compare/reference/sampling.h"
@@ -29,7 +29,7 @@ double part(double x0, double x1, double y0, double y1) {
 
 struct Record {
     int within = 0, seeds = 0;
-    double worst = 0;  // error over the uncertainty
+    double worst = 0;  // error relative to the uncertainty
     double mean = 0;
 };
 template <class Expected>
@@ -46,7 +46,7 @@ Record recordOf(int seeds, const Surface& s, Expected&& expected) {
         record.worst = std::max(record.worst, error / (shading.uncertainty + 1e-9));
         record.mean += (shading.reflected.diffuse.g + shading.reflected.specular.g - value) / seeds;
         ++record.seeds;
-        // Relative to the light without the shadow: a nearly hidden light is not worth many samples.
+        // Relative to the unshadowed light: a nearly hidden light does not deserve many samples.
         EXPECT_LE(shading.uncertainty, 1.01 * samplingError * part(-0.5, 0.5, -0.5, 0.5));
     }
     return record;
@@ -78,7 +78,7 @@ TEST(ReferenceShadow, AnEdgeAcrossARectangle) {
     EXPECT_NEAR(record.mean, 0, samplingError / 10 * whole) << "no bias";
 }
 
-// Narrow occluders fall between samples: the stated confidence must include that.
+// Narrow occluders fall between samples; the stated uncertainty must include that.
 TEST(ReferenceShadow, WhatIsSmallBeforeALight) {
     for (const double size : {0.02, 0.05, 0.1, 0.2}) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
@@ -91,7 +91,7 @@ TEST(ReferenceShadow, WhatIsSmallBeforeALight) {
     }
 }
 
-// A hole that lets through at least samplingError, a hundredth, is found; smaller ones may be missed.
+// A hole that transmits at least samplingError, a hundredth, is found; smaller ones may be missed.
 TEST(ReferenceShadow, ASmallHoleBeforeALight) {
     for (const double size : {0.1, 0.2}) {
         const Record record = recordOf(200, lambertian(), [&](Random& random) {
@@ -105,7 +105,7 @@ TEST(ReferenceShadow, ASmallHoleBeforeALight) {
     }
 }
 
-// Negative control: a light brighter by a hundredth is outside the stated confidence.
+// Negative control: a light that is 2 % too bright is outside the stated uncertainty.
 TEST(ReferenceShadow, AHundredthIsBeyondTheConfidence) {
     const Record record = recordOf(100, lambertian(), [&](Random& random) {
         const double x = random() * 0.5 - 0.5;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's texture filtering against means over the texels; and its intersections of rays and
-// triangles.
+// The reference's texture filtering, compared with means over texels; and its ray-triangle intersections.
 #include "tests/support/reference_scene.h"
 
 #include "compare/reference/geometry.h"
@@ -75,7 +74,7 @@ TEST(ReferenceTexture, ColoursAreDecodedBeforeTheyAreMixed) {
     EXPECT_NEAR(Pyramid(dark, true).texel(0, 0, 0).r, 10 / 255.0 / 12.92, 1e-15) << "below the knee, linear";
 }
 
-// Only colours are encoded, of 8 and of 16 bits; an image of floats is light as it stands.
+// Only 8-bit and 16-bit colours are encoded; float images are linear.
 TEST(ReferenceTexture, AlphaIsNeverDecoded) {
     const TextureImage narrow{"8", 1, 1, {200, 100, 50, 128}};
     const TextureImage wide{"16", 1, 1, {}, {6554, 0, 65535, 32768}};
@@ -87,8 +86,7 @@ TEST(ReferenceTexture, AlphaIsNeverDecoded) {
     }
 }
 
-// Closer than a texel: bilinear about the texels' middles, or the one that it lies in; beyond the edge as
-// glTF says.
+// Magnification: bilinear, or nearest. Beyond the edge, glTF's wrap modes apply.
 TEST(ReferenceTexture, MagnifiedAndWrapped) {
     const TextureImage image = noiseTexels(4, 4);
     const auto edge = [](int i, Wrap wrap) {
@@ -123,9 +121,9 @@ TEST(ReferenceTexture, MagnifiedAndWrapped) {
             }
 }
 
-// The mean over a box, by very many points. The reference's 64 points are a texel of their level apart, and
-// bilinear interpolation spreads texels over their neighbours: with noise of 0.29 that leaves an error of a
-// few hundredths for the smallest box here, 8 x 8 texels, and less for larger ones.
+// Mean over a box, by very many points. The reference's 64 points are a texel of their level apart, and
+// bilinear interpolation spreads texels over their neighbours. Noise of 0.29 leaves an error of a few
+// hundredths for the smallest box (8 x 8 texels), less for larger ones.
 TEST(ReferenceTexture, FootprintsAreMeans) {
     const TextureImage image = noiseTexels(64, 64);
     const Scene scene = sceneOf(image, {});
@@ -153,12 +151,12 @@ TEST(ReferenceTexture, FootprintsAreMeans) {
                     0.29 / std::sqrt(std::min(texels, 4096.0)) + 1e-3)
             << f.dx.x << " " << texels;
     }
-    // Over a whole period it is the mean itself.
+    // Over a whole period the result is the mean.
     EXPECT_NEAR(textures(scene.textures[0], false, {{0.5, 0.5}, {1, 0}, {0, 1}}).r,
                 Pyramid(image, false).texel(6, 0, 0).r, 2e-3);
 }
 
-// At a grazing angle: within a stripe of four rows, in every orientation of stripes and footprint.
+// Grazing angle: a footprint within a stripe of four rows, in every orientation of stripes and footprint.
 TEST(ReferenceTexture, LongFootprintsAreNotBlurredAcross) {
     for (const bool rows : {true, false}) {
         TextureImage image{"stripes", 64, 64, {}};
@@ -237,8 +235,8 @@ TEST(ReferenceGeometry, RaysEndWhereTheyShould) {
     EXPECT_FALSE(geometry.nearest({{0, 0, 0}, down, 0, 9}, [](const Hit&) { return false; }));
 }
 
-// Counter-clockwise is the front; a mirroring node does not swap sides; `front` tells from which side the
-// ray comes.
+// Counter-clockwise is front. A mirroring node does not swap sides; `front` tells the side the ray comes
+// from.
 TEST(ReferenceGeometry, BackFacesAndMirrors) {
     for (const double mirror : {1.0, -1.0}) {
         Scene scene = floorScene();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Made-up statistics of a compiler, and what the plan makes of them.
+// The plan of compiled shaders, from made-up compiler statistics.
 #include "compare/render/compiled_plan.h"
 #include "compare/bench/estimate.h"
 #include "compare/cli/compiled_words.h"
@@ -47,7 +47,7 @@ TEST(CompiledPlan, AVariantIsTheFeaturesThatAreOn) {
     EXPECT_EQ(inWords(variant), "point_lights shadows=2");
 }
 
-// A switch is a feature that a view may lack: no number of another feature, and no encoding of the G-buffer.
+// A switch is a feature that a view may lack: not a feature's parameter, and not the G-buffer's encoding.
 TEST(CompiledPlan, SwitchesAreWhatAViewMayLack) {
     std::vector<std::string> switches;
     for (const FeatureRow& row : featureRows)
@@ -76,12 +76,12 @@ TEST(CompiledPlan, SpillsAreWarningsAndWhatDoesNotCompileAnError) {
 
 TEST(CompiledPlan, AFeatureIsWhatItAdds) {
     EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
-              "+38 VGPRs, occupancy 16 to 10, +200 cycles");
+              "+38 VGPRs, occupancy 16 -> 10, +200 cycles");
     EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
               "-8 VGPRs");
 }
 
-// Both paths in one row where they share a shader; the heaviest variant stands for all.
+// A shader of both paths has one row, with its most expensive variant.
 TEST(CompiledPlan, PathsStandSideBySide) {
     const std::vector<CompiledPath> paths{{Path::deferred,
                                            {pipeline("depth", "depth.vert", cost(24, 16, 10)),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a Frame states of its scene, its camera and its times; and of a reference's uncertainty.
+// A Frame's metadata on its scene, camera and times, and on a reference's uncertainty.
 #include "compare/render/frame_facts.h"
 
 #include "compare/metrics/channel.h"
@@ -47,7 +47,7 @@ TEST(FrameFacts, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
     EXPECT_EQ(nonfinitePixels(image), 3u);
 }
 
-// What a format of few bits cuts is said, whether it becomes the largest number or infinity.
+// Radiance clamped by a small format is reported, whether it becomes the largest number or infinity.
 TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
     Image image(3, 1, 3, 1.0f);
     EXPECT_FALSE(overflowInWords(image, LitFormat::fp16));
@@ -56,7 +56,7 @@ TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
     EXPECT_FALSE(overflowInWords(image, LitFormat::fp32));
     EXPECT_EQ(overflowInWords(image, LitFormat::fp16).value_or(""),
               "lit: clamped to the range of fp16 at 2 pixels; use --lit-format fp32");
-    image.pixel(1)[2] = 64512;  // of 10 bits the largest
+    image.pixel(1)[2] = 64512;  // largest value with 10 bits
     EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("2 pixels"), std::string::npos);
     image.pixel(1)[2] = 64000;
     EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("1 pixel;"), std::string::npos);
@@ -147,8 +147,8 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
               "nothing is cropped");
 }
 
-// A floor under a sky, which is sampled: its uncertainty relative to each pixel is that of 999 in a thousand
-// pixels (nearest rank), which is nearly all of these, not of half of them.
+// A floor under a sampled environment. The stated relative uncertainty covers 999 of 1000 pixels (nearest
+// rank): nearly all of these, not half of them.
 TEST(FrameFacts, AReferenceStatesTheUncertaintyOfNearlyAllPixels) {
     Scene scene = reference::floorScene();
     scene.environment = Environment{"sky", Image(8, 4, 3, 0.25f)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimate of what Frames take of the host's memory, and who is refused by it.
+// The estimate of host memory for Frames, and the requests it refuses.
 #include "compare/render/host_memory.h"
 
 #include "compare/verdict/pair_reports.h"
@@ -37,8 +37,8 @@ RenderOptions channels(bool all) {
     return options;
 }
 
-// Largest resident sets of commands on lavapipe 22.3, MiB, less what the process has once the scene is read,
-// which is 76 with builtin:triangle and 110 with builtin:gallery.
+// Largest resident sets of commands on lavapipe 22.3, MiB, minus the process's size after loading the
+// scene: 76 with builtin:triangle, 110 with builtin:gallery.
 TEST(HostMemory, IsAboutWhatCommandsTake) {
     struct Measured {
         const char* what;
@@ -89,7 +89,7 @@ TEST(HostMemory, OfAGpuItIsPicturesAlone) {
     const std::uint64_t pictures = hostMemory(one, channels(false), false, true, 1);
     EXPECT_EQ(pictures, std::uint64_t{60} * 1920 * 1080);
     EXPECT_LT(pictures, hostMemory(one, channels(false), true, true, 1));
-    // Timed frames are there all at once; drawn ones are not.
+    // Timed frames are in memory together; frames drawn once are not.
     RenderOptions timed = channels(false);
     const std::vector<Settings> many(20, one.front());
     EXPECT_EQ(hostMemory(many, timed, true, true, 1), hostMemory(one, timed, true, true, 1));
@@ -132,7 +132,7 @@ TEST(HostMemory, WhatIsRefusedSaysWhatHelps) {
     settings.front().msaa = settings.back().msaa = 1;
     EXPECT_NE(line(false).find("a smaller --size or fewer cameras and times needs less"), std::string::npos)
         << line(false);
-    // What was granted before is there still.
+    // Memory that was checked before is not checked again.
     asked = 0;
     EXPECT_NO_THROW(checkHostMemory(views, settings, channels(true), true, UINT64_MAX, free(0)));
     EXPECT_EQ(asked, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plan names beside what is in the scene's file.
+// Lines of the plan that do not come from the scene's file.
 #include "compare/render/path_plan.h"
 
 #include "compare/render/frame_facts.h"
@@ -28,11 +28,12 @@ TEST(PlanLines, NameShadowsAndHaze) {
     EXPECT_FALSE(plannedLine("haze", "builtin:suns", settings).modelled);
     settings.haze = true;
     EXPECT_TRUE(plannedLine("haze", "builtin:suns", settings).modelled);
-    // Points and spots alone cast where they are asked to.
+    // Only punctual lights: they cast shadows only if selected.
     Settings lamps;
     EXPECT_FALSE(plannedLine("shadows", "builtin:spots", lamps).modelled);
     lamps.shadow_lights = 2;
-    EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why, "2 points or spots cast: --shadows pcf");
+    EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why,
+              "2 point or spot lights cast shadows: --shadows pcf");
     lamps.shadow_lights = 0;
     lamps.shadows = Shadows::off;
     EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why, "--shadows off: no map, no pass");

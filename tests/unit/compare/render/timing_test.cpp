@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The order in which frames are timed, and what is kept of their passes' times; no clock is read.
+// The order of timed frames, and the medians of their passes' times; no clock is read.
 #include "compare/render/timing.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,8 @@
 namespace diptych {
 namespace {
 
-// Each is drawn once before any is drawn again: what slows the machine down for a while slows all of them.
+// Each frame is drawn once before any is repeated, so a temporary slowdown of the machine affects all of
+// them.
 TEST(Timing, FramesAreDrawnInTurns) {
     std::vector<std::pair<int, std::size_t>> order;
     takeTurns(2, 3, [&](int round, std::size_t i) { order.emplace_back(round, i); });
@@ -25,7 +26,7 @@ TEST(Timing, RecordingHasATimeOfItsOwn) {
     EXPECT_EQ(time.runs, 3);
 }
 
-// The median lies in the middle frame of one pass and in the last of the other; neither is first or largest.
+// One pass has its median in the middle frame, the other in the last; neither is first or largest.
 TEST(Timing, APassHasTheMedianOfItsTimes) {
     const std::vector<PassTime> medians =
         mediansOf({{{"shade", 9}, {"lists", 1}}, {{"shade", 4}, {"lists", 8}}, {{"shade", 2}, {"lists", 5}}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the report makes of the checks that a person must look at.
+// Visual checks in the report.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/files.h"
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// The one covered pixel of the frames, (1, 2), and one that nothing lights.
+// The only covered pixel of the frames, (1, 2), and an unlit one.
 const PixelBox litBox{1, 2, 2, 3}, darkBox{2, 0, 4, 1};
 
 std::vector<FeatureChecks> someChecks() {
@@ -33,7 +33,7 @@ std::string pageOf(const Report& report, const ReportOptions& options = {}) {
     writeReport(report, out, options);
     return contentsOf(out / "index.html");
 }
-// What follows `before`, up to a quote, wherever it stands.
+// All texts between `before` and the next quote.
 std::vector<std::string> quotedAfter(const std::string& text, const std::string& before) {
     std::vector<std::string> all;
     for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
@@ -42,7 +42,7 @@ std::vector<std::string> quotedAfter(const std::string& text, const std::string&
     }
     return all;
 }
-// Every link within the page leads to one element.
+// Every link within the page leads to exactly one element.
 void expectLinksLead(const std::string& page) {
     const std::vector<std::string> ids = quotedAfter(page, " id=\"");
     const std::set<std::string> unique(ids.begin(), ids.end());
@@ -50,7 +50,7 @@ void expectLinksLead(const std::string& page) {
     for (const std::string& target : quotedAfter(page, "href=\"#"))
         EXPECT_TRUE(unique.contains(target)) << target;
 }
-// Of the figure of a comparison's check `number`.
+// The figure element of check `number` of a comparison.
 std::string figureOf(const std::string& page, int number, int comparison = 0) {
     const std::size_t start = page.find(fmt::format("id=\"check-{}-{}\"", comparison, number));
     return start == std::string::npos ? "" : page.substr(start, page.find("</figure>", start) - start);
@@ -82,10 +82,11 @@ TEST(ReportChecks, EveryCheckHasALinkAndAFigure) {
     EXPECT_NE(page.find("href=\"#eye-0\">902 places to check by eye</a>"), std::string::npos);
 }
 
-// A picture of 4 x 3: the region is as wide for its height, no smaller than an eighth, within the picture.
+// An image of 4 x 3: the region has the image's aspect ratio, at least an eighth of its size, and stays
+// inside.
 TEST(ReportChecks, AFigureShowsTheBoxEnlarged) {
     const std::string page = pageOf(reportOf(bothFrames(), {someChecks()}));
-    const std::string sign = figureOf(page, 0);  // 1 of 3 pixels high: 0.45 of the picture, around (1.5, 2.5)
+    const std::string sign = figureOf(page, 0);  // 1 of 3 pixels high: 0.45 of the image, at (1.5, 2.5)
     EXPECT_EQ(countOf(sign, "viewBox=\"0.6 1.65 1.8 1.35\""), 2u) << sign;
     EXPECT_EQ(countOf(sign, "x=\"1\" y=\"2\" width=\"1\" height=\"1\""), 4u) << "two outlines a panel";
     const std::string leaf = figureOf(page, 2);  // 2 of 4 pixels wide: 0.675, at the top
@@ -162,7 +163,7 @@ TEST(ReportChecks, OneLineOnATerminal) {
               "1 place to check by eye: skins 1");
 }
 
-// The checks of a pair stay with it, whichever path is the left panel.
+// A pair keeps its checks, whichever path is the left image.
 TEST(ReportChecks, TheyStandWithTheirPair) {
     const std::vector<Requirements> needs(4);
     std::vector<Frame> frames = bothFrames("one.glb");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How errors are spread over their sizes and over the picture, and what the page shows of it.
+// The distribution of errors over magnitude and image, and its presentation on the page.
 #include "compare/report/error_figures.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
@@ -64,7 +64,7 @@ TEST(ErrorHistogram, OneErrorOrNoneHasABinOrNone) {
 }
 
 TEST(WorstPixels, AreApartAndLargestFirst) {
-    // A spot of 5 x 5 around (10, 10), and smaller ones at its side, just near and just far enough.
+    // A spot of 5 x 5 around (10, 10), and smaller ones beside it: just too close and just far enough.
     Image errors(40, 20, 1);
     for (int y = 8; y <= 12; ++y)
         for (int x = 8; x <= 12; ++x) errors.at(x, y) = 1;
@@ -120,7 +120,7 @@ TEST(ReportErrors, ThePageTellsThem) {
     EXPECT_EQ(lit.find("data-pixel"), std::string::npos) << "nothing differs";
 }
 
-// The card of roughness, a pixel of which is 0.25 off, judged by a rule; `shown`: its FLIP.
+// The card of roughness judged by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
 std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
@@ -158,7 +158,7 @@ TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
     }
 }
 
-// One order: that of the errors which are drawn, and each pixel beside its own.
+// One ranking: by the error that the image shows, listed beside each pixel.
 TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
     Image flip(4, 3, 1, 0.0f);
     flip.at(1, 2) = 0.125f;

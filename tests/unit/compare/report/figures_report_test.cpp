@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every report prints each figure under its own name, and the worst pixel where it is.
+// Every report prints each metric under its own name, and the worst pixel at its position.
 #include "compare/report/json.h"
 #include "compare/report/picture_diff_text.h"
 #include "compare/report/report.h"
@@ -28,7 +28,7 @@ Figures printedFigures() {
     return ofPixels(errorsOf(spread()).absolute);
 }
 
-// lit, of both paths and the reference, is the same but for `scale`; roughness has the errors of the spread.
+// A Frame with these channels; the counted pixels show material 3, the others background.
 Frame spreadFrame(Path path, const Image& lit, const Image& roughness) {
     Frame frame = flatFrame(path, wide, high, 0, -1);
     frame.scene = "builtin:one";
@@ -38,7 +38,7 @@ Frame spreadFrame(Path path, const Image& lit, const Image& roughness) {
     return frame;
 }
 
-// Component 0 of the spread: its absolute errors are the steps.
+// Component 0 of the spread; its absolute errors are the steps.
 Image redOf(const Image& image) {
     Image red(wide, high, 1);
     for (std::size_t i = 0; i < everywhere; ++i) red.data[i] = image.pixel(i)[0];
@@ -57,7 +57,7 @@ nlohmann::json roughnessIn(const nlohmann::json& channels) {
     return {};
 }
 
-// Cells of a table's row, by the words of its head.
+// Cells of a table's row, keyed by the head's words.
 std::map<std::string, std::string> byHead(const std::string& head, const std::string& row) {
     std::istringstream heads(head), cells(row);
     std::map<std::string, std::string> found;
@@ -108,7 +108,7 @@ TEST(PrintedFigures, ThePageHasThemBesideTheirNames) {
         EXPECT_NE(card.find(fmt::format("<dt>{}</dt><dd>{}</dd>", name, page::number(expected.at(figure)))),
                   std::string::npos)
             << name;
-    // The overview's heads and cells, in one order.
+    // The overview's heads and cells have the same order.
     const std::size_t row = page.find("<a href=\"#c0-roughness\">roughness</a><span");
     const std::size_t head = page.rfind("<th>channel</th>", row);
     const auto cells =
@@ -140,8 +140,8 @@ TEST(PrintedFigures, JunitNamesThem) {
         << junit;
 }
 
-// Deferred is off the reference by the spread, forward+ by three quarters of it, and deferred from forward+
-// by less.
+// Errors against the reference: deferred has the spread, forward+ three quarters of it. Deferred against
+// forward+ is smaller.
 TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
     const Spread s = spread();
     Image nearer = s.reference;
@@ -190,7 +190,7 @@ TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
 TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
     const std::filesystem::path here = folder();
     const Spread s = spread();
-    Image kept = s.test;  // files have no background: what does not count is equal
+    Image kept = s.test;  // files have no background: uncounted pixels are equal
     for (std::size_t i = counted; i < everywhere; ++i)
         std::copy_n(s.reference.pixel(spreadPixel(i)), 3, kept.pixel(spreadPixel(i)));
     writeExr(here / "a.exr", {{{"R", "G", "B"}, &s.reference}});

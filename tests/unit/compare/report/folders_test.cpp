@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the files of several scenes and cameras stand, which of them are kept, and what a report takes.
+// Folders of several scenes and cameras, the files that are kept, and a report's memory.
 #include "compare/report/folders.h"
 #include "compare/files/our_files.h"
 #include "compare/report/report.h"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A scene, a camera and a time, s; its roughness differs where it fails.
+// A scene, a camera and a time, s; roughness differs if it fails.
 struct Asked {
     std::string scene, camera{};
     bool fails = false;
@@ -39,7 +39,7 @@ Report askedFor(const std::vector<Asked>& all) {
     return reportOf(std::move(frames));
 }
 
-// Scene and camera -> folder.
+// Key: scene and camera. Value: folder.
 std::map<std::string, std::string> foldersBy(const std::vector<Asked>& all) {
     const Report report = askedFor(all);
     const std::vector<std::string> names = reportFolders(report).comparisons;
@@ -86,7 +86,7 @@ TEST(ReportFolders, WhatIsAskedForTwiceHasTwo) {
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(folders.frames[i], folders.comparisons[i / 2]);
 }
 
-// Each time of a camera has a folder in the camera's, with a name that this program takes for its own.
+// Each time has a folder inside the camera's folder, with a name that diptych recognizes as its own.
 TEST(ReportFolders, TimesHaveFolders) {
     const Report report = askedFor({{"builtin:a", "0", false, 0},
                                     {"builtin:a", "0", false, 0.5},
@@ -99,7 +99,7 @@ TEST(ReportFolders, TimesHaveFolders) {
         << "one comparison stands on top";
 }
 
-// Titles say the time where the report has several, and wherever it is not 0 s.
+// Titles state the time if the report has several, or if it is not 0 s.
 TEST(ReportFolders, TitlesSayTheTime) {
     const Report several = askedFor({{"builtin:a", "0", false, 0}, {"builtin:a", "0", true, 0.5}});
     EXPECT_EQ(viewTitle(several, several.frames[0]), "0, 0 s");
@@ -139,7 +139,7 @@ TEST(ReportFolders, OneSceneStandsOnTopAndItsPairsInside) {
     EXPECT_EQ(filesIn(out), listedIn(out / "report.json")) << "each is a name of ours";
 }
 
-// Of what --keep leaves out the page still has the figures.
+// The page keeps the numbers of comparisons whose files --keep omits.
 TEST(ReportFolders, KeepSaysOfWhichComparisons) {
     const Report report = askedFor({{"good.glb"}, {"bad.glb", "", true}});
     const std::string good = nameOfFolder("good", "good.glb") + "/",
@@ -171,7 +171,7 @@ TEST(ReportFolders, KeepSaysOfWhichComparisons) {
     }
 }
 
-// A later report removes the folders that an earlier one needed; whatever else is in them stays.
+// A later report removes folders that only an earlier one needed; other files in them stay.
 TEST(ReportFolders, EmptyFoldersGo) {
     const fs::path out = folder() / "report";
     const std::string a = nameOfFolder("a", "a.glb"), b = nameOfFolder("b", "b.glb");

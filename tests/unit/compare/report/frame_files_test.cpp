@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What render leaves of a Frame: one file, or a folder with a list of what is in it.
+// Output of render: one file, or a folder with a list of its files.
 #include "compare/report/frame_files.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
@@ -27,7 +27,7 @@ TEST(FrameFiles, OneFrameAsFileOrFolder) {
     const std::vector<std::string> files = writeFrameFolder(frame, {}, here / "a", lit, {});
     EXPECT_EQ(namesIn(here / "a"), (std::vector<std::string>{"forward_plus.exr", "frame.json", "lit.png"}));
     EXPECT_EQ(manifestFiles(here / "a", "frame.json"), files) << "frame.json lists what is there, itself too";
-    // What it wrote itself it may replace, without force.
+    // Files that diptych wrote may be replaced without --force.
     for (const auto& [kind, name] :
          {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})
         EXPECT_NO_THROW(checkReplaceable({kind, here / name}, "frame.json", false)) << name;

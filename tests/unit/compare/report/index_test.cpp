@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several comparisons in one report: a line each, failing ones first, and the rest once it is asked for.
+// Several comparisons in one report: one line each, failing ones first, the rest loaded on request.
 #include "compare/report/html.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `failing` are the comparisons whose roughness differs.
+// `failing` lists the comparisons whose roughness differs.
 Report manyOf(std::size_t count, const std::set<std::size_t>& failing = {}) {
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ TEST(ReportIndex, FailingOnesComeFirst) {
     EXPECT_EQ(sections, (std::vector<std::string>{"3", "6", "0", "1"})) << "the others wait";
     EXPECT_NE(page.find("<a href=\"#c3-roughness\">roughness</a></td>"), std::string::npos)
         << "the worst channel leads to its card";
-    // What waits is a file that the report lists and the line names.
+    // A section loaded on request is a file that the report lists and its line names.
     for (const char* waiting : {"2-98a010/comparison.section.js", "4-da208a/comparison.section.js",
                                 "5-2cc931/comparison.section.js"}) {
         EXPECT_EQ(std::ranges::count(json["files"], waiting), 1) << waiting;
@@ -56,7 +56,7 @@ TEST(ReportIndex, FailingOnesComeFirst) {
     EXPECT_EQ(filesIn(out), json["files"].get<std::vector<std::string>>());
 }
 
-// Files have no times, and --runs 0 measures none.
+// Image files have no times, and --runs 0 measures none.
 TEST(ReportIndex, TimesHaveColumnsWhereFramesWereTimed) {
     for (const bool timed : {true, false}) {
         Report report = manyOf(2);
@@ -86,7 +86,7 @@ TEST(ReportIndex, ASinglePageBringsAllAsText) {
 }
 
 TEST(ReportIndex, ALineIsAllThatAnotherComparisonAdds) {
-    // The layout of writeReport(), without its files.
+    // Same layout as writeReport(), without its files.
     const auto pageOf = [](const Report& report) { return reportHtml(report, layoutOf(report, {})); };
     const Report some = manyOf(30), more = manyOf(90);
     const std::string few = pageOf(some), many = pageOf(more);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// junit.xml against the rules of those who read it:
-//   junit-10.xsd of Jenkins' xUnit plugin: which elements stand in which, which attributes they may have and
-//   which they must, what a time looks like
-//   GitLab and Jenkins: the counts are those of the cases; a case's name is its suite's own; attachments are
-//   lines [[ATTACHMENT|file]] of a case's system-out, and the files are there
+// junit.xml, checked against its readers' rules:
+//   junit-10.xsd of Jenkins' xUnit plugin: nesting, allowed and required attributes, format of times
+//   GitLab and Jenkins: counts match the cases; case names are unique within a suite; attachments are
+//   lines [[ATTACHMENT|file]] in a case's system-out, and the files exist
 #include "compare/report/json.h"
 #include "compare/report/layout.h"
 #include "compare/report/report.h"
@@ -42,7 +41,7 @@ std::string unescaped(std::string text) {
     return text;
 }
 
-// The element that begins at `at`, which moves behind it. The text has passed markupFault().
+// The element that begins at `at`; moves `at` behind it. The text has passed markupFault().
 Element element(const std::string& xml, std::size_t& at) {
     Element result;
     const std::size_t end = xml.find('>', at);
@@ -132,7 +131,7 @@ std::vector<std::string> faultsOf(const Element& root) {
     return faults;
 }
 
-// Two comparisons; of the second roughness fails and a Frame cannot be trusted. Names that need escapes.
+// Two comparisons. In the second, roughness fails and a Frame is unreliable. Names need escapes.
 Report failingOfTwo() {
     std::vector<Frame> frames = bothFrames("a<b>&\"'\x01.glb");
     for (Frame& frame : bothFrames("two ]]> .glb")) frames.push_back(std::move(frame));
@@ -189,7 +188,7 @@ TEST(ReportJunit, TheRulesFindFaults) {
     }
 }
 
-// What decides a channel and its limit stand in its case, whether it passes or not.
+// A channel's deciding metric and limit are in its case, whether it passes or not.
 TEST(ReportJunit, EveryJudgedChannelSaysWhatWasMeasured) {
     const fs::path here = folder();
     writeReport(failingOfTwo(), here / "report", {});
@@ -209,7 +208,7 @@ TEST(ReportJunit, EveryJudgedChannelSaysWhatWasMeasured) {
     EXPECT_GT(failing, 0);
 }
 
-// What differs by less than a picture shows has one picture for both sides.
+// If a difference is too small for 8 bits, both sides share an image.
 TEST(ReportJunit, ASharedPictureIsAttachedOnce) {
     const Report report = failingOfTwo();
     ReportLayout layout = layoutOf(report, {});
@@ -221,7 +220,7 @@ TEST(ReportJunit, ASharedPictureIsAttachedOnce) {
     EXPECT_EQ(junit.find("out/same.png", first + 1), std::string::npos);
 }
 
-// Relative as the folder was given: servers look from where the job runs.
+// Paths are relative, like the folder given: servers resolve them from the job's working directory.
 TEST(ReportJunit, FailingChannelsAttachTheirPictures) {
     const fs::path here = folder(), before = fs::current_path();
     fs::current_path(here);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Layers of other renderers may be called anything: their files are in the report's folder, each has its own,
-// and the page leads to them.
+// Layers of other renderers may have any name. Each gets its own file inside the report's folder, and the
+// page links to it.
 #include "compare/files/our_files.h"
 #include "compare/report/folders.h"
 #include "compare/report/picture_diff_report.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's table of channels, and what stands around its index.
+// The page's table of channels, and the texts around its index.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/files.h"
@@ -16,7 +16,7 @@ std::string rowOf(const std::string& page, const std::string& channel) {
     return page.substr(row, page.find("</tr>", row) - row);
 }
 
-// Of one covered pixel, whose roughness differs by 0.25.
+// One covered pixel; its roughness differs by 0.25.
 TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
@@ -25,7 +25,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
     const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
-    // On a narrow page these three cells stay, and the share of what fails.
+    // A narrow page keeps these three cells and the fraction of failing pixels.
     EXPECT_NE(roughness.find(
                   "<td class=\"soft by\">max</td><td class=\"n\">0.25</td><td class=\"n\">0.000123</td>"),
               std::string::npos)
@@ -37,7 +37,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
         std::string::npos)
         << lit;
     EXPECT_EQ(lit.find("class=\"beyond\""), std::string::npos);
-    // The figure of a rule is not the largest error.
+    // A rule's metric is not the largest error.
     for (ChannelDiff& channel : report.comparisons[0].channels)
         if (channel.mode->name == "roughness")
             channel.criterion = {.figure = "mean", .measured = 0.125, .limit = 0.5};
@@ -49,7 +49,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
         << "the verdict's line";
 }
 
-// Every channel that fails and lit, which never comes later than second.
+// Every failing channel and lit; lit is first or second.
 TEST(ReportOverview, PicturesOfFailuresAndOfLitLead) {
     Report report = reportOf(bothFrames());
     Comparison& comparison = report.comparisons[0];
@@ -74,7 +74,7 @@ TEST(ReportOverview, PicturesOfFailuresAndOfLitLead) {
     EXPECT_EQ(names(), Names{"albedo"}) << "without lit and failures the first that is compared";
 }
 
-// Of the Settings those are coloured in which the two differ, and no others.
+// Exactly the Settings that differ are coloured.
 TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
     Report report = reportOf(bothFrames());
     report.frames[1].settings.light_cutoff = 0.25f;
@@ -88,7 +88,7 @@ TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
         EXPECT_NE(page.find(std::string("<tr><td>") + key + "</td>"), std::string::npos) << key;
 }
 
-// Notes stand below the index, each once with its scenes; scenes that could not be rendered are failures.
+// Notes are below the index, each once with its scenes; scenes that could not be rendered are failures.
 TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     std::vector<Frame> frames;
     for (const char* scene : {"a/x.glb", "a/y.glb", "a/z.glb"})
@@ -102,8 +102,9 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
     EXPECT_NE(page.find("<li><b><bdi>3 scenes: </bdi></b><bdi>of all</bdi></li>"), std::string::npos);
-    EXPECT_NE(page.find("<li><b><bdi>y.glb, z.glb, other numbers each: </bdi></b><bdi>took 1 s</bdi></li>"),
-              std::string::npos);
+    EXPECT_NE(
+        page.find("<li><b><bdi>y.glb, z.glb, with different numbers: </bdi></b><bdi>took 1 s</bdi></li>"),
+        std::string::npos);
     EXPECT_LT(page.find("<section class=\"index\">"), page.find("<b><bdi>3 scenes: </bdi></b>"));
     EXPECT_NE(page.find("<li>a/bad.glb: is cut short</li>"), std::string::npos);
     EXPECT_NE(page.find("<h1><span class=\"verdict fail\">fail</span>"), std::string::npos);
@@ -132,7 +133,8 @@ TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
               std::string::npos);
 }
 
-// What fails without a comparison fails the whole, and page, JSON and JUnit name it; with it gone all pass.
+// A failure without a comparison fails the whole report, and page, JSON and JUnit name it. Without it all
+// pass.
 TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
     Report report = reportOf(bothFrames());
     ASSERT_TRUE(report.passed());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which picture a page shows where: left the baseline's, right the other's, and their difference. Told by the
-// pixels of the files and data URIs that the page names.
+// Position of images on a page: the baseline left, the other right, and their difference. Checked by the
+// pixels of the files and data URIs.
 #include "compare/report/report.h"
 #include "shared/image/png.h"
 #include "tests/support/base64.h"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What one card shows: the bytes of each picture's upper left pixel, and the name on each side.
+// Contents of one card: the upper left pixel of each image, in bytes, and the name on each side.
 struct CardPictures {
     std::array<int, 3> left{}, right{}, difference{};
     std::string left_name, right_name, left_button, right_button;
@@ -66,8 +66,7 @@ CardPictures cardIn(const std::string& page, const fs::path& folder, const std::
     return shown;
 }
 
-// Of the channels that fail, the baseline has 0.25 everywhere and the other 0.75; those of a second scene 0
-// and 1.
+// In failing channels the baseline is 0.25 everywhere and the other is 0.75; in a second scene 0 and 1.
 std::vector<Frame> greyFrames(float deferred, float forward, const std::string& scene) {
     std::vector<Frame> frames = bothFrames(scene);
     for (Frame& frame : frames) {
@@ -84,7 +83,7 @@ std::vector<Frame> greyFrames(float deferred, float forward, const std::string& 
 
 constexpr std::array<int, 3> quarter{64, 64, 64}, most{191, 191, 191}, black{0, 0, 0}, white{255, 255, 255};
 
-// The colour of an error of 0.5, which is beyond the channel's tolerance many times.
+// Colour of an error of 0.5, many times the channel's tolerance.
 std::array<int, 3> errorOfHalf(const Report& report, const std::string& name) {
     for (const ChannelDiff& channel : report.comparisons[0].channels)
         if (channel.mode->name == name) {
@@ -113,7 +112,7 @@ TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
                 if (baseline == Path::forward_plus)
                     expected = {most,       quarter,        apart,      "forward_plus",
                                 "deferred", "forward_plus", "deferred", {most, quarter, apart}};
-                if (single) expected.loupes.clear();  // half as large, so that nothing can be enlarged
+                if (single) expected.loupes.clear();  // half the size, so nothing can be enlarged
                 const CardPictures shown = cardIn(page, out, channel);
                 EXPECT_EQ(shown.left, expected.left) << channel << single;
                 EXPECT_EQ(shown.right, expected.right) << channel << single;
@@ -122,7 +121,7 @@ TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
         }
 }
 
-// The reference first, then both paths against each other; and of several scenes each its own.
+// The reference first, then both paths against each other; each scene has its own images.
 TEST(ReportPictures, EveryPairHasItsOwnPictures) {
     std::vector<Frame> frames = greyFrames(0.25f, 0.75f, "builtin:one");
     for (Frame& frame : greyFrames(0, 1, "builtin:two")) frames.push_back(std::move(frame));
@@ -155,7 +154,7 @@ TEST(ReportPictures, EveryPairHasItsOwnPictures) {
     }
 }
 
-// Negative control: with one file for both sides the cards are not as expected.
+// Negative control: with one file for both sides the cards differ from the expectation.
 TEST(ReportPictures, OneFileOnBothSidesIsSeen) {
     const fs::path out = folder() / "report";
     writeReport(reportOf(greyFrames(0.25f, 0.75f, "builtin:one")), out, {});

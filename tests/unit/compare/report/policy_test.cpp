@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scripts that may run on a report's page.
+// The content security policy of a report's page.
 #include "compare/report/policy.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace diptych {
 namespace {
 
-// FIPS 180-4's examples, and lengths around the ends of blocks (Python's hashlib).
+// Examples of FIPS 180-4, and lengths around the ends of blocks (Python's hashlib).
 TEST(PagePolicy, AScriptIsCalledByItsHash) {
     EXPECT_EQ(scriptSource(""), "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
     EXPECT_EQ(scriptSource("abc"), "'sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0='");

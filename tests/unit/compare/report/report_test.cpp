@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a report leaves: files, keys, escapes, and that nothing of others is touched.
+// A report's files, keys and escapes; files of others stay untouched.
 #include "compare/report/report.h"
 #include "compare/files/data_uri.h"
 #include "compare/files/frame_exr.h"
@@ -173,7 +173,7 @@ TEST(Report, ASinglePageHoldsItsPictures) {
     EXPECT_EQ(contentsOf(out / "junit.xml").find("ATTACHMENT"), std::string::npos) << "there are no files";
 }
 
-// Of a channel that both sides show alike the page has the picture once, and of another both.
+// If both sides show a channel alike, the page has its image once, otherwise twice.
 TEST(Report, ASinglePageHoldsASharedPictureOnce) {
     const fs::path out = folder() / "report";
     ReportOptions options;
@@ -273,7 +273,7 @@ TEST(Report, AnEditedListRemovesNothingOutside) {
     EXPECT_EQ(contentsOf(here / "outside.txt"), "keep");
 }
 
-// Another tool's report.json has a schema and a list of files, too.
+// Another tool's report.json may have a schema and a list of files, too.
 TEST(Report, AStrangersListRemovesNothing) {
     const fs::path out = folder() / "theirs";
     fs::create_directories(out);
@@ -299,7 +299,7 @@ TEST(Report, AStrangersListRemovesNothing) {
     EXPECT_EQ(contentsOf(out / "mine.txt"), "keep") << "diptych never writes .txt";
 }
 
-// The name alone, in a picture's comment or a scene's path, makes no file ours.
+// The word "diptych" in an image's comment or a scene's path does not make a file ours.
 TEST(Report, AFileThatOnlyMentionsDiptychIsNotOurs) {
     const fs::path here = folder();
     for (const std::string& text : {std::string("diptych"), std::string("\x76\x2f\x31\x01 diptych"),
@@ -354,7 +354,7 @@ TEST(Report, NotesOfTheSceneAreSaidOnce) {
     EXPECT_EQ(reportJunit(quiet, layoutOf(quiet, {}), "out").find("note: "), std::string::npos);
 }
 
-// The tolerance there is each pixel's own: what it leaves over is what counts.
+// The tolerance of lit is per pixel; only pixels that remain unexplained count.
 TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[gpu::DEBUG_lit].at(1, 2) = 0.75f;
@@ -384,7 +384,7 @@ TEST(Report, HelpersAreNeitherComparedNorWritten) {
     EXPECT_EQ(layers[0].name, "normals");
 }
 
-// RFC 4648's own examples.
+// RFC 4648's examples.
 TEST(Report, Base64) {
     for (const auto& [text, code] :
          {std::pair{"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}})

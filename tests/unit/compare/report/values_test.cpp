@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The values beside the page come back as the Frames' numbers: exactly, or as near as the file says.
+// The page's value files decode to the Frames' numbers: exactly, or as precisely as the file states.
 #include "compare/report/values.h"
 #include "compare/report/html.h"
 #include "tests/support/files.h"
@@ -25,7 +25,7 @@ struct Decoded {
     std::vector<std::vector<double>> planes;
 };
 
-// Every 13 bits are two letters, the lowest bits first; up to 6 at the end one.
+// Two letters encode 13 bits, the lowest bits first; up to 6 bits at the end take one letter.
 std::string fromBase91(const std::string& text) {
     const auto digit = [](char c) { return static_cast<unsigned>(c - '#') - (c > '\\'); };
     std::vector<bool> bits;
@@ -40,7 +40,7 @@ std::string fromBase91(const std::string& text) {
     return bytes;
 }
 
-// As values.h describes the file, not as the page's script or its writer do it.
+// Written from the description in values.h, independently of the page's script and its writer.
 Decoded decoded(const std::string& script) {
     const std::string start = "diptychValues(\"a.values.js\",";
     EXPECT_EQ(script.find(start), 0u) << script.substr(0, 80);
@@ -51,7 +51,7 @@ Decoded decoded(const std::string& script) {
                       planes = components * images + head["errors"].get<bool>(),
                       bytes = head["bits"].get<std::size_t>() / 8;
     EXPECT_EQ(head["data"].size(), planes);
-    std::vector<std::vector<unsigned char>> raw;  // a byte more than each plane has
+    std::vector<std::vector<unsigned char>> raw;  // one byte more than each plane has
     for (const Json& text : head["data"]) {
         raw.emplace_back(pixels * bytes + 1);
         if (text == "") continue;
@@ -129,7 +129,7 @@ TEST(ReportValues, SmallPicturesAreExact) {
     }
 }
 
-// Whatever float16 can hold is exact at half the size.
+// Values that float16 can represent stay exact at half the size.
 TEST(ReportValues, WhatElevenBitsHoldIsExactInSixteen) {
     Image a(400, 300, 1, 3), b(400, 300, 1, -1), errors(400, 300, 1);
     a.data[7] = 0.5f;
@@ -145,7 +145,7 @@ TEST(ReportValues, WhatElevenBitsHoldIsExactInSixteen) {
     EXPECT_EQ(back.planes[2][3], double{0.1f}) << "the largest error is the unit";
 }
 
-// Half a step of 11 bits, down to 2^-29 of the largest; whatever the largest is.
+// Half a step of 11 bits, down to 2^-29 of the largest value, at any scale.
 TEST(ReportValues, LargePicturesKeepElevenBits) {
     for (const double largest : {1.0, 1e30, 3e-30}) {
         const Image a = noiseUpTo(300, 200, 3, largest, 4), b = noiseUpTo(300, 200, 3, largest, 5);
@@ -176,7 +176,7 @@ TEST(ReportValues, OneFrameAloneHasItsOwn) {
     EXPECT_EQ(back.planes[1][19], double{a.data[39]});
 }
 
-// A report of no pictures at all: the layout asks for the size alone.
+// A report without images: the layout only needs the size.
 TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
     for (const int width : {4096, 4097}) {
         Report report;
@@ -201,7 +201,7 @@ TEST(ReportValues, EachChannelHasAFileThatTheReportLists) {
                   names, [](const std::string& name) { return name.ends_with(".values.js"); })),
               channelsOfOneSample());
     EXPECT_EQ(namesIn(out), names);
-    // They are replaced and removed as pictures are.
+    // Value files are replaced and removed like images.
     ReportOptions single;
     single.single_file = true;
     writeReport(reportOf(bothFrames()), out, single);

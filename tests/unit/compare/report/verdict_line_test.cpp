@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a verdict is read by: the figure that decides and its limit, the share of pixels, the last line,
-// notes.
+// A verdict's text: the deciding metric and its limit, the fraction of pixels, the last line, notes.
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
@@ -49,7 +48,7 @@ TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
     EXPECT_EQ(percentText(1 - 1e-9), "over 99.99 %");
 }
 
-// Of several bounds the one that is used most decides, of alternatives the one that is used least.
+// Among bounds that must all be met, the most used one decides; among alternatives, the least used one.
 TEST(Criterion, IsTheBoundThatDecides) {
     const Measured measured = [](const Quantity& q) -> std::optional<double> {
         return q.figure == "max" ? 0.5 : q.figure == "mean" ? 0.1 : 30;
@@ -65,8 +64,7 @@ TEST(Criterion, IsTheBoundThatDecides) {
     EXPECT_FALSE(decidingBound({Condition::Kind::all, {}, 0, {}}, measured).has_value());
 }
 
-// Lit is judged by the pixels that the encoding does not explain, and not by a tolerance fitted to the
-// result.
+// Lit is judged by unexplained pixels, not by a tolerance fitted to the result.
 TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
     std::vector<Frame> frames = bothFrames();
     frames[0].channels.at(litMode).at(1, 2) = frames[1].through_gbuffer.at(litMode).at(1, 2) = 0.55f;
@@ -97,7 +95,7 @@ TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
     }
 }
 
-// The share of pixels beyond the limit stands in the message.
+// The message states the fraction of pixels out of tolerance.
 TEST(Criterion, CountsThePixelsBeyond) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames)
@@ -178,7 +176,7 @@ TEST(VerdictLine, SaysThatPicturesShowNothing) {
     EXPECT_EQ(json["comparisons"][0]["emptiness"], "both images are empty: no surface is in view");
 }
 
-// A surface on 1 % of the picture is one; on less, the background decides every picture.
+// A surface on 1 % of the image counts; on less, the background decides every image.
 TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
     for (const int shown : {1, 2}) {
         std::vector<Frame> frames = bothFrames();
@@ -197,7 +195,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
     }
 }
 
-// Light on 5 % of what is in view is a picture; on less, black decides the verdict.
+// Light on 5 % of the visible surfaces counts; on less, black decides the verdict.
 TEST(VerdictLine, SaysThatHardlyAnythingIsLit) {
     for (const int shown : {9, 10}) {
         std::vector<Frame> frames = bothFrames();
@@ -231,8 +229,8 @@ TEST(VerdictLine, NotesOfSeveralScenesAreOneLine) {
     EXPECT_NE(table.find("\nnote, c.glb: another\n"), table.npos) << table;
 }
 
-// Within one scene each stands by itself: a fault of three materials is three notes, and another scene's
-// joins the one that it equals.
+// Within one scene notes stay separate: a fault in three materials is three notes. Equal notes of several
+// scenes are merged.
 TEST(VerdictLine, NotesOfOneSceneThatDifferInNumbersAreSeveral) {
     std::vector<Frame> frames;
     for (const char* scene : {"a.glb", "b.glb"})

@@ -27,7 +27,7 @@ TEST(Color, IsForTerminalsUnlessAskedFor) {
     std::fclose(file);
 }
 
-// On a terminal of its own, NO_COLOR and a dumb one are heeded.
+// On a terminal of its own, NO_COLOR and TERM=dumb disable colours.
 TEST(Color, NoColorIsHeeded) {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal < 0) GTEST_SKIP() << "no pseudo terminal here";

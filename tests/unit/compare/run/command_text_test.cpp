@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Commands that are printed for users to type have the same meaning when they are parsed again.
+// Printed commands keep their meaning when they are parsed again.
 #include "compare/run/command_text.h"
 #include "compare/cli/command_line.h"
 
@@ -39,7 +39,7 @@ Options parsedAgain(const std::string& line) {
     return parseCommandLine(words);
 }
 
-// Settings with one value changed at a time, and all together; with values that a shell or an option parser
+// Settings with one changed value each, and with all changed; values that a shell or an option parser
 // could misread.
 std::vector<Settings> severalSettings() {
     std::vector<Settings> all(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file is printed as it is, though it is read in pieces.
+// A file is printed unchanged although it is read in pieces.
 #include "compare/run/print.h"
 #include "shared/text/input_file.h"
 #include "tests/support/files.h"
@@ -12,7 +12,7 @@
 namespace diptych {
 namespace {
 
-// What stdout gets of a file that holds this.
+// The text on stdout for a file with this content.
 std::string printedOf(const std::string& text) {
     const std::filesystem::path file = folder() / "report.json";
     std::ofstream(file, std::ios::binary) << text;
@@ -24,14 +24,14 @@ std::string printedOf(const std::string& text) {
 
 TEST(PrintFile, NoCharacterIsCutBetweenTwoPieces) {
     constexpr std::size_t piece = std::size_t{1} << 16;
-    // A line end shortly before the end of the first piece, and a character of three bytes across it, which
-    // has one or two of them before it.
+    // A line end shortly before the first piece's end, and a three-byte character across it, with one or
+    // two bytes before.
     for (const std::size_t before : {piece - 1, piece - 2}) {
         std::string text(before - 10, 'a');
         text += "\nbbbbbbbbb\u20ac\n";
         ASSERT_GT(text.size(), piece);
         EXPECT_TRUE(printedOf(text) == text) << before;
-        // A line longer than a piece, without an end.
+        // A line longer than a piece, without a line end.
         text = std::string(before, 'a') + "\u20ac" + std::string(2 * piece, 'b');
         EXPECT_TRUE(printedOf(text) == text) << before;
     }

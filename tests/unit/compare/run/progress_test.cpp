@@ -34,7 +34,7 @@ TEST(Progress, LineShowsHowFar) {
     EXPECT_EQ(progressLine("a.gltf", 1, "x", 24), "a.gltf [======] 100 % x");
 }
 
-// A line that is too wide would wrap and could not be wiped.
+// A line that is too wide would wrap and could not be erased.
 TEST(Progress, LineNeverExceedsItsColumns) {
     const std::string name(300, 'n');
     for (const std::string& what : {std::string(), std::string("a.gltf"), name})
@@ -43,7 +43,7 @@ TEST(Progress, LineNeverExceedsItsColumns) {
                 EXPECT_LE(progressLine(what, fraction, "images and meshes", columns).size(), columns);
 }
 
-// "...and the end of the name", which is more informative than its beginning.
+// "...and the end of the name", which is more informative than the beginning.
 TEST(Progress, LongNamesKeepTheirEnd) {
     EXPECT_TRUE(progressLine("a/long/way/to/Sponza.gltf", 0.5, "x", 40).starts_with("..."))
         << progressLine("a/long/way/to/Sponza.gltf", 0.5, "x", 40);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which scenes a shard takes, and what it calls itself.
+// The scenes of a shard, and its name.
 #include "compare/shards/manifest.h"
 #include "compare/shards/merge.h"
 #include "compare/shards/partition.h"
@@ -54,7 +54,7 @@ TEST(Shards, ARegularArrayOfSlurmSaysItself) {
     EXPECT_EQ(shardWords("slurm", task(10, 4, 16, 3)), "3/5") << "4, 7, 10, 13, 16";
     EXPECT_EQ(shardWords("slurm", task(7, 7, 7, 1)), "1/1");
     EXPECT_NE(shardWords("slurm").find("SLURM_ARRAY_TASK_ID is not set"), std::string::npos);
-    EXPECT_NE(shardWords("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is no number: x"),
+    EXPECT_NE(shardWords("slurm", setTo({{"SLURM_ARRAY_TASK_ID", "x"}})).find("is not a number: x"),
               std::string::npos);
 }
 
@@ -121,7 +121,8 @@ TEST(Shards, ASceneWeighsWhatItsFilesDo) {
     EXPECT_GT(weights[1], weights[0]);
     EXPECT_EQ(weights[0], weights[2]);
     EXPECT_GT(weights[0], 0) << "drawing is not for nothing";
-    // What took long comes first; what is not in the file takes what its bytes take elsewhere.
+    // Slow scenes come first. For a scene without a recorded time, its bytes and the others' rate give an
+    // estimate.
     const std::vector<double> timed = weightsOf(
         {"builtin:gallery", (root / "s.glb").string(), "builtin:spots"}, {{"builtin:gallery", 500}});
     EXPECT_EQ(timed[0], 500);

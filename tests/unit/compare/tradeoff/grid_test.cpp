@@ -68,7 +68,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
     EXPECT_NE(gridFault(std::string(100000, '[')).find("nested deeper"), std::string::npos);
 }
 
-// Bytes changed, taken out and put in: a plan comes out, or one line that says why not.
+// Changes, removes and inserts bytes: the result is a plan, or one line with the reason.
 TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
     const std::string sound =
         R"([{"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]], "msaa": [1, 4]}},

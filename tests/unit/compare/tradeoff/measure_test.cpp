@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Upsampling, and the errors of a row.
+// Upsampling, and a row's errors.
 #include "compare/tradeoff/measure.h"
 #include "compare/tradeoff/upsample.h"
 #include "shared/contract/debug_mode.h"
@@ -21,7 +21,7 @@ FrameErrors errorsBetween(const Frame& reference, const Frame& frame) {
     return ErrorsAgainst(reference)(frame.channels.at(litMode));
 }
 
-// lit is grey, of these values; a negative one is background.
+// lit is grey with these values; a negative one is background.
 Frame frameOf(int width, int height, const std::vector<float>& values) {
     Frame frame = flatFrame(Path::deferred, width, height);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -38,7 +38,7 @@ std::vector<float> rowOf(const Image& image, int y) {
 }
 
 TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
-    // From two pixels to four: the new centres are at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the
+    // Two pixels to four: the new centres are at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the
     // old.
     const Frame wide = upsampled(frameOf(2, 1, {0, 8}), {4, 1});
     EXPECT_EQ(rowOf(wide.channels.at(litMode), 0), (std::vector<float>{0, 2, 6, 8}));
@@ -57,7 +57,7 @@ TEST(TradeoffUpsample, BackgroundNeitherDarkensNorGrows) {
     EXPECT_EQ(rowOf(wide.channels.at(idMode), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
 }
 
-// In front of the background something blended is what a pixel shows.
+// A blended surface in front of the background is visible and must be enlarged.
 TEST(TradeoffUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
     Frame frame = frameOf(3, 1, {8, -1, -1});
     frame.unblended = frame.channels.at(litMode);
@@ -78,7 +78,7 @@ TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
     EXPECT_THROW(upsampled(without, {4, 4}), std::runtime_error);
 }
 
-// The figures that compare gives for the same pictures.
+// The same metrics as compare gives for the same images.
 TEST(TradeoffErrors, AreThoseOfTheReport) {
     const Image reference = noise(40, 30, 1), test = noise(40, 30, 2);
     Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;
@@ -93,7 +93,7 @@ TEST(TradeoffErrors, AreThoseOfTheReport) {
     EXPECT_DOUBLE_EQ(errors.errors[2], stats.p99);
     EXPECT_GT(errors.errors[0], 0.1);
     EXPECT_LT(errors.errors[0], 1);
-    // What one figure takes of it is the same.
+    // Evaluating a single metric gives the same value.
     const ErrorsAgainst against(a);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
         ErrorsOfCameras all, one;

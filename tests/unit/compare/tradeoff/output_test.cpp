@@ -102,7 +102,7 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
     Tradeoff tradeoff = several();
     tradeoff.scene = "builtin:one";
     const auto parse = [](const std::string& command) {
-        std::vector<std::string> words;  // no word here holds a space
+        std::vector<std::string> words;  // no word here contains a space
         std::string text = command;
         std::erase(text, '\'');
         for (std::size_t from = 0; from <= text.size();) {
@@ -167,7 +167,7 @@ TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
 }
 
-// Rows fit the terminal: numbers are left out one by one, then Settings are cut short.
+// Rows fit the terminal: numbers are dropped one by one, then Settings are truncated.
 TEST(TradeoffOutput, RowsFitTheTerminal) {
     const Tradeoff tradeoff = several();
     std::vector<Settings> rows;

@@ -15,7 +15,7 @@ using namespace tradeoff;
 
 namespace {
 
-// By the definition, pair by pair.
+// By definition, pair by pair.
 std::vector<std::size_t> byDefinition(const std::vector<TimeError>& points) {
     const auto finite = [](const TimeError& p) { return std::isfinite(p.time) && std::isfinite(p.error); };
     const auto beats = [&](const TimeError& a, const TimeError& b) {
@@ -37,7 +37,7 @@ std::vector<std::size_t> sorted(std::vector<std::size_t> numbers) {
 TEST(TradeoffPareto, IsTheFrontByDefinition) {
     std::mt19937 random(7);
     for (int trial = 0; trial < 3000; ++trial) {
-        // Few values, so that ties in one and in both are common.
+        // Few values, so that ties in one or both coordinates are common.
         const int values = trial % 3 == 0 ? 4 : trial % 3 == 1 ? 12 : 1000;
         std::uniform_int_distribution<int> value(0, values), count(0, 40), odd(0, 15);
         std::vector<TimeError> points(static_cast<std::size_t>(count(random)));
@@ -60,18 +60,19 @@ TEST(TradeoffPareto, TiesStay) {
     EXPECT_TRUE(paretoFront({{nan, 1}, {1, inf}}).empty());
 }
 
-// Times that noise cannot tell apart: the more accurate row stands there, or of one picture the faster.
+// If noise cannot tell times apart, the more accurate row is on the front; with equal errors, the faster
+// one.
 TEST(TradeoffPareto, LuckIsNoPlaceOnTheFront) {
     using Numbers = std::vector<std::size_t>;
     EXPECT_EQ(paretoFront({{10, 1, 0.5}, {10.4, 0.9, 0.5}}), Numbers{1});
     EXPECT_EQ(paretoFront({{10, 1, 0.5}, {10.6, 0.9, 0.5}}), (Numbers{0, 1}));
     EXPECT_EQ(paretoFront({{10, 1, 0.1}, {10.4, 0.9, 0.5}}), Numbers{1}) << "the larger noise of both";
     EXPECT_EQ(paretoFront({{10.4, 1, 0.5}, {10, 1, 0.5}}), Numbers{1}) << "one picture: the faster";
-    // Each is within noise of the next; the fast one is not within that of the accurate one, and stays.
+    // Each is within noise of the next. The fastest is not within noise of the most accurate, and stays.
     EXPECT_EQ(paretoFront({{10, 3, 0.5}, {10.4, 2, 0.5}, {10.8, 1, 0.5}}), (Numbers{0, 2}));
 }
 
-// Two copies of the same Settings, timed with 10 % of noise: one of them stands there.
+// Two copies of the same Settings, timed with 10 % noise: one of them is on the front.
 TEST(TradeoffPareto, OneOfTwoCopiesStands) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(0, 0.1);

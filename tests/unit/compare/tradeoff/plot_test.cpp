@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names in plots: none covers another, and each stands at its own point.
+// Labels in plots: none overlaps another, and each belongs to its own point.
 #include "compare/tradeoff/plot.h"
 #include "compare/plot/labels.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -46,7 +46,7 @@ TEST(PlotLabels, StandsAboveOnTheRightUnlessAMarkIsThere) {
     EXPECT_LT(free.bottom, 150);
     const PlotBox moved = placeLabels({{200, 150, 24, 18}}, {free}, area).front();
     EXPECT_FALSE(meet(moved, free));
-    // Marks everywhere: a label has a place nevertheless.
+    // With marks everywhere, a label is still placed.
     const PlotBox crowded = placeLabels({{200, 150, 24, 18}}, {area}, area).front();
     EXPECT_TRUE(meet(crowded, area));
 }
@@ -62,7 +62,8 @@ TradeoffRow timed(const char* path, double ms, double error) {
     return made;
 }
 
-// Twelve rows on the front within a hundredth of an axis: each has its number, which covers no other one.
+// Twelve rows on the front within a hundredth of an axis: each has its number, and the numbers do not
+// overlap.
 TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
     Tradeoff tradeoff;
     tradeoff.scene = "s";
@@ -90,7 +91,7 @@ TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
     EXPECT_NE(svg.find("class=\"lead\""), std::string::npos) << "a number that went far is led to";
 }
 
-// Of scattered rows: a number that has another row's mark nearer than its own has a line to its own.
+// Scattered rows: a number that is closer to another row's mark gets a line to its own.
 TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
     int near = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -111,7 +112,7 @@ TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
             marks[std::stoi((*i)[1])] = {std::stod((*i)[2]), std::stod((*i)[3])};
         ASSERT_EQ(marks.size(), 60u);
         for (std::sregex_iterator i(svg.begin(), svg.end(), label), end; i != end; ++i) {
-            const double x = std::stod((*i)[2]), y = std::stod((*i)[3]) + 3 - 17 / 2.0;  // its middle
+            const double x = std::stod((*i)[2]), y = std::stod((*i)[3]) + 3 - 17 / 2.0;  // its centre
             const auto from = [&](const std::array<double, 2>& m) { return std::hypot(x - m[0], y - m[1]); };
             const double own = from(marks.at(std::stoi((*i)[4])));
             const bool other =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What deferred lighting's choice of samples saves and changes, by row of a sweep.
+// Savings and changes from deferred lighting's sample groups, per row of a sweep.
 #include "compare/tradeoff/sample_figures.h"
 #include "shared/contract/debug_mode.h"
 
@@ -26,7 +26,7 @@ Frame sampledRow(const std::vector<float>& lit, const std::vector<float>& shaded
 TEST(TradeoffSamples, AreSharesOfThePixelsThatShowASurface) {
     const Frame exact = sampledRow({1, 2, 3, 4, 0}, {1, 4, 2, 1, 0});
     EXPECT_EQ(sampleSharesOf(exact, exact), (SampleShares{8.0 / 4, 0.5, 0, 0}));
-    // The second pixel differs where less is shaded, the fourth where as much is.
+    // The second pixel differs with fewer shaded samples, the fourth with the same number.
     const Frame similar = sampledRow({1, 2.5f, 3, 5, 9}, {1, 2, 2, 1, 0});
     EXPECT_EQ(sampleSharesOf(exact, similar), (SampleShares{6.0 / 4, 0.5, 0.5, 0.25}));
     const Frame background = sampledRow({0}, {0});

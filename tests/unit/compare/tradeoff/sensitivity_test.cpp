@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sweep leaves out what the scene cannot feel, and says why.
+// A sweep omits Settings without effect on the scene, and states why.
 #include "compare/tradeoff/sensitivity.h"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,13 @@ SweepRows sensitiveTo(const std::vector<Light>& lights) {
     return sensitiveRows(makeSweepRows({}, defaultGrids({})), lights);
 }
 
-// Values of a Setting among the rows.
 std::set<std::string> valuesOf(const SweepRows& sweep, std::string_view option) {
     std::set<std::string> values;
     for (const Settings& row : sweep.rows) values.insert(row.valueOf(option));
     return values;
 }
 
-// The first reason; `value`: of that value.
+// The first reason; `value` restricts it to that value.
 std::string reasonOf(const SweepRows& sweep, const std::string& option, const std::string& value = {}) {
     for (const SweepSkip& skip : sweep.skips)
         if (skip.tried.size() == 2 && skip.tried[1].first == option &&
@@ -72,7 +71,7 @@ TEST(TradeoffSensitivity, AreaLightsAreVariedWhereThereIsOne) {
     EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
 }
 
-// Points cast as soon as --shadow-lights asks for some.
+// Point lights cast shadows if --shadow-lights selects them.
 TEST(TradeoffSensitivity, ShadowsAreVariedWhereSomethingCasts) {
     const SweepRows none = sensitiveTo({lightOf(LightKind::rect)});
     EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
@@ -83,7 +82,7 @@ TEST(TradeoffSensitivity, ShadowsAreVariedWhereSomethingCasts) {
     EXPECT_GT(valuesOf(sensitiveTo({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
-// A square of one material under an environment: half of it black and a sun, or the same from everywhere.
+// A square of one material under an environment: black with a bright texel, or uniform.
 SweepRows sensitiveUnder(const Material& material, bool even) {
     Scene scene;
     scene.materials = {material};
@@ -127,7 +126,7 @@ TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
         EXPECT_EQ(reasonOf(of_matte, option), "no surface is specular") << option;
     }
     EXPECT_EQ(valuesOf(of_matte, "ibl-diffuse").size(), 3u);
-    // But for rows in which light between facets is irradiance.
+    // Except rows whose multiple scattering uses irradiance.
     const SweepRows of_metal = sensitiveUnder(metal, false);
     for (const Settings& row : of_metal.rows)
         EXPECT_TRUE(row.ibl_diffuse == IblDiffuse::sh || row.multiscatter == Multiscatter::fdez);
@@ -188,7 +187,7 @@ TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps").size(), 1u);
 }
 
-// Whatever is left out, each skip names its path, and no two rows are one picture.
+// Every skip names its path, and no two rows have the same image.
 TEST(TradeoffSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, defaultGrids({}));
     const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});

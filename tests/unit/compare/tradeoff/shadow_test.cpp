@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How wrong a shadow of the sun is, and which rows of a sweep others beat.
+// Errors of the sun's shadow, and the dominated rows of a sweep.
 #include "compare/tradeoff/shadow_rows.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/contract/debug_mode.h"
@@ -14,15 +14,14 @@
 namespace diptych::tradeoff {
 namespace {
 
-// A row of pixels of one channel.
 Image pixelRow(const std::vector<float>& values, int components = 1) {
     Image image(static_cast<int>(values.size()) / components, 1, components);
     image.data.assign(values.begin(), values.end());
     return image;
 }
 
-// Four pixels that show a surface: two that the sun reaches, with 1 and 3 W/m^2, and two that it does not,
-// with 2 and 4; the second and the third are 0.01 m from an edge, the others 1 m.
+// Four surface pixels: two lit by the sun with 1 and 3 W/m^2, and two in shadow with 2 and 4. The second
+// and third are 0.01 m from an edge, the others 1 m.
 Frame tracedRow() {
     Frame reference;
     reference.settings.path = Path::reference;
@@ -33,7 +32,7 @@ Frame tracedRow() {
     return reference;
 }
 
-// What a path shows of it, with texels of 5 mm and a filter that reaches 2 cm.
+// A path's result for it, with texels of 5 mm and a filter radius of 2 cm.
 Frame filteredRow(const std::vector<float>& visibility) {
     Frame path;
     path.settings.path = Path::deferred;
@@ -85,7 +84,7 @@ TEST(TradeoffShadow, WhatCannotBeJudgedIsNot) {
     EXPECT_FALSE(shadowErrorsOf(sunless, filteredRow({1, 1, 0, 0})));
 }
 
-// Rows with an error, a time and a size each.
+// Rows with an error, a time (ms) and a size (bytes) each.
 Tradeoff sweptRows(const std::vector<std::array<double, 3>>& rows) {
     Tradeoff sweep;
     for (const auto& [error, ms, bytes] : rows) {
@@ -127,7 +126,7 @@ TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
     EXPECT_EQ(shadowTableHtml(Tradeoff()), "");
 }
 
-// A sweep over shadows is held against the shadowed truth, whatever is given.
+// A sweep over shadows is compared with the shadowed ground truth, whatever the given Settings.
 TEST(TradeoffShadow, TheTruthHasShadowsWhereAnyRowDoes) {
     Settings given;
     given.shadows = Shadows::off;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows that a sweep keeps until it is done, and which of them the next program takes.
+// Checkpointed rows of a sweep, and the rows that a resumed program accepts.
 #include "compare/tradeoff/sweep_state.h"
 
 #include "tests/support/files.h"
@@ -20,7 +20,7 @@ Settings settingsOf(std::uint32_t seed) {
     return settings;
 }
 
-// A measured row; with it, its name: those of its files without their endings.
+// Stores a measured row and returns its name: that of its files without their extensions.
 std::string kept(SweepState& state, const Settings& settings) {
     MeasuredRow measured;
     measured.row.settings = settings;
@@ -49,7 +49,7 @@ TEST(TradeoffState, ARowIsFoundByItsSettings) {
     EXPECT_FALSE(state.find(settingsOf(2), 1, 2));
 }
 
-// A row counts if it is of these Settings, with its own pictures, all there.
+// A row counts if it has these Settings and its own complete images.
 TEST(TradeoffState, ARowThatIsNotWholeIsMeasuredAgain) {
     SweepState state(folder() / "out", key);
     const std::string name = kept(state, settingsOf(1)), other = kept(state, settingsOf(2));

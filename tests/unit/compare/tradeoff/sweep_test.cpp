@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Settings that a sweep draws.
+// The Settings of a sweep's rows.
 #include "compare/tradeoff/sweep.h"
 #include "shared/frame/setting_rows.h"
 
@@ -112,8 +112,8 @@ TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
     for (const Settings& row : defaultSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
-// Of a truth that has one place a pixel, or other weights, the mean of a pixel's samples would be called
-// wrong.
+// Against a ground truth with one sample per pixel, or with other weights, the mean of several samples
+// would count as an error.
 TEST(TradeoffSweep, SamplesAreTriedAgainstATruthOfSamples) {
     const Grid samples{{"msaa", {"1", "4"}}, {"resolve", {"linear", "tonemapped"}}};
     Settings given;
@@ -243,7 +243,7 @@ TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
     }
 }
 
-// Light between microfacets is swept where the command line asks for it, and held against the walk.
+// Multiple scattering is swept if the command line requests it, and compared with the random walk.
 TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<Multiscatter> values;
@@ -262,8 +262,7 @@ TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
     EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
 }
 
-// Steps through haze are swept where there is haze, and all of it is held against the integral of two
-// heights.
+// Haze march steps are swept if there is haze. All haze is compared with the integral between two heights.
 TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<int> values;
@@ -280,7 +279,7 @@ TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
     EXPECT_GT(referenceFor(given, asked.rows).haze_march_steps, 0);
 }
 
-// Against one sample a pixel, filtered roughness is an error whatever it is good for.
+// Against one sample per pixel, filtered roughness would always count as an error.
 TEST(TradeoffSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<std::pair<bool, SpecularNormals>> values;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One path on two devices: Frames made by hand, of which each differs in one way that precision allows or in
-// one that it does not.
+// One path on two devices: hand-made Frames that differ in one way, within the allowed precision or beyond
+// it.
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/device_bounds.h"
@@ -19,8 +19,8 @@ namespace {
 
 constexpr int across_side = 32;
 
-// A plane that is tilted away from a camera at the origin, material 0 left of the middle and 1 right of it,
-// and textures whose texels are all alike. Two devices have a step of 1/16 of a pixel together.
+// A tilted plane in front of a camera at the origin, material 0 on the left half, 1 on the right. All
+// texels of its textures are equal. The two devices together have a step of 1/16 of a pixel.
 class AcrossDevicesPair : public testing::Test {
 protected:
     AcrossDevicesPair() {
@@ -96,7 +96,7 @@ protected:
         options.across = &across_;
         return compareFrames(report_, 0, 1, needs_, options);
     }
-    // Names of the channels that fail, and failures of the pair.
+    // Names of the failing channels, and failures of the pair.
     std::string faults() {
         const Comparison comparison = compared();
         std::string text;
@@ -105,7 +105,7 @@ protected:
             if (channel.verdict == Verdict::fail) text += std::string(channel.mode->name) + " ";
         return text;
     }
-    // Shows another surface at a pixel there, one far behind.
+    // Shows another surface, far behind, at a pixel of the second device.
     void showAnother(int x, int y, float material) {
         *there(gpu::DEBUG_material_id, x, y) = material;
         *there(gpu::DEBUG_depth, x, y) = 50;
@@ -133,8 +133,8 @@ TEST_F(AcrossDevicesPair, APixelBesideAnEdgeMayShowWhatIsBeyondIt) {
 
 TEST_F(AcrossDevicesPair, APixelAwayFromAnyEdgeMayNot) {
     showAnother(across_side / 4, 7, 1);
-    // It is an edge of its own in the picture that shows it; its neighbours are not, so that a whole patch
-    // tells.
+    // A single pixel makes its own edge in that image. In a patch the inner pixels have no edge beside
+    // them.
     for (int y = 5; y < 10; ++y)
         for (int x = 5; x < 10; ++x) showAnother(x, y, 1);
     EXPECT_NE(faults().find(" not beside an edge"), std::string::npos);
@@ -156,8 +156,8 @@ TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
     EXPECT_NE(faults().find("shows another triangle"), std::string::npos);
 }
 
-// A surface of the same depth is sought as far away as both devices' steps of 1/16 of a pixel reach at the
-// pixel's depth, and by as much more as a depth rounds.
+// A surface of the same depth is searched within both devices' steps of 1/16 of a pixel at the pixel's
+// depth, plus the depth's rounding.
 TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthIsSoughtWithinAStepAndRounding) {
     constexpr int at_x = 5, at_y = 9;
     *there(gpu::DEBUG_material_id, at_x, at_y) = 1;
@@ -196,7 +196,7 @@ TEST_F(AcrossDevicesPair, OneCodeOfATexelIsFound) {
     EXPECT_EQ(faults(), "");
     *there(gpu::DEBUG_albedo, 3, 3) = static_cast<float>(exactSrgb(129));
     EXPECT_EQ(faults(), "albedo ");
-    // Unless other texels may be seen there.
+    // Unless other texels may be visible there.
     across_.texels.at(gpu::DEBUG_albedo).at(3, 3, 0) = 0.02f;
     EXPECT_EQ(faults(), "");
 }
@@ -213,27 +213,27 @@ TEST_F(AcrossDevicesPair, WhatWasMeasuredOfDecodingIsGrantedAndNoMoreThanVulkanA
     EXPECT_EQ(faults(), "albedo ");
     for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
     EXPECT_EQ(faults(), "");
-    // Half a code each is 1.7 % here.
+    // Half a code for each device is 1.7 % here.
     fill(1, gpu::DEBUG_albedo, 1.1 * exactSrgb(128));
     for (float& value : across_.devices[1].texels->srgb) value *= 1.1f;
     EXPECT_EQ(faults(), "albedo ");
 }
 
 TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces) {
-    // Surfaces that differ as they may have other light.
+    // If surfaces differ within their tolerance, light may differ, too.
     fill(1, gpu::DEBUG_lit, 0.6);
     EXPECT_EQ(faults(), "lit ");
     across_.relit[gpu::DEBUG_lit] = at(1, gpu::DEBUG_lit);
     EXPECT_EQ(faults(), "");
     fill(1, gpu::DEBUG_lit, 0.6 * 1.0001);
     EXPECT_EQ(faults(), "");
-    // A light is missing on one device.
+    // One device misses a light.
     fill(1, gpu::DEBUG_lit_diffuse, 0.4);
     EXPECT_EQ(faults(), "lit_diffuse ");
 }
 
-// Integrals over area lights cancel, so that a pixel far darker than the picture may differ more; the parts
-// of lit by as much as lit.
+// Integrals over area lights cancel, so a pixel far darker than the image may differ more. The components
+// of lit get the same tolerance as lit.
 TEST_F(AcrossDevicesPair, AreaLightsGrantTheDarkMoreAndNothingElseDoes) {
     const auto darken = [](Image& image, float value) { std::fill_n(image.pixel(index(20, 12)), 3, value); };
     for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse}) {
@@ -271,7 +271,7 @@ TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {
     EXPECT_NE(faults().find("roughness"), std::string::npos);
 }
 
-// A square of a material whose base colour is of 64 x 64 texels.
+// A square of a material with a base colour texture of 64 x 64 texels.
 struct TexturedPlane {
     Scene scene;
     Frame frame;
@@ -309,15 +309,15 @@ TEST(TexelRanges, AreNoneOfOneColour) {
 TEST(TexelRanges, AreThoseOfTheTexelsThatMayBeSeen) {
     const auto checker = [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; };
     EXPECT_NEAR(TexturedPlane(1, checker).range(), 1, 1e-6);
-    // A level of detail of 3 and more is grey.
+    // Mip level 3 and above is grey.
     EXPECT_NEAR(TexturedPlane(16, checker).range(), 0, 1e-6);
-    // A dark square far away is not seen.
+    // A dark square far away has no influence.
     EXPECT_EQ(TexturedPlane(1, [](int x, int y) { return x < 4 && y < 4 ? 0 : 200; }).range(), 0);
 }
 
 TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {
     const auto checker = [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; };
-    // Least bits of Vulkan: 4 and 4 of both devices.
+    // Vulkan's minimum precision for both devices: 4 subpixel bits and 4 mipmap bits.
     const double texels = 1.0 / 32, steps = 2 * (2.0 / 16 + 2.0 / 16 * texels);
     EXPECT_NEAR(TexturedPlane(texels, checker).range(), steps, 1e-6);
 }

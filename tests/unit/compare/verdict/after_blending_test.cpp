@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A difference of lit that what is blended makes, and that was not there before it, fails by name.
+// A difference in lit that only blending adds fails under its own name.
 #include "compare/verdict/after_blending.h"
 
 #include "compare/report/json.h"
@@ -16,9 +16,9 @@ namespace diptych {
 namespace {
 
 constexpr int blendWide = 50, blendHigh = 40;
-constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // of these the first are behind something
+constexpr std::size_t blendPixels = 2000, blendCovered = 200;  // the first are behind glass
 
-// Opaque 1 everywhere, and 0.5 of 3 over it.
+// Opaque radiance 1 everywhere; blended over it, 0.5 of 3.
 Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
     Frame frame = flatFrame(path, blendWide, blendHigh, 1, 3);
     frame.scene = "a scene";
@@ -32,7 +32,7 @@ Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
     return frame;
 }
 
-// `behind` is what the pixel's opaque surface shows.
+// `behind`: radiance of the pixel's opaque surface. `all`: radiance after blending.
 void setPixel(Frame& frame, std::size_t i, float behind, float all) {
     frame.unblended.pixel(i)[1] = behind;
     frame.channels[litMode].pixel(i)[1] = all;
@@ -84,7 +84,8 @@ TEST(AfterBlending, ADifferenceOfItsOwnFailsByNameInAllReports) {
     EXPECT_EQ(found.at("verdict"), "fail");
 }
 
-// What is different behind glass is weaker before it: that fails as lit does, and is no fault of blending.
+// A difference behind glass is weaker after blending. It fails as lit and does not count as a fault of
+// blending.
 TEST(AfterBlending, WhatDifferedBeforeIsNotNamed) {
     Frame other = blendFrame(Path::forward_plus);
     setPixel(other, 7, 1.5f, 2.25f);
@@ -96,7 +97,7 @@ TEST(AfterBlending, WhatDifferedBeforeIsNotNamed) {
     EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), other)).failures)) << "more than before";
 }
 
-// On a GPU sums may be rounded otherwise, by 16 ULP.
+// On a GPU, sums may be rounded differently, by 16 ULP.
 TEST(AfterBlending, AGpusRoundingIsGranted) {
     Frame near = blendFrame(Path::forward_plus), far = near;
     setPixel(near, 7, 1, 2 + 8 * 0x1p-22f);
@@ -112,7 +113,7 @@ TEST(AfterBlending, ANanIsNamed) {
     EXPECT_TRUE(isNamed(only(blendReport(blendFrame(Path::deferred), wrong)).failures));
 }
 
-// What forward+ shows of surfaces that were encoded is what deferred must show, before and after.
+// forward+ with encoded surfaces is what deferred must show, before and after blending.
 TEST(AfterBlending, OfAPackedGBufferWhatItExplainsIsNoDifference) {
     const auto packed = GBufferEncoding::standard;
     Frame deferred = blendFrame(Path::deferred, packed), forward = blendFrame(Path::forward_plus, packed);
@@ -120,15 +121,15 @@ TEST(AfterBlending, OfAPackedGBufferWhatItExplainsIsNoDifference) {
     forward.through_gbuffer[litMode] = deferred.channels[litMode];
     forward.unblended_through_gbuffer = deferred.unblended;
     EXPECT_TRUE(only(blendReport(deferred, forward)).passed());
-    setPixel(deferred, 7, 1.01f, 2.004f);  // nearer to forward+'s own, and not what the encoding makes
+    setPixel(deferred, 7, 1.01f, 2.004f);  // closer to forward+'s own value, but not the encoding's result
     EXPECT_TRUE(isNamed(only(blendReport(deferred, forward)).failures));
 }
 
-// Of the reference 2 of 2000 pixels may be beyond, but of the 200 that something covers one.
+// Against the reference 2 of 2000 pixels may be out of tolerance, but only 1 of the 200 blended ones.
 TEST(AfterBlending, AgainstTheReferenceAThousandthOfWhatIsCovered) {
     Frame wrong = blendFrame(Path::deferred);
-    // Within two pixels of others the reference's own change is granted, so not at the end of what is
-    // covered.
+    // Within two pixels of others the reference's own change is tolerated. So these pixels are not at the
+    // end of the blended ones.
     setPixel(wrong, 20, 1, 2.2f);
     EXPECT_TRUE(only(blendReport(blendFrame(Path::reference), wrong)).passed()) << "one";
     setPixel(wrong, 24, 1, 2.2f);
@@ -163,7 +164,7 @@ TEST(AfterBlending, WithoutBlendingOrWithoutKnowingThereIsNothingToSay) {
               nullptr);
 }
 
-// Glass before the sky shows no opaque surface, and is a pixel that counts.
+// Glass in front of the environment covers no opaque surface, but the pixel counts.
 TEST(AfterBlending, PixelsThatOnlySomethingBlendedCoversCount) {
     for (const Path path : {Path::deferred, Path::reference}) {
         Frame a = blendFrame(path), b = blendFrame(Path::forward_plus);

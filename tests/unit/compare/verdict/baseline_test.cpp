@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a baseline's reader is told before any number: each thing that is not as it was, and nothing else.
+// Notes on a baseline, before any number: everything that changed, and nothing else.
 #include "compare/verdict/baseline.h"
 #include "compare/files/frame_exr.h"
 #include "compare/run/version.h"
@@ -21,7 +21,7 @@ using Lines = std::vector<std::string>;
 
 const ReportDevice aCpu{"a CPU", "1.0", "cpu"};
 
-// Values that no decimal of a few digits holds.
+// Values without a short decimal representation.
 Frame drawnNow(Path path = Path::deferred) {
     Frame frame = flatFrame(path, 4, 3, 0.5f, 3);
     frame.scene = "builtin:one";
@@ -29,7 +29,7 @@ Frame drawnNow(Path path = Path::deferred) {
     return frame;
 }
 
-// As `compare --update-baseline` writes it and `compare --baseline` reads it.
+// Written as by `compare --update-baseline`, read as by `compare --baseline`.
 Frame kept(const Frame& frame, const ReportDevice& device = aCpu) {
     const std::filesystem::path file = folder() / "b.exr";
     writeFrameExr(file, frame, device);
@@ -50,7 +50,7 @@ TEST(BaselineMismatches, TheSameHasNone) {
     }
 }
 
-// Every member, by the least that a double can tell.
+// Every member, changed by one ULP of a double.
 TEST(BaselineMismatches, EveryMemberOfTheCameraIsNamed) {
     struct Case {
         const char* named;
@@ -81,7 +81,7 @@ TEST(BaselineMismatches, EveryMemberOfTheCameraIsNamed) {
         EXPECT_TRUE(lines[0].starts_with(fmt::format("baseline: {} ", one.named))) << lines[0];
         EXPECT_NE(lines[0].find("(now "), std::string::npos) << lines[0];
     }
-    // What is said of a choice follows from the others.
+    // The other members are derived from these.
     static_assert(sizeof(FrameCamera) == 2 * sizeof(std::string) + 13 * sizeof(double),
                   "a new member wants a case");
 }
@@ -120,7 +120,7 @@ TEST(BaselineMismatches, SceneDeviceDriverAndCommitAreNamed) {
                      "baseline: device unknown (now a CPU)", "baseline: driver unknown (now 1.0)"}));
 }
 
-// Every Setting by its name, with both values. The path is the frames' own, and a size must be the same.
+// Every Setting by name, with both values. The path is the frames' own, and a size must be the same.
 TEST(BaselineMismatches, EverySettingIsNamed) {
     const Frame then = drawnNow(), baseline = kept(then);
     const auto defaults = nlohmann::json::parse(toJson(then.settings));

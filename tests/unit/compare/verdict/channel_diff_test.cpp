@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When a channel passes: the last value that does and the first that does not, and what another device and
-// noise are granted.
+// A channel's verdict: the last value that passes, the first that fails, and the tolerance for another
+// device and for noise.
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace diptych {
 namespace {
 
-// Both paths of the small scene, of which this channel alone is compared.
+// Both paths of the small scene; only this channel is compared.
 std::vector<Frame> framesOf(gpu::uint mode) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames) frame.requested = {static_cast<int>(mode)};
@@ -23,7 +23,7 @@ const ChannelDiff& channelIn(const Comparison& comparison, gpu::uint mode) {
     });
 }
 
-// Of deferred against forward+ on a CPU, or as `device` says.
+// Deferred against forward+, by default on a CPU.
 Comparison comparedPair(const std::vector<Frame>& frames, const CompareOptions& options = {},
                         const ReportDevice& device = {"a CPU", "1.0", "cpu"}) {
     Report report;
@@ -51,7 +51,7 @@ TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
     }
 }
 
-// Bit for bit where this very CPU drew both; what another device or driver drew, or a GPU, may be 16 ULP off.
+// Bitwise identical if this very CPU drew both. Another device or driver, or a GPU, may differ by 16 ULP.
 TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
     std::vector<Frame> frames = framesOf(gpu::DEBUG_depth);
     float& depth = frames[0].channels.at(static_cast<int>(gpu::DEBUG_depth)).at(1, 2);
@@ -75,8 +75,8 @@ TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
     EXPECT_EQ(verdict({"a GPU", "1.0", "discrete"}), Verdict::fail) << "20 ULP of a half";
 }
 
-// What is wrong with the numbers is said before the figure; of a black baseline, whose relative error has no
-// number either, behind it.
+// Non-finite values are reported before the metric. A black baseline, whose relative error is infinite
+// too, is reported after it.
 TEST(ChannelDiff, SaysWhyAnErrorIsInfinite) {
     std::vector<Frame> frames = framesOf(gpu::DEBUG_metallic);
     float &here = frames[0].channels.at(gpu::DEBUG_metallic).at(1, 2),
@@ -98,7 +98,7 @@ TEST(ChannelDiff, SaysWhyAnErrorIsInfinite) {
         << reason(gpu::DEBUG_lit);
 }
 
-// What two runs of a path differ by is granted of both paths together, and no more.
+// The tolerance includes the sum of both paths' differences between two runs, and no more.
 TEST(ChannelDiff, TheNoiseOfBothPathsIsGranted) {
     std::vector<Frame> frames = framesOf(gpu::DEBUG_roughness);
     const int mode = static_cast<int>(gpu::DEBUG_roughness);

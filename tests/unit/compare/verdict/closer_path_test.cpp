@@ -12,7 +12,7 @@
 namespace diptych {
 namespace {
 
-// One row of grey pixels, of material 0 but for the last, which is of material 2.
+// One row of grey pixels with material 0; the last pixel has material 2.
 Frame frameOf(Path path, const std::vector<float>& values) {
     const int width = static_cast<int>(values.size());
     Frame frame = flatFrame(path, width, 1);
@@ -35,7 +35,7 @@ CloserPathChannel litOf(const std::vector<Frame>& frames) {
     return closer.channels.at(0);
 }
 
-// With several samples a pixel a path's parts of light are of one of them, the reference's of all.
+// With MSAA, a path's light components come from one sample, the reference's from all.
 TEST(CloserPath, OfSeveralSamplesIsOfLitAlone) {
     auto frames = threeFrames({1, 1}, {1.1f, 1}, {1, 1});
     for (Frame& frame : frames)
@@ -109,8 +109,7 @@ TEST(CloserPath, ThePictureHasEachPathsColour) {
     EXPECT_EQ(picture.data[6], 112) << "the root of a quarter: half of 224";
 }
 
-// A path that is off by what the reference may be off by itself is not blamed for it; one that is further off
-// is.
+// An error within the reference's own uncertainty is not counted against a path; a larger one is.
 TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     auto frames = threeFrames({1, 1}, {1.01f, 1}, {1.03f, 1});
     const Requirements needs;

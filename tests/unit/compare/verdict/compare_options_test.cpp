@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of comparing two paths: rules, masks, noise; and comparison with an earlier picture.
+// Options for comparing two paths: rules, masks, noise; and comparison with an earlier image.
 #include "compare/verdict/measurement.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
@@ -29,7 +29,8 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
     return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(words) != l.npos; });
 }
 
-// Two paths whose lit differs by a relative 0.25 at the only covered pixel, which no encoding explains.
+// Two paths whose lit differs by a relative 0.25 at the only covered pixel; the encoding does not account
+// for it.
 std::vector<Frame> framesApart() {
     std::vector<Frame> frames = bothFrames("one.glb");
     frames[0].channels.at(litMode).at(1, 2) = 1;
@@ -72,7 +73,7 @@ TEST(CompareOptions, ColoursHaveAFlip) {
         EXPECT_EQ(channel.flip.has_value(), channel.mode->kind == ChannelKind::color) << channel.mode->name;
 }
 
-// A second run of a path that differs from the first by 0.3 at 2 pixels.
+// A path's second run differs from its first by 0.3 at 2 pixels.
 std::vector<Frame> noisyFrames() {
     std::vector<Frame> frames = framesApart();
     frames[0].noise[litMode] = {2, 0.3};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Against the reference, a thousandth of the pixels may be beyond the tolerance, and not one more; between
-// the paths none.
+// Against the reference, a thousandth of the pixels may be out of tolerance, and not one more. Between the
+// paths none may.
 #include "compare/verdict/comparison.h"
 #include "tests/support/frames.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fields of surfaces are judged by what their bits allow at each pixel, and lit by them.
+// Surface channels are judged by the encoding's error bound at each pixel, and lit by the surface
+// channels.
 #include "compare/verdict/encoding_use.h"
 
 #include "compare/verdict/encoding_bits.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr GBufferEncoding packedEncoding = GBufferEncoding::standard;
 
-// bothFrames() with a packed G-buffer that stores all there is.
+// bothFrames() with a packed G-buffer that stores all fields.
 struct PackedPair {
     PackedPair() {
         for (Frame& frame : frames) frame.settings.gbuffer = packedEncoding;
@@ -50,7 +51,7 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
     EXPECT_EQ(p.use(gpu::DEBUG_roughness)->beyond, 1u);
     EXPECT_EQ(p.use(gpu::DEBUG_roughness, 0.5 / 4095)->beyond, 0u) << "slack is granted beside it";
 
-    // A dark albedo has a narrow bound, a bright one a wide one; the largest share counts.
+    // A dark albedo has a narrow bound, a bright one a wide one. The largest utilization counts.
     const double h = 0.5 / 255;
     for (const double x : {0.01, 0.25, 0.81}) {
         const double bound = h * (2 * std::sqrt(x) + h);
@@ -61,13 +62,13 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
         p.read(gpu::DEBUG_albedo)[1] = static_cast<float>(x + 1.1 * bound);
         EXPECT_EQ(p.use(gpu::DEBUG_albedo)->beyond, 1u) << x;
     }
-    // Both ends have codes of their own.
+    // Both ends have exact codes.
     for (const float end : {0.0f, 1.0f}) {
         *p.own(gpu::DEBUG_metallic) = end;
         *p.read(gpu::DEBUG_metallic) = end == 0 ? 1e-5f : 1 - 1e-5f;
         EXPECT_EQ(p.use(gpu::DEBUG_metallic)->beyond, 1u) << end;
     }
-    // Radiance is bounded by its largest component, or by the least step.
+    // Radiance is bounded relative to its largest component, or by the smallest step.
     for (const float size : {1e-6f, 3.0f}) {
         const double bound = std::max(size * radianceBound(), leastRadianceBound);
         for (const double share : {0.9, 1.1}) {
@@ -77,7 +78,7 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
             EXPECT_EQ(p.use(gpu::DEBUG_emission)->beyond, share > 1 ? 1u : 0u) << size << " " << share;
         }
     }
-    // Directions by their angle.
+    // Directions are compared by angle.
     const double angle = octahedralBound(gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
     for (const gpu::uint mode : {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal})
         for (const double share : {0.9, 1.1}) {
@@ -112,8 +113,8 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
     EXPECT_FALSE(p.use(gpu::DEBUG_albedo)) << "float32 is compared as it is";
 }
 
-// lit rests on the fields that it is made of: they are judged with it, shown where they fail, and alone
-// decide where nobody judges light.
+// lit depends on the surface fields. They are judged with it and shown if they fail; without light they
+// are only judged if compared themselves.
 TEST(EncodingUse, LitIsJudgedWithItsFields) {
     const std::vector<int> lit{static_cast<int>(gpu::DEBUG_lit)};
     PackedPair sound;
@@ -137,7 +138,7 @@ TEST(EncodingUse, LitIsJudgedWithItsFields) {
     }
 }
 
-// Against a reference that shaded the decoded surfaces, and against one that did not but for forward+.
+// Against a reference that shaded the decoded surfaces, and against one without them, where forward+ did.
 TEST(EncodingUse, AgainstTheReferenceDecodedSurfacesAreShaded) {
     const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
     for (const bool traced : {false, true}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a path is granted against a reference that integrates the environment, by how it takes it.
+// A path's tolerance against a reference that integrates the environment, for each of the path's
+// environment methods.
 #include "compare/verdict/environment_cost.h"
 
 #include "compare/verdict/tolerance.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every figure of two images from its definition, over errors of which no two figures are alike.
+// Every metric of two images from its definition, on errors that give each metric a different value.
 #include "compare/verdict/measurement.h"
 #include "tests/support/error_spread.h"
 
@@ -27,7 +27,7 @@ Figures standardFigures(const Errors& e) {
             {"ulp_mean", meanOf(e.ulps)}};
 }
 
-// Those of relative errors are computed in float32.
+// Relative errors are computed in float32.
 double boundOf(const std::string& figure, double value) {
     return (figure.starts_with("relative_m") || figure.starts_with("relative_p") ? 0x1p-22 : 1e-12) *
            std::abs(value);
@@ -55,7 +55,6 @@ TEST(Figures, NoTwoOfTheSpreadAreAlike) {
             if (a < b) {
                 EXPECT_GT(std::abs(x - y), 3 * boundOf("relative_max", x)) << a << " and " << b;
             }
-    // The neighbouring ranks are other errors.
     for (const std::size_t rank : {1981u, 1999u})
         for (const std::size_t other : {rank - 1, rank + 1})
             for (const std::vector<double>* errors : {&e.absolute, &e.relative, &e.angles})
@@ -84,7 +83,7 @@ TEST(Figures, OfAChannelFollowTheirDefinitions) {
     }
 }
 
-// The largest difference of two covered vectors' lengths.
+// Largest difference in length between two covered vectors.
 double longestApart(const Spread& s) {
     double most = 0;
     for (std::size_t i = 0; i < s.reference.pixels(); ++i) {
@@ -108,7 +107,7 @@ TEST(Figures, AreGivenByTheirNames) {
     const Measurement angular({Metric::angular, ChannelKind::vector, false, s.reference, s.test, &s.covered});
     expectFigures(angular, vectors, {});
 
-    // Of absolute errors, mean and root are over components, as in other programs.
+    // For absolute errors, mean and RMSE are over components, as in other programs.
     Figures colors = standardFigures(e), pixels = ofPixels(e.absolute);
     pixels["mean"] = meanOf(e.components);
     pixels["rmse"] = rootMeanSquareOf(e.components);
@@ -122,7 +121,7 @@ TEST(Figures, AreGivenByTheirNames) {
     EXPECT_LT(flip.weighted_median, flip.max);
     expectFigures(absolute, colors, {"ssim"});
 
-    // With statistics that are known already these are the channel's, whatever the metric.
+    // Statistics that were computed before are used, whatever the metric.
     ChannelStats known = channelStats(Metric::absolute, ChannelKind::color, s.reference, s.test, s.covered);
     const Measurement given(
         {Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered, &known});
@@ -138,7 +137,7 @@ TEST(Figures, OfPlainMetricsArePixelsToo) {
     EXPECT_EQ(m.different, counted);
 }
 
-// The colours' exposure range and the display's pixels per degree reach FLIP.
+// FLIP uses the exposure range and the display's pixels per degree.
 TEST(Figures, FlipIsToldItsOptions) {
     const Spread s = spread();
     const auto mean = [&](const HdrFlipOptions& flip, bool display) {
@@ -155,7 +154,7 @@ TEST(Figures, FlipIsToldItsOptions) {
     EXPECT_NE(mean(defaults, false), mean(one, false));
 }
 
-// A share of failing pixels: an error that is the bound itself passes.
+// A fraction of failing pixels: an error equal to the bound passes.
 TEST(Figures, AShareIsOfTheCountedPixelsBeyond) {
     const Spread s = spread();
     const Measurement m({Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which pixels of a comparison with a reference in mode scene are held tightly and which by FLIP, and that
-// either can fail.
+// Comparison with a reference in mode scene: which pixels have tight bounds, which are judged by FLIP, and
+// that either can fail.
 #include "compare/verdict/footprint.h"
 #include "compare/metrics/flip.h"
 #include "compare/verdict/comparison.h"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int side = 32;
 
-// The reference in mode scene and forward+, a picture of one material; every channel even.
+// The reference in mode scene and forward+; an image of one material with constant channels.
 std::vector<Frame> evenFrames() {
     std::vector<Frame> frames(2);
     for (const Path path : {Path::reference, Path::forward_plus}) {
@@ -60,7 +60,7 @@ ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptio
     throw std::runtime_error("no such channel");
 }
 
-// A checkerboard of two values, in the left half.
+// A checkerboard of two values in the left half.
 void addDetail(Image& image, float low, float high, int phase = 0) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side / 2; ++x)
@@ -82,12 +82,11 @@ TEST(Footprint, EvenPixelsAreHeldTightly) {
     EXPECT_NE(off.reason.find("1.2 times the bound"), std::string::npos) << off.reason;
 }
 
-// Of 1,024 pixels one may be beyond its bound and two may not: p99.9.
+// p99.9: of 1,024 pixels one may be out of tolerance, two may not.
 TEST(Footprint, OnePixelInAThousandMayBeBeyond) {
     for (const int count : {1, 2}) {
         std::vector<Frame> frames = evenFrames();
         for (int i = 0; i < count; ++i) channelIn(frames[1], gpu::DEBUG_depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
-        // Its own range makes up for a sixty-fourth of the error.
         EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
         EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, static_cast<std::uint64_t>(count));
     }
@@ -101,7 +100,7 @@ TEST(Footprint, DetailIsJudgedByFlip) {
         << "the board, and the even column beside it";
     EXPECT_EQ(alike.footprints->flip, 0);
     EXPECT_EQ(alike.verdict, Verdict::pass);
-    // Another mean is another texture; the right half stays as it is.
+    // Another mean is another texture; the right half stays unchanged.
     addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
     const ChannelDiff other = judged(frames, gpu::DEBUG_albedo);
     EXPECT_EQ(other.footprints->beyond, 0u);
@@ -111,7 +110,7 @@ TEST(Footprint, DetailIsJudgedByFlip) {
     EXPECT_NE(other.tolerance.because.find("may have a mean FLIP"), std::string::npos);
 }
 
-// FLIP is the mean over the pixels with detail, however many others the picture has.
+// FLIP is averaged over the pixels with detail, however many others the image has.
 TEST(Footprint, FlipIsOfTheDetailAlone) {
     std::vector<Frame> frames = evenFrames();
     addDetail(channelIn(frames[0], gpu::DEBUG_albedo), 0.2f, 0.8f);
@@ -130,7 +129,7 @@ TEST(Footprint, FlipIsOfTheDetailAlone) {
                                   .mean);
 }
 
-// Detail in either picture is detail: a path may filter away what the reference has, and the other way round.
+// Detail in either image counts: a path may filter away detail of the reference, and vice versa.
 TEST(Footprint, APixelIsSmoothOnlyInBoth) {
     for (const std::size_t other : {0u, 1u}) {
         std::vector<Frame> frames = evenFrames();
@@ -142,8 +141,8 @@ TEST(Footprint, APixelIsSmoothOnlyInBoth) {
     }
 }
 
-// What is judged does not widen what it is held to, be it on the left or on the right: here a path's depths
-// that are wrong around one that is wronger, and albedo that is uneven where the reference is even.
+// The judged image does not widen its own tolerance, left or right. Examples: wrong depths around a very
+// wrong one, and uneven albedo where the reference is constant.
 TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
     for (const std::size_t path : {1u, 0u}) {
         std::vector<Frame> frames = evenFrames();
@@ -158,13 +157,13 @@ TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
         EXPECT_EQ(albedo.footprints->smooth, std::uint64_t{side * side});
         EXPECT_EQ(albedo.footprints->beyond, std::uint64_t{side * side / 2});
         EXPECT_EQ(albedo.verdict, Verdict::fail);
-        // The control: what is uneven in the reference may be as uneven in the path.
+        // Negative control: a path may vary as much as the reference varies.
         std::swap(frames[0].channels, frames[1].channels);
         EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).footprints->beyond, 0u);
     }
 }
 
-// An edge between two materials is nobody's fault in geometry; a moved camera is, everywhere else.
+// A material edge may change depth at one pixel. A moved camera changes depth everywhere and fails.
 TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
     std::vector<Frame> frames = evenFrames();
     for (Frame& frame : frames)
@@ -181,7 +180,7 @@ TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail);
 }
 
-// Another material all over is no edge, and neither is an object that is not drawn.
+// A different material everywhere is not an edge, and neither is a missing object.
 TEST(Footprint, AnotherMaterialIsNoEdge) {
     for (const float id : {5.0f, -1.0f}) {
         std::vector<Frame> frames = evenFrames();
@@ -192,7 +191,7 @@ TEST(Footprint, AnotherMaterialIsNoEdge) {
     }
 }
 
-// A NaN is a fault wherever it is: FLIP's mean over the detail would hide two of them.
+// A NaN is a fault everywhere; FLIP's mean over the detail would hide two of them.
 TEST(Footprint, NansAreNeverDetail) {
     std::vector<Frame> frames = evenFrames();
     for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
@@ -201,7 +200,7 @@ TEST(Footprint, NansAreNeverDetail) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
 }
 
-// Nor does a reference that knows nothing of its light excuse one.
+// An infinite uncertainty of the reference does not excuse a NaN.
 TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
     std::vector<Frame> frames = evenFrames();
     frames[0].uncertainty = Image(side, side, 1, std::numeric_limits<float>::infinity());
@@ -217,7 +216,7 @@ TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
     EXPECT_EQ(lit.verdict, Verdict::fail);
 }
 
-// Light is held tightly where both have one surface: elsewhere the surface's own channel fails.
+// Light has tight bounds where both images show the same surface; elsewhere the surface's channel fails.
 TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     std::vector<Frame> frames = evenFrames();
     for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
@@ -229,8 +228,9 @@ TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
 }
 
-// Light is judged alike whichever channels are compared: the others are helpers, and what neither picture has
-// does not count. What one lacks may differ, and then a verdict of FLIP alone says so, or fails.
+// Light is judged alike whichever channels are compared. Channels missing in both images do not matter. If
+// one image lacks a channel, surfaces may differ; then the report says that only FLIP judges, and --strict
+// fails.
 TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
     constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
     std::vector<Frame> frames = evenFrames();
@@ -266,7 +266,7 @@ TEST(Footprint, TheChannelsOfASurfaceAreThoseThatLightNeeds) {
         EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 0) << mode;
 }
 
-// What the device makes of texels is granted as it is measured: at this code and no more.
+// Texel errors are tolerated as measured on the device: at this code and no more.
 TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     CompareOptions options;
     TextureSampling& texels = options.texels.emplace();
@@ -275,7 +275,7 @@ TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
         texels.srgb[code] = static_cast<float>(exactSrgb(code));
     }
     std::vector<Frame> frames = evenFrames();
-    // A code at a half is 0.006 wide, which mip levels may be off by.
+    // At 0.5 a code is 0.006 wide; mip levels may be off by this.
     for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.005f;
     EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
     EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths with Settings of their own: where these change light, channels of light decide nothing.
+// Paths with Settings of their own: if these change light, channels of light do not affect the verdict.
 #include "compare/report/json.h"
 #include "compare/report/parts.h"
 #include "compare/report/titles.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int informedLit = static_cast<int>(gpu::DEBUG_lit);
 
-// Both paths, forward+ with lights by object, and `wrong` channels that differ.
+// Both paths, forward+ with lights per object, and `wrong` channels that differ.
 Report informedReport(const std::vector<gpu::uint>& wrong, std::vector<Rule> rules = {}, bool told = true) {
     std::vector<Frame> frames = bothFrames();
     frames[1].settings.assign = Assignment::per_object;
@@ -41,7 +41,7 @@ TEST(Informative, LightDecidesNothingAndSurfacesDo) {
     EXPECT_GT(informedChannel(light, informedLit).stats.max, 0.1) << "but it is measured";
     EXPECT_FALSE(informedReport({gpu::DEBUG_albedo}).passed());
     EXPECT_FALSE(informedReport({gpu::DEBUG_shadow_visibility}, {}, false).passed()) << "without being told";
-    // What cannot be, is a fault whatever it is compared with.
+    // An impossible value is a fault in any comparison.
     EXPECT_FALSE(
         informedReport({gpu::DEBUG_transmittance, gpu::DEBUG_transmittance, gpu::DEBUG_transmittance})
             .passed());

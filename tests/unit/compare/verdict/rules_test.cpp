@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tolerance files: their syntax, the decisions they make, and the line named in errors.
+// Tolerance files: syntax, verdicts, and the line named in errors.
 #include "compare/verdict/rules.h"
 #include "shared/text/wildcard.h"
 #include "tests/support/errors.h"
@@ -157,7 +157,7 @@ TEST(Rules, FaultsWordByWord) {
     EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: is nested deeper than 128 levels");
 }
 
-// The JSON schema for editors has the same figures.
+// The JSON schema for editors has the same metrics.
 TEST(Rules, TheSchemaNamesEveryFigure) {
     std::ifstream stream(DIPTYCH_SOURCE_DIR "/compare/verdict/tolerances.schema.json");
     const Json schema = Json::parse(stream);

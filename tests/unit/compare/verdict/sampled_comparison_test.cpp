@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Paths with several samples a pixel beside the reference: lit alone means the same in both.
+// MSAA paths against the reference: only lit has the same meaning in both.
 #include "shared/frame/made_channels.h"
 #include "tests/support/report_builder.h"
 
@@ -8,8 +8,8 @@
 namespace diptych {
 namespace {
 
-// The reference in mode scene, and both paths with so many samples, of one picture; but of every channel
-// beside lit the paths show another part of the pixel.
+// The reference in mode scene and both paths with this number of samples. In channels other than lit and
+// ids the paths differ from the reference.
 std::vector<Frame> sampledFrames(int samples) {
     std::vector<Frame> frames = bothFrames();
     Frame reference = frames[1];

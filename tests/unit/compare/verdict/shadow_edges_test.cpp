@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far from the edge of a shadow a path may show anything: by view depth, or by the clipmap's level that
-// serves.
+// Distance from a shadow edge within which a path may show any value: by view depth, or by the clipmap's
+// resident level.
 #include "compare/verdict/shadow_edges.h"
 
 #include "shared/contract/debug_mode.h"
@@ -19,7 +19,7 @@ Image rowOf(const std::vector<float>& values, int components = 1) {
     return image;
 }
 
-// Of each pixel, whether an edge is near; empty where nothing is known of edges.
+// Whether an edge is near, per pixel; empty if edges are unknown.
 std::vector<bool> nearOf(const Frame& path, const std::vector<float>& edges) {
     Frame reference;
     reference.settings.path = Path::reference;
@@ -44,7 +44,7 @@ TEST(ShadowEdges, CascadesReachByViewDepth) {
     EXPECT_EQ(nearOf(path, {0.05f, 0.2f, 0.2f, 0.3f}), (std::vector{true, false, true, true}));
 }
 
-// What a coarser page serves is as wide as that page's filter, not as that which is missing.
+// A coarser resident page applies its own filter radius, not that of the missing page.
 TEST(ShadowEdges, AClipmapReachesByTheLevelThatServes) {
     Frame path;
     path.settings.path = Path::deferred;

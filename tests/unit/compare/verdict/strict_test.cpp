@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A channel that only one side has is said by name, and fails where the same channels on both sides are asked
-// for.
+// A channel on one side only is reported by name, and fails if both sides must have the same channels.
 #include "compare/cli/command_line.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
@@ -22,7 +21,7 @@ namespace {
 using Lines = std::vector<std::string>;
 const ReportDevice strictDevice{"a CPU", "1.0", "cpu"};
 
-// Both paths with a few channels of every kind.
+// Both paths with a few channels of every type.
 std::vector<Frame> fewChannels() {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames)
@@ -40,8 +39,8 @@ CompareOptions strictly(bool strict) {
     return options;
 }
 
-// Both paths against an earlier deferred Frame with `without` fewer channels and, where `more`, one of its
-// own.
+// Both paths against an earlier deferred Frame without the channels `without`, and with an additional one
+// if `more` names it.
 Report againstBaseline(const std::vector<gpu::uint>& without, const std::string& more, bool strict) {
     Frame baseline = fewChannels()[0];
     baseline.name = "baseline";
@@ -65,7 +64,6 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
             EXPECT_EQ(c.notes, strict ? Lines{} : said) << pair;
         }
         EXPECT_TRUE(report.comparisons.at(2).passed()) << "the paths have the same channels";
-        // In what users and CI read.
         const std::string table = reportTable(report), file = report.frames[0].name,
                           pairs = file + "/deferred, builtin:one " + file + "/forward_plus";
         const std::string line = strict ? "  FAIL builtin:one: albedo is in forward_plus only, but --strict"
@@ -97,7 +95,7 @@ TEST(Strict, EitherSideMayLackIt) {
     EXPECT_FALSE(report.passed());
 }
 
-// Of two paths alike: what forward+ alone can make is no difference.
+// Channels that only forward+ supports are not a difference between the paths.
 TEST(Strict, ForwardOnlyIsNoFailure) {
     const Report report =
         makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, strictly(true));
@@ -105,7 +103,7 @@ TEST(Strict, ForwardOnlyIsNoFailure) {
     EXPECT_TRUE(againstBaseline({}, "", true).passed()) << "an earlier deferred Frame lacks it by nature";
 }
 
-// Our reference has no lists of lights by nature; another renderer's file lacks them like anything else.
+// Our reference never has light lists; another renderer's file lacks them like any other channel.
 TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
     for (const bool ours : {true, false}) {
         Frame baseline = fewChannels()[0];
@@ -145,7 +143,7 @@ TEST(Strict, OnlyChannelsThatWereAskedForCount) {
     }
 }
 
-// A baseline's own channels are read, and named.
+// A baseline's unknown channels are read and named.
 TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
     const std::filesystem::path file = folder() / "b.exr";
     const Image lit(4, 3, 3, 0.5f), other(4, 3, 1, 1.0f);
@@ -206,7 +204,7 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
     EXPECT_FALSE(diffOf({"metallic"}, {"metallic", "one"}, true).passed());
 }
 
-// A rule or --channels that names a channel demands it on both sides; a rule for all channels does not.
+// A rule or --channels that names a channel requires it on both sides; a rule for all channels does not.
 TEST(Strict, WhatIsNamedIsDemanded) {
     const auto failures = [](const std::string& pattern, std::vector<int> required) {
         Frame baseline = fewChannels()[0];
@@ -232,7 +230,7 @@ TEST(Strict, WhatIsNamedIsDemanded) {
               Lines{"albedo is in deferred only, but --channels requests it"});
 }
 
-// What only forward+ can make fails where a rule is to judge it: nothing does.
+// A rule on a channel that only forward+ supports fails, because nothing can be judged.
 TEST(Strict, ARuleOnWhatForwardAloneHasIsNeverMet) {
     CompareOptions options;
     options.rules =
@@ -253,7 +251,7 @@ TEST(Strict, DiffDemandsWhatARuleNames) {
     EXPECT_EQ(diff.failures, Lines{"two is in the reference only, but t.json, rule 1 needs both sides"});
 }
 
-// Pictures that show nothing pass with a word about it, and fail where --strict asks for more.
+// Empty images pass with a note, and fail with --strict.
 TEST(Strict, FailsADiffOfBlackPictures) {
     const std::filesystem::path here = folder();
     const Image none(4, 3, 3);
@@ -272,8 +270,8 @@ TEST(Strict, FailsADiffOfBlackPictures) {
     EXPECT_TRUE(diff(true, true).passed());
 }
 
-// What a file says of its values and nothing applies: another shape of pixels. Where both say it, it is of
-// no account.
+// A property that a file declares and nothing applies: non-square pixels. If both files declare it, it
+// does not matter.
 TEST(Strict, FailsADiffOfPixelsOfTwoShapes) {
     const std::filesystem::path here = folder();
     const std::string pixel("\x80\x80\x80\x81");
@@ -294,7 +292,7 @@ TEST(Strict, FailsADiffOfPixelsOfTwoShapes) {
     EXPECT_TRUE(diff("b.hdr", "b.hdr", true).passed());
 }
 
-// And of a baseline, in compare.
+// The same for a baseline in compare.
 TEST(Strict, FailsOverWhatABaselineSaysOfItsPixels) {
     for (const bool strict : {false, true}) {
         Frame baseline = fewChannels()[0];
@@ -309,8 +307,8 @@ TEST(Strict, FailsOverWhatABaselineSaysOfItsPixels) {
     }
 }
 
-// A rule for one channel that neither side has judges nothing: that is a mistake, a pattern's is none, and
-// neither is a channel that --channels left out.
+// A rule for a channel that neither side has judges nothing, which is a mistake. A pattern without matches
+// is not, and neither is a channel that --channels omits.
 TEST(Strict, ARuleForAChannelOfNeitherFileFails) {
     const std::filesystem::path here = folder();
     const Image grey(4, 3, 1, 0.5f);
@@ -326,7 +324,7 @@ TEST(Strict, ARuleForAChannelOfNeitherFileFails) {
     EXPECT_EQ(diff.notes.back(), "t.json, rule 2: no channel here is called three*");
 }
 
-// One for a channel that one side has is judged there: it is no rule without a channel.
+// A rule for a channel of one side is judged there and does not count as unused.
 TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
     CompareOptions options;
     options.rules =
@@ -342,7 +340,7 @@ TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
     EXPECT_EQ(comparison.notes, Lines{});
 }
 
-// compare knows all channels that there can be.
+// compare knows all possible channels.
 TEST(Rules, AreRefusedForAChannelThatIsNone) {
     const std::vector<Rule> rules =
         rulesFromJson(R"({"rules": [{"channel": "lit*", "max": 1, "because": "any"},
@@ -359,7 +357,7 @@ TEST(Rules, AreRefusedForAChannelThatIsNone) {
     }
 }
 
-// The option reaches both commands, and the command that a report prints.
+// Both commands have the option, and so does the command that a report prints.
 TEST(Strict, IsAnOptionOfCompareAndDiff) {
     for (const Lines& words :
          {Lines{"compare", "builtin:points", "--strict"}, Lines{"diff", "a.exr", "b.exr", "--strict"}}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The derived bounds against the encodings themselves, reimplemented here in double from the G-buffer's
-// description, and against the table of measured figures.
+// Derived error bounds, compared with the encodings (reimplemented in double from the G-buffer's
+// description) and with a table of measured errors.
 #include "compare/verdict/tolerance.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
@@ -19,7 +19,7 @@
 namespace diptych {
 namespace {
 
-// Two 1 x 1 Frames with every channel, as arguments of a tolerance.
+// Two 1 x 1 Frames with every channel, as input of a tolerance.
 struct Pair {
     Frame deferred, forward;
     Requirements needs;
@@ -83,7 +83,8 @@ Vector throughOctahedron(const Vector& n, unsigned bits) {
     return {x, y, z};
 }
 
-// The worst of many directions, half of them around a face's centre, where the bound is reached.
+// Largest error of many directions; half of them are around a face's centre, where the error reaches the
+// bound.
 double worstOctahedral(unsigned bits) {
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
@@ -107,8 +108,8 @@ TEST(Tolerance, OctahedralBoundHoldsAndIsTight) {
 }
 
 TEST(Tolerance, OctahedralBoundIsThatOfTheMeasuredTable) {
-    // The largest error over uniform directions: 8+8 0.9496, 12+12 0.0589, 16+16 0.00370 degrees. A sampled
-    // maximum stays under the bound by up to 1 %; float32 adds 0.00015.
+    // Largest error over uniform directions: 8+8 0.9496, 12+12 0.0589, 16+16 0.00370 degrees. A sampled
+    // maximum is up to 1 % below the bound; float32 adds 0.00015.
     EXPECT_NEAR(octahedralBound(8), 0.9496, 0.01 * 0.9496 + 2e-4);
     EXPECT_NEAR(octahedralBound(12), 0.0589, 0.01 * 0.0589 + 2e-4);
     EXPECT_NEAR(octahedralBound(16), 0.00370, 0.01 * 0.00370 + 2e-4);
@@ -173,8 +174,8 @@ TEST(Tolerance, EmissionIsHalfOfNineBits) {
 }
 
 TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
-    // Textures can darken emission to where 9.9.9.e5 has a fixed step of 2^-24; a mean of 2^-20 puts the
-    // least denominator at 1e-3 x 2^-20, so that half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
+    // Textures can darken emission to where 9.9.9.e5 has a fixed step of 2^-24. A mean of 2^-20 gives a
+    // smallest denominator of 1e-3 x 2^-20, so half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
     Pair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
@@ -211,7 +212,8 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
     }
 }
 
-// Only a pre-pass makes forward+ shade with the stored depth, and only a GPU's may differ from a fragment's.
+// Only with a pre-pass does forward+ shade with the stored depth. Only on a GPU may it differ from a
+// fragment's depth.
 TEST(Tolerance, ADepthThatWasNotStoredIsNamedOnAGpu) {
     for (const bool cpu : {true, false})
         for (const Switch prepass : {Switch::on, Switch::off, Switch::automatic})
@@ -242,7 +244,7 @@ TEST(Tolerance, EveryChannelSaysWhy) {
             }
 }
 
-// lit: what the encoding's bits may do is tolerated, and nothing else.
+// lit: only changes that the encoding's bits can cause are tolerated.
 Pair litPair() {
     Pair p;
     p.forward.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.0f);
@@ -252,7 +254,7 @@ Pair litPair() {
 
 TEST(Tolerance, LitIsGrantedWhatDecodedSurfacesChange) {
     const Pair p = litPair();
-    // 0.25 of 1.25, deferred being the baseline.
+    // 0.25 of 1.25, with deferred as the baseline.
     EXPECT_NEAR(p.of(gpu::DEBUG_lit).max, 0.2, 1e-9);
     EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("up to 0.2"), std::string::npos);
     const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
@@ -263,7 +265,7 @@ TEST(Tolerance, LitIsGrantedWhatDecodedSurfacesChange) {
 
 TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
     Pair p = litPair();
-    // Closer to forward+ than the tolerance, and yet different from what the encoding gives.
+    // Closer to forward+ than the tolerance, yet different from the encoding's result.
     p.deferred.channels[gpu::DEBUG_lit].data[1] = std::nextafter(1.25f, 2.0f);
     EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
     p.cpu = false;

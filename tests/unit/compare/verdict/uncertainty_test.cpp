@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference's uncertainty survives writing and reading its EXR: a path is judged against the file as it
-// is against the Frame.
+// The reference's uncertainty survives its EXR: a path gets the same verdict against the file as against
+// the Frame.
 #include "compare/files/frame_exr.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/baseline.h"
@@ -29,7 +29,7 @@ Frame frameOf(Path path, float left, float right) {
     return frame;
 }
 
-// A sampled reference with uncertainties of a third and of a hundredth.
+// A sampled reference with uncertainties of 1/3 and 1/100.
 Frame sampled() {
     Frame referenceFrame = frameOf(Path::reference, 1, 2);
     referenceFrame.uncertainty = Image(2, 1, 1);
@@ -64,7 +64,7 @@ TEST(Uncertainty, ComesBackAsItWas) {
     EXPECT_EQ(back.channels.at(litMode).data, referenceFrame.channels.at(litMode).data);
 }
 
-// Infinite and NaN uncertainties are read back, too: a reader accepts all that this program writes.
+// Infinite and NaN uncertainties are read back, too: a reader accepts everything that diptych writes.
 TEST(Uncertainty, OfAnySizeComesBack) {
     for (const double relative : {0.0, 1e-300, 5e-324, 1e300, std::numeric_limits<double>::infinity()}) {
         Frame referenceFrame = sampled();
@@ -90,7 +90,6 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
         EXPECT_EQ(stored.tolerance.because, now.tolerance.because);
         EXPECT_EQ(stored.reason, now.reason);
     }
-    // Without the uncertainty the same picture would fail.
     Frame bare = back;
     bare.uncertainty = {};
     EXPECT_EQ(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);
@@ -102,7 +101,7 @@ std::vector<double> certainOf(const Frame& a, const Frame& b) {
     return certainErrors(debugMode(litMode), FramePair{a, b, needs, covered}).value();
 }
 
-// Relative to the pixel, as the error is, however dark it is; a reference on either side.
+// Relative to the pixel, like the error, however dark it is; with the reference on either side.
 TEST(Uncertainty, IsTakenOffThePixelsError) {
     Frame traced = frameOf(Path::reference, 1, 0.01f);
     traced.uncertainty = Image(2, 1, 1, 0.001f);
@@ -137,8 +136,8 @@ TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
         }
 }
 
-// The picture, the worst pixel and the figure's name are of what is judged: the left pixel's error is the
-// larger one, and the reference is too unsure of it.
+// Error image, worst pixel and metric name show the judged error. The left pixel's error is larger, but
+// within the reference's uncertainty.
 TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
     const ChannelDiff fails = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));
     EXPECT_EQ(fails.verdict, Verdict::fail);
@@ -159,7 +158,7 @@ TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
     EXPECT_FALSE(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).shown_error);
 }
 
-// Where nothing is relative to anything, any light is too much.
+// Relative to a black image without uncertainty, any light is an error.
 TEST(Uncertainty, OfABlackReferenceExcusesNoLight) {
     Frame traced = frameOf(Path::reference, 0, 0);
     traced.uncertainty = Image(2, 1, 1, 0.0f);

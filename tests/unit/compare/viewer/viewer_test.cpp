@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the window is made of, without a window: keys, camera, the places of pixels, differences, sizes,
-// watched files.
+// Parts of the viewer, without a window: keys, camera, pixel positions, differences, sizes, watched files.
 #include "compare/picture/picture.h"
 #include "compare/render/frame_facts.h"
 #include "compare/viewer/canvas.h"
@@ -55,7 +54,7 @@ TEST(ViewerKeys, ARowOfDigitsTellsWhichOne) {
     EXPECT_FALSE(actionOf(GLFW_KEY_F12, false));
 }
 
-// Ctrl is held to sink, and other keys keep their meaning without it alone.
+// With Ctrl, only bindings that name it act; other keys do nothing.
 TEST(ViewerKeys, WithControlOnlyWhatNamesItActs) {
     EXPECT_EQ(actionOf(GLFW_KEY_Q, false)->action, Action::light_debug);
     EXPECT_EQ(actionOf(GLFW_KEY_Q, true)->action, Action::quit);
@@ -88,7 +87,7 @@ FrameCamera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
     return camera;
 }
 
-// What --camera makes of the words, which is what is drawn.
+// The view that --camera makes of the words; the viewer draws it.
 View viewOf(const FlyCamera& camera) {
     const Scene scene = loadScene("builtin:gallery");
     ViewRequest request;
@@ -126,7 +125,7 @@ TEST(ViewerCamera, MovesAlongItsRightTheWorldsUpAndItsView) {
     camera.take(cameraAt({0, 0, 0}, {0, 0, -2}));
     camera.move({1, 2, 3});
     EXPECT_LT(glm::distance(camera.eye(), glm::dvec3(1, 2, -3)), 1e-12);
-    camera.look(std::numbers::pi / 2, 0);  // to the right: towards +X
+    camera.look(std::numbers::pi / 2, 0);  // right, towards +X
     EXPECT_LT(glm::distance(camera.forward(), glm::dvec3(1, 0, 0)), 1e-12);
     camera.look(0, 10);
     EXPECT_GT(camera.forward().y, 0.99) << "looks up";
@@ -209,7 +208,7 @@ TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
     EXPECT_EQ(bgr, (Rgb8Pixel{rgb.b, rgb.g, rgb.r}));
 }
 
-// As wide or as high as its panel, whichever comes first; beside it the canvas's own grey.
+// As wide or as high as its panel, whichever comes first, with the canvas's grey beside it.
 TEST(ViewerCanvas, APictureFillsItsPanel) {
     const Shown shown = shownOf(10, 5);
     const CanvasRect canvas{0, 0, 37, 20};
@@ -232,7 +231,7 @@ TEST(ViewerCanvas, APictureFillsItsPanel) {
     ASSERT_TRUE(under);
     EXPECT_EQ(under->pixel, (PixelPlace{1, 0}));
     EXPECT_FALSE(pixelUnder(places, shown.size, 4.5, 0.5));
-    // The larger of two factors would leave a part of the picture outside.
+    // With the larger of the two factors, part of the image would be outside.
     EXPECT_DOUBLE_EQ(placesOf({0, 0, 37, 10}, shown.size, view, false)[0].placement.scale, 2);
 }
 
@@ -254,7 +253,7 @@ TEST(ViewerBar, ANarrowOneHasMoreRows) {
             for (std::size_t i = 0; i < rows.size(); ++i) {
                 const bool new_row = i == 0 || rows[i] != rows[i - 1];
                 x = (new_row ? barEdge : x + barGap) + barWidths[i];
-                // Each fits, or stands alone.
+                // Each fits, or is alone in its row.
                 EXPECT_TRUE(x * scale <= width || new_row) << width << " " << scale << " " << i;
                 if (i > 0) {
                     EXPECT_TRUE(rows[i] == rows[i - 1] || rows[i] == rows[i - 1] + 1);
@@ -309,7 +308,7 @@ TEST(ViewerCanvas, NoSizeIsTooSmall) {
             }
 }
 
-// ---- pictures and differences ----------------------------------------------------------------------------
+// ---- images and differences ------------------------------------------------------------------------------
 
 TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
     const Frame left = flatFrame(Path::deferred, 2, 1, 0.5f);
@@ -364,7 +363,7 @@ TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
               std::string::npos);
 }
 
-// The panels are what `render` writes.
+// The panels equal the output of `render`.
 TEST(ViewerPictures, ArePicturesOfTheChannel) {
     Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
     left.channels[ids].at(2, 1) = -1;
@@ -384,7 +383,7 @@ TEST(ViewerPictures, ArePicturesOfTheChannel) {
     EXPECT_TRUE(shown.panels[0].picture.data.empty());
 }
 
-// ---- sizes while it moves --------------------------------------------------------------------------------
+// ---- sizes while moving ----------------------------------------------------------------------------------
 
 Size sizeOf(int width, int height) {
     Size size;
@@ -410,7 +409,7 @@ TEST(ViewerSize, ASlowOneShrinksUntilItsPixelsFit) {
     EXPECT_EQ(movingSize(sizeOf(3, 2), 60, cost), sizeOf(3, 2)) << "three pixels cost nothing";
 }
 
-// Of what shadow maps and triangles cost no smaller picture saves anything.
+// A smaller image does not reduce the cost of shadow maps and triangles.
 TEST(ViewerSize, WhatDoesNotShrinkIsToldApart) {
     PictureCost cost;
     cost.add(640 * 360, 100 + 64);
@@ -437,7 +436,7 @@ TEST(ViewerSettings, ACombinationWithoutMeaningIsShownAndNotDrawn) {
     setOption(state, "gbuffer", "compact");
     EXPECT_EQ(state.subject.settings.gbuffer, GBufferEncoding::compact);
     EXPECT_TRUE(state.problem.empty());
-    setOption(state, "evsm-exponent", "3");  // without --shadows evsm
+    setOption(state, "evsm-exponent", "3");  // has no effect without --shadows evsm
     EXPECT_NE(state.problem.find("evsm"), std::string::npos);
     EXPECT_EQ(state.subject.settings.evsm_exponent, 0);
     EXPECT_EQ(state.edited.evsm_exponent, 3);
@@ -449,7 +448,7 @@ TEST(ViewerSettings, ACombinationWithoutMeaningIsShownAndNotDrawn) {
     EXPECT_EQ(state.subject.settings.msaa, 1);
 }
 
-// The settings' panel is made of the rows: every one can be set from its own words.
+// The settings panel is generated from the rows: each can be set to its own text.
 TEST(ViewerSettings, EveryRowCanBeSetToWhatItSays) {
     InterfaceState state;
     for (const Field& field : settingFields()) {
@@ -467,7 +466,7 @@ TEST(ViewerSettings, SizeStopsFollowingTheWindow) {
     EXPECT_EQ(state.subject.settings.size, sizeOf(320, 180));
 }
 
-// As the original projects had it: the heat map covers the channel, which is there again without it.
+// As in the original projects: the heat map replaces the channel, which returns without it.
 TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
     Look look;
     for (const DebugMode& mode : debugModes()) {
@@ -479,7 +478,7 @@ TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
     }
 }
 
-// Without panels at the side the times have a column of their own; without both the pictures have it all.
+// Without side panels the times have their own column; without both the images have all the width.
 TEST(ViewerCanvas, TimesStandBesideThePictures) {
     InterfaceState state;
     EXPECT_EQ(canvasOf(state, 1280, 760, 1).width, 1280 - static_cast<int>(sideWidth));
@@ -551,7 +550,7 @@ TEST(ViewerWatch, TellsOnceThatAFileHasSettledAfterAChange) {
     EXPECT_FALSE(watch.changed()) << "it may still be written";
     EXPECT_TRUE(watch.changed());
     EXPECT_FALSE(watch.changed());
-    std::filesystem::remove(scene);  // as programs do that write beside and rename
+    std::filesystem::remove(scene);  // like programs that write a new file and rename it
     EXPECT_FALSE(watch.changed());
     watch.watch("builtin:gallery", {});
     EXPECT_TRUE(watch.files().empty());

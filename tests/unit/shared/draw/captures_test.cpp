@@ -24,7 +24,7 @@ std::vector<int> everyMode() {
     return modes;
 }
 
-// No two channels share a component, none is cut off, and what light changes is in the last images.
+// No two channels share a component, none is truncated, and channels of light are in the last images.
 TEST(Captures, EachChannelHasComponentsOfItsOwn) {
     std::map<std::pair<gpu::uint, gpu::uint>, int> taken;
     for (const DebugMode& mode : debugModes()) {
@@ -44,7 +44,7 @@ TEST(Captures, EachChannelHasComponentsOfItsOwn) {
     EXPECT_THROW(placeInCaptures(19), std::out_of_range);
 }
 
-// All that is asked for, once, images in their order; light in as few passes as hold it.
+// Every requested channel once, images in order; light in as few passes as possible.
 TEST(Captures, PassesHoldWhatIsAskedFor) {
     for (const std::size_t most : {std::size_t{8}, std::size_t{4}}) {
         const auto groups = captureGroups(everyMode(), of_lit, most);

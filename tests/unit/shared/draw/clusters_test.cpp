@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of primitives: together they are what they were cut from.
+// Meshlets: together they are the primitive they were cut from.
 #include "shared/draw/clusters.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Triangles {
     std::vector<std::uint32_t> indices;
 };
 
-// Small ones, spread over a flat box.
+// Small triangles, spread over a flat box.
 Triangles soup(std::size_t count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> part(0, 1);
@@ -30,7 +30,7 @@ Triangles soup(std::size_t count) {
             soup.positions.push_back(at + 0.01f * glm::vec3(part(random), part(random), part(random)));
         }
     }
-    // So that indices do not follow one another as triangles do.
+    // Shuffled, so that indices do not follow the order of triangles.
     std::ranges::shuffle(soup.positions, random);
     return soup;
 }
@@ -70,7 +70,7 @@ TEST(Clusters, HoldEveryTriangleOnceWithItsCornersInOrder) {
     }
 }
 
-// Neighbours are together: the boxes of all parts are a small share of the whole.
+// Neighbours are together: the volume of all meshlets' boxes is a small fraction of the whole.
 TEST(Clusters, AreSmall) {
     Triangles given = soup(4096);
     std::ranges::sort(given.indices);

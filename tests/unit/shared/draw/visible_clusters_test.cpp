@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What culling leaves out covers no sample, however a device rounds; and it leaves out most of what can be.
+// Culled triangles cover no sample, whatever the device's rounding; and most triangles that can be culled
+// are.
 #include "shared/draw/visible_clusters.h"
 
 #include "tests/support/rasteriser.h"
@@ -30,7 +31,7 @@ struct Counts {
     std::size_t triangles = 0, kept = 0, shown = 0;
 };
 
-// Cuts the mesh, chooses, and holds what is left out against what covers samples.
+// Cuts the mesh into meshlets, culls, and compares the culled triangles with those that cover samples.
 Counts expectNothingShownIsLeftOut(const TriangleMesh& mesh, const SampleGrid& grid,
                                    const glm::dmat4& clipFromObject, bool mirrored, bool culls,
                                    const std::string& name) {
@@ -80,7 +81,7 @@ TEST(VisibleClusters, NothingThatCoversASampleIsLeftOut) {
     for (int round = 0; round < 240; ++round) {
         const SampleGrid grid{48 + round % 37, 40, round % 3 == 0 ? (round % 2 == 0 ? 4 : 8) : 1,
                               round % 2 == 0 ? 1.0 / 256 : 1.0 / 16};
-        // Far from its own origin, at times, so that products lose digits.
+        // Sometimes far from its own origin, so that products lose digits.
         const glm::vec3 middle = round % 5 == 0 ? glm::vec3(900, -300, 500) : glm::vec3(0);
         const TriangleMesh ball = ballOf(6 + round % 17, round % 4 == 0 ? 0.3 : 0.0, random, middle);
         const bool mirrored = round % 7 == 3;
@@ -107,7 +108,7 @@ TEST(VisibleClusters, NothingThatCoversASampleIsLeftOut) {
     EXPECT_LT(all.kept, all.triangles);
 }
 
-// Seen along a triangle's plane, from before or behind it by little: near where the decision falls.
+// Seen along a triangle's plane, from slightly in front or behind: near the decision.
 TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -127,7 +128,7 @@ TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
                 glm::dvec3(placed * glm::dvec4(glm::dvec3(ball.positions[ball.indices[3 * chosen + c]]), 1));
         const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
         if (!(glm::length(normal) > 1e-9)) continue;
-        // Along one of its edges or across, and off its plane by a share of the distance.
+        // Along one of the edges or across, off the plane by a fraction of the distance.
         const double turn = 3.2 * part(random);
         const glm::dvec3 edge = glm::normalize(at[1] - at[0]), up = glm::normalize(normal),
                          along = std::cos(turn) * edge + std::sin(turn) * glm::cross(up, edge);
@@ -145,12 +146,12 @@ TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
     EXPECT_GT(left, 10000u);
 }
 
-// Clusters that reach over an edge of the picture by a pixel at most.
+// Meshlets that cross an edge of the image by a pixel at most.
 TEST(VisibleClusters, NothingThatReachesIntoTheViewIsLeftOut) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(0, 1);
     std::size_t shown = 0, left = 0;
-    const TriangleMesh board = boardOf(5);  // one cluster
+    const TriangleMesh board = boardOf(5);  // one meshlet
     for (int round = 0; round < 800; ++round) {
         const SampleGrid grid{640, 360, round % 3 == 0 ? 4 : 1, 1.0 / 256};
         const bool orthographic = round % 5 == 0;
@@ -174,7 +175,7 @@ TEST(VisibleClusters, NothingThatReachesIntoTheViewIsLeftOut) {
     EXPECT_EQ(left, 0u) << "they reach into it";
 }
 
-// A ball in the middle of a picture of common size: of the half that is turned away nearly all.
+// A ball in the centre of an image of common size: nearly all of the back half is culled.
 TEST(VisibleClusters, BacksAreLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
@@ -184,16 +185,16 @@ TEST(VisibleClusters, BacksAreLeftOut) {
         const Counts counts = expectNothingShownIsLeftOut(ball, grid, clip, false, culls, "ball");
         return static_cast<double>(counts.kept) / static_cast<double>(counts.triangles);
     };
-    EXPECT_LT(kept(false, true), 0.45);  // (1 - 1 / 4.1) / 2 are in front of the horizon
+    EXPECT_LT(kept(false, true), 0.45);  // (1 - 1 / 4.1) / 2 face the camera
     EXPECT_LT(kept(true, true), 0.58);
-    EXPECT_GT(kept(false, false), 0.95);  // of which some are smaller than between samples
+    EXPECT_GT(kept(false, false), 0.95);  // some are between samples
 }
 
 TEST(VisibleClusters, WhatIsBeyondTheViewIsLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     const SampleGrid grid{640, 360, 1, 1.0 / 256};
-    // From the middle to the right: a half and a little.
+    // From the centre to the right: a little more than half of the half in front.
     const glm::dmat4 clip = clipOf(grid, {0, 0, 0.001}, {0, 0, -1}, 1.5, 0.0001, false);
     const Counts counts = expectNothingShownIsLeftOut(ball, grid, clip, false, false, "inside");
     EXPECT_LT(counts.kept, counts.triangles / 3);
@@ -207,7 +208,7 @@ TEST(VisibleClusters, WhatIsBetweenSamplesIsLeftOut) {
     for (const int samples : {1, 4})
         for (const double off : {0.0, 0.5}) {
             const SampleGrid grid{64, 64, samples, 1.0 / 256};
-            // The picture's middle is between four pixels, half a pixel from the middle of each.
+            // The image centre is between four pixels, half a pixel from each centre.
             const double pixel = 2 * 500.0 * std::tan(0.45) / 64, radius = 0.3 * pixel / samples;
             const glm::dmat4 clip =
                 glm::scale(glm::translate(clipOf(grid, {0, 0, 500}, {0, 0, 0}, 0.9, 0.1, false),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each step of environment light costs by itself: filtering and the table add at most a tenth of what
-// the split sum costs.
+// Errors of the single steps of environment lighting: filtering and the table add at most a tenth of the
+// split sum's error.
 #include "tests/bench/environment_errors.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(EnvironmentErrors, FilteringAndTheTableAddATenthOfTheSplit) {
     }
 }
 
-// Where all light is the same nothing is off, so that sums and maps are of one scale.
+// With constant light there is no error, so sums and maps have the same scale.
 TEST(EnvironmentErrors, ThereAreNoneUnderAConstantSky) {
     const Environment environment{"sky", Image(64, 32, 3, 2.0f)};
     const AllDirections sky(environment);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the paths make of an environment on the CPU: against closed forms, sums over all directions in double,
-// and the reference's own reading of the picture.
+// The paths' environment maps from the CPU, compared with closed forms, sums over all directions in
+// double, and the reference's own reading of the image.
 #include "shared/environment/environment_maps.h"
 #include "compare/reference/environment.h"
 #include "shared/contract/environment.h"
@@ -56,7 +56,7 @@ std::array<double, 9> basis(const glm::dvec3& d) {
             std::sqrt(15 / (16 * pi)) * (d.x * d.x - d.y * d.y)};
 }
 
-// The picture's sides divide the grid's, so that no kink of the interpolation lies within one of its cells.
+// The image's sides divide the grid's, so no kink of the interpolation is inside a grid cell.
 TEST(EnvironmentMaps, HarmonicsAreTheProjectionInDouble) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {3, 2}, {16, 8}, {10, 6}}) {
         const Environment sky = skyOf(size.x, size.y, 3);
@@ -96,7 +96,7 @@ TEST(EnvironmentMaps, RadianceIsWhatTheReferenceReads) {
     }
 }
 
-// The share of a pixel, by how much the integral changes with it: the first harmonic is linear in it.
+// A pixel's solid angle is the integral's change with it: the first harmonic is linear in the pixel.
 TEST(EnvironmentMaps, SolidAnglesAreTheShares) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {4, 3}, {16, 8}}) {
         Environment sky = constantSky(0, size.x, size.y);
@@ -114,7 +114,7 @@ TEST(EnvironmentMaps, SolidAnglesAreTheShares) {
     }
 }
 
-// E(n) / pi of radiance 1 + d.a is 1 + 2/3 n.a, and of (d.a)^2 it is 1/4 + 1/4 (n.a)^2.
+// For radiance 1 + d.a, E(n) / pi is 1 + 2/3 n.a; for (d.a)^2 it is 1/4 + 1/4 (n.a)^2.
 TEST(EnvironmentMaps, ThePolynomialIsTheIrradiance) {
     const glm::dvec3 a = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
     Environment sky = constantSky(0, 256, 128);
@@ -130,7 +130,7 @@ TEST(EnvironmentMaps, ThePolynomialIsTheIrradiance) {
         const glm::dvec3 n = onSphere(i, 50);
         const double cosine = glm::dot(n, a);
         const glm::dvec3 e = evaluate(polynomial, n);
-        // Bilinear interpolation takes up to h^2 / 8 of a curvature of 2.
+        // Bilinear interpolation has an error of up to h^2 / 8 for a curvature of 2.
         EXPECT_NEAR(e.x, 1 + 2 / 3.0 * cosine, 3e-4) << i;
         EXPECT_NEAR(e.y, 0.25 + 0.25 * cosine * cosine, 3e-4) << i;
     }
@@ -177,7 +177,7 @@ TEST(EnvironmentMaps, AnOctahedralMapHasNoSeam) {
         }
     EXPECT_NEAR(sum, 4 * pi, 4 * pi * 2e-3);
     map.fillBorder();
-    // Both sides of each edge, below the horizon, are the same place on the sphere.
+    // Mirrored points on each edge, below the horizon, are the same point on the sphere.
     for (float t = -1; t <= 1; t += 0.05f)
         for (const bool across : {false, true}) {
             const auto at = [&](float s) {
@@ -194,13 +194,13 @@ TEST(EnvironmentMaps, AConstantSkyStaysConstant) {
     const EnvironmentMaps maps = makeEnvironmentMaps(constantSky(3), {});
     ASSERT_EQ(maps.levels.size(), gpu::ENVIRONMENT_SPECULAR_LEVELS);
     EXPECT_NEAR(levelAlpha(maps.levels.size() - 1), 1, 1e-12) << "contract/environment.h";
-    // Float sums of some thousand terms.
+    // Float sums of a few thousand terms.
     for (const NodeMap& level : maps.levels)
         for (const Texel& t : level.nodes) ASSERT_NEAR(t[1], 3, 3e-5) << level.side;
     for (const Texel& t : maps.diffuse.nodes) ASSERT_NEAR(t[1], 3, 3e-5);
 }
 
-// The largest picture that is usual, in closed form: radiance 2 + d.y. Maps stay as large as their limit.
+// The largest common image, in closed form: radiance 2 + d.y. Maps stay within their limit.
 TEST(EnvironmentMaps, ALargePictureIsReadWhole) {
     constexpr int width = 8192, height = 4096;
     Environment sky{"sky", Image(width, height, 3)};
@@ -221,7 +221,7 @@ TEST(EnvironmentMaps, ALargePictureIsReadWhole) {
     }
 }
 
-// The lobe's weights depend on the angle alone, so that filtering keeps the integral over all directions.
+// The lobe's weights depend only on the angle, so filtering preserves the integral over all directions.
 TEST(EnvironmentMaps, ABrightTexelNeitherVanishesNorSparkles) {
     const Environment sky = sunnySky(256, 128);
     const LatLong light(sky);
@@ -249,7 +249,7 @@ TEST(EnvironmentMaps, ABrightTexelNeitherVanishesNorSparkles) {
     }
 }
 
-// The mean over all directions; the nodes of an edge are there twice.
+// Mean over all directions; nodes on an edge occur twice.
 double meanOfMap(const NodeMap& map) {
     double sum = 0, solid = 0;
     const auto edge = [&](int i) { return i == 0 || i + 1 == map.side ? 0.5 : 1.0; };
@@ -264,7 +264,7 @@ double meanOfMap(const NodeMap& map) {
     return sum / solid;
 }
 
-// Near the poles a pixel is far narrower than a map's texels, between columns it lies between their places.
+// Near the poles a pixel is far narrower than a map's texels; between columns it lies between nodes.
 TEST(EnvironmentMaps, ASunKeepsItsLightWhereverItStands) {
     for (const int row : {0, 1, 6, 20, 40, 64, 101, 127})
         for (const int column : {0, 17, 160}) {
@@ -278,7 +278,7 @@ TEST(EnvironmentMaps, ASunKeepsItsLightWhereverItStands) {
         }
 }
 
-// Whatever its sides, all maps hold the picture's mean and numbers alone, with one sample too.
+// For images of any size, all maps have the image's mean and finite values, even with one sample.
 TEST(EnvironmentMaps, PicturesOfAnyShapeKeepTheirLight) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {3, 2}, {8, 8}, {1, 40}, {200, 3}, {7, 5}})
         for (const int samples : {1, 2, 3, 64}) {
@@ -292,7 +292,7 @@ TEST(EnvironmentMaps, PicturesOfAnyShapeKeepTheirLight) {
 }
 
 TEST(EnvironmentMaps, AnIrradianceMapIsTheSum) {
-    // A half sky: E / pi is (1 + n.y) / 2.
+    // Light from the upper hemisphere: E / pi is (1 + n.y) / 2.
     Environment sky = constantSky(0, 256, 128);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 256; ++x) sky.radiance.at(x, y, 2) = 1;
@@ -303,8 +303,8 @@ TEST(EnvironmentMaps, AnIrradianceMapIsTheSum) {
     }
     const TruncationError raw = truncationError(maps, 0);
     EXPECT_LT(raw.worst, 1e-3) << "a half sky has no even band but 0, which irradiance would keep";
-    // A sun has all: the figures of a clamped cosine, 9.4 % of the peak at worst (Ramamoorthi and Hanrahan
-    // 2001).
+    // A sun has the largest error, that of a clamped cosine: 9.4 % of the peak at worst (Ramamoorthi and
+    // Hanrahan 2001).
     Environment sun = constantSky(0, 256, 128);
     sun.radiance.at(60, 40, 1) = 1000;
     const EnvironmentMaps hard = makeEnvironmentMaps(sun, {{16, 1}, true});
@@ -323,7 +323,7 @@ TEST(EnvironmentMaps, NodesHaveNoFoldAndNoSeam) {
                                 numbers.placeOf(x == 0 || x == 8 ? x : 8 - x, x == 0 || x == 8 ? 8 - y : y));
             EXPECT_LT(glm::length(here - there), 1e-6f) << x << "," << y << ": opposite ends are one node";
         }
-    // What is linear in the place on each face of the octahedron stays so: |x| and |y| of the direction's.
+    // A function that is linear on each face of the octahedron stays so: |x| and |y| of the direction.
     NodeMap faces(9);
     for (int y = 0; y < 9; ++y)
         for (int x = 0; x < 9; ++x) {

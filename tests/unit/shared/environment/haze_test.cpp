@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference's integral of haze against what is known of it, and the numbers that shaders read.
+// The reference's haze integral, compared with known values, and the shaders' constants.
 #include "compare/reference/haze.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
@@ -27,8 +27,8 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance, cons
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance) << what << " " << c;
 }
 
-// Of two heights: straight up the column is the extinction times the height, level it is the extinction times
-// the length, and without end nothing comes through.
+// Two scale heights. Straight up, the optical depth is extinction times height; level, it is extinction
+// times length. An infinite level ray transmits nothing.
 TEST(Haze, ColumnsOfTheReference) {
     Settings settings = hazeSettings(20);
     settings.haze_march_steps = 1;
@@ -46,12 +46,12 @@ TEST(Haze, ColumnsOfTheReference) {
         const glm::dvec3 depth =
             (m * (8000 * (rm - std::exp(-top / 8000))) + a * (1200 * (ra - std::exp(-top / 1200)))) / slope;
         expectNear(seen(air, height, {1, 1, 0}, 4000).transmittance, glm::exp(-depth), 1e-12, "slanting");
-        // Down again.
+        // The same ray downwards.
         expectNear(seen(air, top, {1, -1, 0}, 4000).transmittance, glm::exp(-depth), 1e-12, "down");
     }
 }
 
-// In light from everywhere thick air that absorbs nothing shines as that light does.
+// In ambient light, thick air without absorption has the radiance of that light.
 TEST(Haze, ThickWhiteAirShinesAsWhatIsAroundIt) {
     Settings settings = hazeSettings(1000);
     settings.haze_mie = {};
@@ -65,8 +65,8 @@ TEST(Haze, ThickWhiteAirShinesAsWhatIsAroundIt) {
     }
 }
 
-// The light that phase functions send into all directions is all of it: with a level ray through thin air in
-// each direction, scattered = extinction * length * phase.
+// Phase functions integrate to 1: for a level ray through thin air in each direction, scattered =
+// extinction * length * phase.
 TEST(Haze, PhaseFunctionsIntegrateToOne) {
     const Light sun = sunTowards({0, -1, 0}, 1);
     for (const bool molecules : {true, false}) {
@@ -85,7 +85,7 @@ TEST(Haze, PhaseFunctionsIntegrateToOne) {
             const reference::Hazed hazed = seen(air, 0, {std::sqrt(1 - cosine * cosine), cosine, 0}, 1);
             sum += 2 * std::numbers::pi * hazed.scattered.x / scattering.x * 2 / steps;
         }
-        // But for the little that the air above takes away: 3e-8 of 1e9 m.
+        // Except for the little light that the air above absorbs: 3e-8 of 1e9 m.
         EXPECT_NEAR(sum, 1, molecules ? 0.01 : 0.03);
     }
 }
@@ -101,8 +101,8 @@ TEST(Haze, TheSunIsDimmedByTheAirAboveTheCameraOrAboveEachPlace) {
         const auto share = [&](double height) {
             return glm::exp(-all * (1000 * std::exp(-height / 1000) * std::sqrt(2.0)));
         };
-        // Two short rays (of a float32 direction to the sun), the second from higher up but along the same
-        // direction from the same camera.
+        // Two short rays (the direction to the sun is float32): the second starts higher but has the same
+        // direction and camera.
         const reference::Haze haze(air, {0, 500, 0});
         const glm::dvec3 low = haze.along({0, 0, 0}, {1, 0, 0}, 1e-3).scattered,
                          high = haze.along({0, 700, 0}, {1, 0, 0}, 1e-3).scattered;
@@ -112,7 +112,7 @@ TEST(Haze, TheSunIsDimmedByTheAirAboveTheCameraOrAboveEachPlace) {
     }
 }
 
-// Ground and camera lifted together change nothing; here or in the reference.
+// Raising ground and camera together changes nothing, here or in the reference.
 TEST(Haze, HeightsCountFromTheGround) {
     const Light sun = sunTowards({0.3, -0.6, -1}, 3);
     for (const int steps : {0, 16}) {
@@ -149,7 +149,7 @@ TEST(Haze, ThereIsNoneWithoutDensityOrWithoutAnythingThatScatters) {
     EXPECT_EQ(hazeNumbers(settings, &sun, {}).feature, 0u);
 }
 
-// The one height leaves the column above height 0 what it is, summed over the colours.
+// A single scale height preserves the column above height 0, summed over the colours.
 TEST(Haze, OneHeightKeepsTheColumn) {
     const Settings settings = hazeSettings(3);
     const HazeNumbers numbers = hazeNumbers(settings, nullptr, {0, 100, 0});
@@ -160,8 +160,8 @@ TEST(Haze, OneHeightKeepsTheColumn) {
     EXPECT_FLOAT_EQ(numbers.haze.camera_height, 100);
 }
 
-// A march may be off by a share of the light that haze scatters, the less the more steps; a closed form may
-// not.
+// A march may have an error proportional to the scattered light, smaller with more steps; a closed form
+// may not.
 TEST(Haze, OfAMarchSomeErrorIsGranted) {
     const int lit = static_cast<int>(gpu::DEBUG_lit), lit_haze = static_cast<int>(gpu::DEBUG_lit_haze);
     Frame reference, path;

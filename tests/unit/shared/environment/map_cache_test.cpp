@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Filtered environments that are kept on disk.
+// Disk cache of filtered environments.
 #include "shared/environment/map_cache.h"
 #include "tests/support/files.h"
 
@@ -140,7 +140,7 @@ TEST(MapCache, SidesAreThoseOfTheMaps) {
     EXPECT_EQ(mapSides(16384, 8192, true).levels.front(), 1025);
 }
 
-// A file as somebody forges it: whatever it says, its hash is right.
+// A forged file with a correct hash.
 class Forged {
 public:
     explicit Forged(const fs::path& file) {
@@ -151,7 +151,7 @@ public:
     }
     void write(const fs::path& file) {
         std::uint64_t z = 0;
-        const auto add = [&](std::uint64_t word) {  // SplitMix64's finaliser, as map_cache.cpp has it
+        const auto add = [&](std::uint64_t word) {  // SplitMix64's finaliser, as in map_cache.cpp
             z = (z ^ word) + 0x9e3779b97f4a7c15u;
             z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
             z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -185,12 +185,12 @@ TEST(MapCache, ForgedShapesAreRefused) {
     Forged(whole).write(file);
     ASSERT_TRUE(readMaps(file, key, coarseSides)) << "the control: forged as it was";
     const std::function<void(Forged&)> forgeries[] = {
-        [](Forged& f) {  // no level at all
+        [](Forged& f) {  // no level
             f.floats.resize(harmonicFloats + 1 + 3 * 33 * 33);
             f.head[2] = 1;
             f.head[3] = f.floats.size();
         },
-        [](Forged& f) {  // nothing
+        [](Forged& f) {  // no maps
             f.floats.resize(harmonicFloats);
             f.head[2] = 0;
             f.head[3] = f.floats.size();
@@ -200,7 +200,7 @@ TEST(MapCache, ForgedShapesAreRefused) {
         [](Forged& f) { f.floats[harmonicFloats] = std::numeric_limits<float>::quiet_NaN(); },
         [](Forged& f) { f.head[2] = ~std::uint64_t{0}; },
         [](Forged& f) { f.head[3] = std::uint64_t{1} << 62; },
-        [](Forged& f) { f.head[3] += std::uint64_t{1} << 62; },  // as many bytes, modulo 2^64
+        [](Forged& f) { f.head[3] += std::uint64_t{1} << 62; },  // the same number of bytes modulo 2^64
     };
     for (const auto& forge : forgeries) {
         Forged forged = whole;
@@ -208,7 +208,7 @@ TEST(MapCache, ForgedShapesAreRefused) {
         forged.write(file);
         EXPECT_FALSE(readMaps(file, key, coarseSides)) << &forge - forgeries;
     }
-    // A hole of 4 GB, which says that it is one.
+    // A sparse file of 4 GB with a matching header.
     Forged huge = whole;
     huge.head[3] = (std::uint64_t{1} << 32) / sizeof(float);
     huge.write(file);
@@ -216,7 +216,7 @@ TEST(MapCache, ForgedShapesAreRefused) {
     EXPECT_FALSE(readMaps(file, key, coarseSides));
 }
 
-// Whatever bytes: nothing is read, or maps of the shape that was asked for.
+// Any bytes: the result is nothing, or maps of the requested size.
 TEST(MapCache, AnyBytesAreMapsOrNothing) {
     const fs::path in = folder();
     const Environment sky{"sky", Image(1, 1, 3)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which channels a path makes, and what is said of the others.
+// Channels that a path supports, and the messages for others.
 #include "shared/frame/made_channels.h"
 #include "shared/contract/debug_mode.h"
 

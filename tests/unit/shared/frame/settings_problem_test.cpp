@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings that have a meaning together, and those that have none.
+// Valid and invalid combinations of Settings.
 #include "shared/frame/settings.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@ namespace {
 constexpr const char* tilesNeedDepthsSays =
     "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass on";
 
-// A tile's lights are chosen by its depths, which deferred has of its G-buffer and forward+ of a pre-pass;
-// froxels and objects need none.
+// A tile's lights depend on its depths: deferred has a G-buffer, forward+ needs a pre-pass. Froxels and
+// objects need no depths.
 TEST(SettingsProblem, OnlyForwardPlussTilesNeedAPrePass) {
     for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
         for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})

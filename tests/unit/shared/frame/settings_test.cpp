@@ -20,7 +20,7 @@
 namespace diptych {
 namespace {
 
-// Every member changed; a member of Settings that is missing in fields() would keep its default here.
+// Every member changed. A member of Settings that fields() omits would keep its default here.
 Settings everythingChanged() {
     Settings s;
     s.path = Path::deferred;
@@ -143,7 +143,7 @@ TEST(Settings, FieldsNameEachMemberOnce) {
     }
 }
 
-// Values of a Setting other than the default, as text: those that a sweep tries, and one more of each kind.
+// Values of a Setting other than the default, as text: the swept ones and one more.
 std::vector<std::string> otherValues(const Field& field) {
     const Settings defaults;
     std::vector<std::string> values = sweptValues(defaults, field.option);
@@ -196,7 +196,7 @@ TEST(Settings, TheFuzzersDictionaryNamesThemAll) {
     }
 }
 
-// The effective Settings of a path lack what its row says is ignored, and nothing else.
+// Effective Settings of a path omit exactly the Settings that their row declares as ignored.
 TEST(Settings, EffectiveOnesAreWithoutWhatTheirPathIgnores) {
     for (const auto& [path, name] : enumNames<Path>())
         for (const Field& field : settingFields()) {
@@ -276,7 +276,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     EXPECT_EQ(surfaceSettings(asked).problem().value_or("none"), "none");
 }
 
-// Surfaces are captured as both paths make them; samples of the scene need no filter.
+// Captured surfaces include the paths' roughness filter; samples of the scene need none.
 TEST(Settings, TheReferenceFollowsTheFilterOfRoughnessWhereItShadesCaptures) {
     Settings asked;
     asked.spec_aa = true;
@@ -535,8 +535,7 @@ TEST(Settings, TheReferenceHasMoreThanThePaths) {
               "--baseline reference); use surface");
 }
 
-// The reference traces shadows and samples lights: Settings of particular techniques for these do not affect
-// it.
+// The reference traces shadows and samples lights, so Settings of shadow techniques do not affect it.
 TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
     Settings plain;
     plain.path = Path::reference;
@@ -556,13 +555,13 @@ TEST(Settings, TheReferenceIgnoresHowShadowsAndSamplesAreMade) {
         EXPECT_EQ(effectiveSettings(changed), plain) << option;
         EXPECT_EQ(referenceSettings(changed), plain) << option;
     }
-    // It decides what is lit.
+    // shadow_lights changes the visible light.
     plain.shadow_lights = 3;
     EXPECT_EQ(referenceSettings(plain).shadow_lights, 3);
     EXPECT_EQ(surfaceSettings(plain).shadow_lights, 0);
 }
 
-// Cascades and pages each belong to their technique, and a level of the clipmap has four pages or more.
+// Cascades and pages each belong to their technique. A clipmap level has at least four pages in a row.
 TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
     Settings s;
     s.shadows = Shadows::clipmap;
@@ -595,7 +594,7 @@ TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
               "--clipmap-pages 64 has no effect without --shadows clipmap; use 512");
 }
 
-// The Settings of moments belong to one shadow technique only.
+// Settings of EVSM moments have no effect with other shadow techniques.
 TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     Settings s;
     s.path = Path::reference;
@@ -609,7 +608,7 @@ TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
     EXPECT_EQ(s.problem().value_or("none"), "none");
 }
 
-// Neither format holds the second moment of a larger exponent.
+// Neither format can represent the second moment of a larger exponent.
 TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
     Settings s;
     s.shadows = Shadows::evsm;
@@ -745,7 +744,7 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
     }
 }
 
-// Other programs' files and scripts rely on these numbers: they never change.
+// Files and scripts of other programs rely on these numbers: they never change.
 TEST(DebugModes, ZeroToNineAreFixed) {
     const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
                                  "emission", "occlusion", "specular", "material_id", "texcoords"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings of one path alone: --deferred and --forward-plus.
+// Settings for one path only: --deferred and --forward-plus.
 #include "shared/frame/sides.h"
 #include "tests/support/errors.h"
 
@@ -29,7 +29,7 @@ TEST(Sides, EachPathHasItsOwnOnTopOfTheCommonOnes) {
     EXPECT_EQ(right.shadows, Shadows::evsm);
     EXPECT_FALSE(left.problem() || right.problem());
     EXPECT_EQ(sides.of(common, Path::reference).assign, Assignment::clustered);
-    // The words say it whole: beside any common Settings they mean the same.
+    // The words are complete: they mean the same with any common Settings.
     EXPECT_EQ(wordsOf(sides),
               (std::vector<std::string>{"--deferred", "ambient=1,0,0.5,assign=clustered,pixel-lights=4",
                                         "--forward-plus", "ambient=0,0,0,assign=per_object,pixel-lights=2"}));
@@ -39,7 +39,7 @@ TEST(Sides, EachPathHasItsOwnOnTopOfTheCommonOnes) {
     EXPECT_TRUE(wordsOf(SideSettings()).empty());
 }
 
-// Both paths are judged by one G-buffer.
+// Both paths are judged with the same G-buffer encoding.
 TEST(Sides, WhatOnlyOnePathReadsIsSetForBoth) {
     Settings common;
     const SideSettings sides = readSides({"gbuffer=compact,shadows=off", "prepass=on"}, common);
@@ -65,7 +65,7 @@ TEST(Sides, AreRefusedInOneLineThatHelps) {
     EXPECT_EQ(sidesRefused("assign=every,assign=tiled", ""),
               "--deferred assign=every,assign=tiled: assign is given twice");
     EXPECT_NE(sidesRefused("", "assign=evry").find("--assign evry: not "), std::string::npos);
-    for (const std::string_view option : viewOptions()) settingField(option);  // throws where there is none
+    for (const std::string_view option : viewOptions()) settingField(option);  // throws if there is none
 }
 
 TEST(Sides, TellWhatChangesLight) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of several parts: the names of their layers, the positions of their pixels, and which files are
-// refused and why.
+// Multi-part EXR files: names of layers, positions of pixels, and refused files with the reason.
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
@@ -36,8 +35,7 @@ Names layerNames(const PictureFile& file) {
     return names;
 }
 
-// Checks that component i of the layer is what the maker wrote as channel `made[i]` of the part, and 0
-// outside of its data window.
+// Component i of the layer must equal the part's channel `made[i]`, and 0 outside its data window.
 void expectMade(const PictureLayer& layer, int part, const std::vector<int>& made, const Imath::Box2i& data,
                 const Imath::Box2i& display) {
     SCOPED_TRACE(layer.name);
@@ -159,7 +157,7 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     EXPECT_EQ(partFault(file, "ids"), "a.exr: part \"ids\": holds deep samples, which are not supported");
 }
 
-// Changes the right end of the last part's display window, which OpenEXR writes the same for all parts.
+// Changes the right end of the last part's display window; OpenEXR writes the same for all parts.
 std::string withLastDisplay(std::string file, std::int32_t right) {
     const std::size_t at = file.rfind("displayWindow\0box2i\0"s) + 14 + 6 + 4 + 8;
     std::memcpy(file.data() + at, &right, 4);
@@ -174,7 +172,7 @@ TEST(ExrParts, APartIsNamedBehindTheFile) {
     EXPECT_EQ(readPicture(path.string() + "?part=1").width, 12);
     EXPECT_EQ(faultOf([&] { readPicture(path.string() + "?part=fog"); }),
               path.string() + "?part=fog: has no part \"fog\"");
-    // A file of that name is itself.
+    // A file with this exact name is read as a whole.
     std::ofstream(path.string() + "?part=x", std::ios::binary) << file;
     EXPECT_EQ(pictureName(path.string() + "?part=x").part, "");
 }
@@ -218,7 +216,7 @@ TEST(ExrParts, ClaimsCountTogether) {
               "a.exr: part \"beauty\": claims 9 x 6 pixels of 28 bytes; the limit is 0 MiB");
     EXPECT_EQ(partFault(file, "normals", 648), "") << "only what is asked for counts";
 
-    // 1 GiB of zeros is allowed around small pixels, but once, not for each part.
+    // 1 GiB of zeros around few pixels is allowed once, not for each part.
     std::vector<MadePart> small;
     for (const char* name : {"a", "b", "c"}) {
         small.push_back({name, {{"R", Imf::HALF}, {"G", Imf::HALF}}});
@@ -228,7 +226,7 @@ TEST(ExrParts, ClaimsCountTogether) {
               "a.exr: part \"c\": this part and the parts before it claim 1098 MiB; the limit is 1024 MiB");
 }
 
-// Replaces the 32 bit number `index` of the part's attribute; `part` counts the headers in the file.
+// Replaces the 32-bit number `index` of the part's attribute; `part` counts the file's headers.
 std::string with(std::string file, int part, const std::string& attribute, std::size_t index,
                  std::int32_t value) {
     std::size_t at = file.find(attribute + '\0');
@@ -252,7 +250,7 @@ TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
     EXPECT_EQ(partFault(kind), "a.exr: part \"normals\": has the unknown type \"?scnlineimage\"");
     EXPECT_EQ(partFault(file.substr(0, file.rfind("displayWindow") + 3)),
               "a.exr: its header holds a name without an end");
-    // If pixels are missing, the library's message is prefixed by the part's name.
+    // If pixels are missing, the library's message is prefixed with the part's name.
     const std::string cut = partFault(file.substr(0, file.size() - 40));
     EXPECT_TRUE(cut.starts_with("a.exr: part \"normals\": ")) << cut;
     EXPECT_EQ(cut.find('\n'), cut.npos);

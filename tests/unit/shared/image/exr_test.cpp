@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR files of other programs: every compressor, tiles, crops, integers; and files with wrong headers.
+// EXR files of other programs: every compression, tiles, crops, integers; and files with wrong headers.
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
 #include "tests/support/errors.h"
@@ -31,7 +31,7 @@ std::string exrFault(const std::string& file, std::uint64_t most = limits::image
     return faultOf([&] { readExr(bytesIn(file), "a.exr", most); });
 }
 
-// The pixels of channels i (half), j (float), k (uint): 0.5, 0.25 and 3, from the top left of the window.
+// Pixels of channels i (half), j (float), k (uint): 0.5, 0.25 and 3, from the window's top left.
 struct Pixels {
     explicit Pixels(const Imath::Box2i& window)
         : a(area(window), half(0.5f)), b(area(window), 0.25f), c(area(window), 3u) {
@@ -181,8 +181,7 @@ TEST(ExrOfOthers, ComponentsStandInTheirOrderHoweverTheyAreSpelled) {
                   "m.depth:", "m.depth.Z", "n:", "n.x", "n.y", "n.z", "t:", "t.U",   "t.V",     "t.weight"}));
 }
 
-// Only the attributes that the pixels need are passed to the library; none that contains lengths of its own
-// is among them.
+// The library gets only the attributes that pixels need; none of them contains lengths of its own.
 TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
     Imf::Header head = header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION);
     head.insert("layers", Imf::StringVectorAttribute({"one", "two"}));
@@ -199,8 +198,7 @@ TEST(ExrOfOthers, OtherAttributesAreLeftOutOfTheHeader) {
         << "pixels stay where the offsets say";
 }
 
-// A small file written by this program, with the type, the size and the 32 bit number after `attribute`
-// replaced.
+// A small file written by diptych, with type, size and 32-bit number after `attribute` replaced.
 std::string with(std::string file, const std::string& attribute, const std::string& type, std::size_t index,
                  std::int32_t value) {
     const std::size_t at = file.find(attribute + '\0' + type + '\0');

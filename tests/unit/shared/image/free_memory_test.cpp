@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory that is free, from made-up files of the kernel.
+// Free memory, from made-up kernel files.
 #include "shared/image/free_memory.h"
 #include "tests/support/files.h"
 
@@ -21,7 +21,7 @@ protected:
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path) << text;
     }
-    // 20 GiB of the machine's are free, and no limit is set.
+    // 20 GiB of the machine's memory are free, and no limit is set.
     void SetUp() override {
         write("proc/meminfo",
               "MemTotal:       33554432 kB\nMemFree:  1024 kB\nMemAvailable:   20971520 kB\n");
@@ -70,7 +70,7 @@ TEST_F(FreeMemoryOf, OfCgroupsTheTightestOnTheWayUp) {
     write("sys/fs/cgroup/user.slice/job.scope/memory.high", "max\n");
     write("sys/fs/cgroup/user.slice/job.scope/memory.current", "3221225472\n");
     expect(5 * gib, "a cgroup");
-    // Cached files are given up: not other memory of files, which is shared.
+    // Cached files can be evicted; shared memory cannot.
     write("sys/fs/cgroup/user.slice/job.scope/memory.stat",
           "anon 1\nfile 9\nshmem 5\ninactive_anon 7\nactive_anon 3\ninactive_file 1073741824\n"
           "active_file 1073741824\n");
@@ -81,7 +81,7 @@ TEST_F(FreeMemoryOf, OfCgroupsTheTightestOnTheWayUp) {
     expect(2 * gib, "a cgroup");
 }
 
-// In a container the path may be the host's: its own cgroup is where they are mounted.
+// In a container the path may be the host's; the container's own cgroup is at the mount point.
 TEST_F(FreeMemoryOf, FirstVersionsCgroups) {
     write("proc/self/cgroup", "12:cpu,cpuacct:/docker/0123\n5:memory:/docker/0123\n0::/docker/0123\n");
     write("sys/fs/cgroup/memory/memory.limit_in_bytes", "4294967296\n");
@@ -107,7 +107,7 @@ TEST_F(FreeMemoryOf, ARefusalIsOneLineWithBothNumbers) {
     }
 }
 
-// The machine that this runs on has some memory left, and less than there is.
+// This machine has some free memory, and less than 1 PiB.
 TEST(FreeMemoryHere, IsSome) {
     const FreeMemory free = freeMemory();
     EXPECT_GT(free.bytes, std::uint64_t{16} << 20);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Image files: what is written is read back, and no incomplete file ever has the final name.
+// Image files: written values are read back, and no incomplete file ever has the final name.
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
 #include "shared/image/picture_file.h"
@@ -92,7 +92,7 @@ TEST(Exr, BrokenFilesAreNamed) {
         const std::string fault = faultOf([&] { readExr(file); });
         EXPECT_NE(fault.find("a.exr"), std::string::npos) << size << " bytes: " << fault;
     }
-    // A header that claims 2^20 x 2^20 pixels: refused before memory is allocated.
+    // A header that claims 2^20 x 2^20 pixels is refused before memory is allocated.
     std::string huge = whole;
     for (const char* window : {"dataWindow", "displayWindow"}) {
         const std::size_t box = huge.find(window) + std::string(window).size() + 1 + sizeof "box2i" + 4;
@@ -131,8 +131,7 @@ TEST(Png, EveryByteComesBackAsRgba) {
     EXPECT_EQ(namesIn(file.parent_path()), std::vector<std::string>{"a.png"});
 }
 
-// At most 256 colours take a byte a pixel and no more than their deflated places; one colour more takes
-// three.
+// Up to 256 colours take one byte per pixel before compression; one colour more takes three.
 TEST(Png, FewColoursAreAPalette) {
     const fs::path file = folder() / "a.png";
     for (const int count : {1, 2, 256, 257}) {
@@ -226,7 +225,7 @@ TEST(AtomicFile, ALinkIsReplacedAndNotFollowed) {
     EXPECT_EQ(contentsOf(here / "real"), "old");
 }
 
-// A full disk: /dev/full accepts bytes and fails only when they are flushed.
+// A full disk: /dev/full accepts bytes and only fails when they are flushed.
 TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const fs::path file = folder() / "a.txt";
@@ -242,7 +241,7 @@ TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
     EXPECT_EQ(contentsOf(file), "old");
 }
 
-// A disk that was full for one write, in the middle of the file, and has room again for all that follow.
+// A disk that is full for one write in the middle of the file, and free again for all later ones.
 TEST(AtomicFile, AWriteThatFailedIsRememberedUntilTheCommit) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     const fs::path file = folder() / "a.txt";

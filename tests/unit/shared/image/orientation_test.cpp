@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exif's orientation in JPEG and PNG files, which are turned as viewers show them.
+// Exif orientation in JPEG and PNG files, rotated as viewers show them.
 #include "shared/image/orientation.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/png_builder.h"
@@ -19,7 +19,7 @@ std::string number(std::uint32_t value, int bytes, bool big) {
     return text;
 }
 
-// An Exif block of an entry of its own and the orientation.
+// An Exif block with one other entry and the orientation.
 std::string exif(std::uint32_t orientation, bool big, std::uint32_t type = 3) {
     const auto entry = [&](std::uint32_t tag, std::uint32_t kind, std::uint32_t value) {
         return number(tag, 2, big) + number(kind, 2, big) + number(1, 4, big) + number(value, 2, big) +
@@ -39,7 +39,7 @@ TEST(Orientation, IsReadInBothByteOrders) {
             EXPECT_EQ(orientationOf(bytesOf(exif(orientation, big))), static_cast<int>(orientation));
 }
 
-// Whatever is cut off or no orientation.
+// Truncated data, or values that are no orientation.
 TEST(Orientation, WhatSaysNothingIsUpright) {
     for (const std::uint32_t wrong : {0u, 9u, 65535u})
         EXPECT_EQ(orientationOf(bytesOf(exif(wrong, true))), 1);
@@ -64,7 +64,7 @@ TEST(Orientation, IsFoundInAJpeg) {
         EXPECT_EQ(orientationOfJpeg(bytesOf((start + found).substr(0, size))), 1) << size;
 }
 
-// 2 x 1: red, green; its Exif chunk stands behind the pixels.
+// 2 x 1: red, green; the Exif chunk is behind the pixels.
 TEST(Orientation, APngIsTurned) {
     MadePng made;
     made.width = 2;

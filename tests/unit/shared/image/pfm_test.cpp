@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PFM files made by hand: both kinds, both byte orders, rows from the bottom; and files with wrong headers.
+// PFM files made by hand: both types, both byte orders, rows from the bottom; and files with wrong
+// headers.
 #include "shared/image/pfm.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"

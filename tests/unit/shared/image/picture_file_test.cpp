@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One reader for all pictures: recognising the format by the first bytes, and the values of PNGs.
+// One reader for all images: format detection by the first bytes, and the values of PNGs.
 #include "shared/image/picture_file.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
@@ -131,7 +131,7 @@ TEST(PicturePng, PalettesAreLookedUpAndTransparentColoursBecomeAlpha) {
     expectPng(gray, {{"Y", "A"}, "8 bit", {0.2f, 1, 0.4f, 0}});
 }
 
-// Interlacing stores a picture in seven passes; for each of these sizes other passes are empty.
+// Interlacing stores an image in seven passes; each of these sizes leaves other passes empty.
 TEST(PicturePng, InterlacedRowsComeTogether) {
     for (const int side : {1, 3, 5, 8, 11}) {
         MadePng made{PNG_COLOR_TYPE_GRAY, 16, static_cast<std::uint32_t>(side), {}, true};
@@ -188,8 +188,8 @@ TEST(PicturePng, BrokenFilesSayWhy) {
     EXPECT_TRUE(pictureFault(data).starts_with("a: IDAT: ")) << pictureFault(data);
 }
 
-// 8 bits that are kept are the values that the floats are made of; what is kept and what it takes is known
-// from the header.
+// Undecoded 8-bit values give the same floats. The header alone tells whether they stay 8-bit, and their
+// size.
 TEST(PictureFile, EightBitsCanBeKept) {
     const std::vector<std::vector<std::uint8_t>> rows{{0, 1, 2, 3, 4, 5, 6, 255, 128, 9, 10, 11},
                                                       {12, 13, 254, 15, 16, 17, 18, 19, 20, 21, 22, 23}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures that are measured a few rows at a time, of pictures in 8 bits too: the same bits as those of whole
-// pictures of floats.
+// Metrics computed a few rows at a time, also from 8-bit images: bitwise identical to those of whole float
+// images.
 #include "shared/image/picture_rows.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
@@ -19,15 +19,15 @@
 namespace diptych {
 namespace {
 
-// A tile of FLIP is at most 256 x 128 pixels, a band of sums 16 rows, one of SSIM's tasks 64 rows of windows:
-// sizes at these edges, beside them, and of one row or column.
+// A FLIP tile is at most 256 x 128 pixels, a band of sums 16 rows, an SSIM task 64 rows of windows. Sizes
+// at these limits, next to them, and of one row or column.
 struct Wide {
     int width, height;
 };
 constexpr Wide sizes[]{{1, 1},   {97, 1},   {1, 97},  {33, 16},   {33, 17}, {40, 74},
                        {40, 75}, {64, 129}, {257, 9}, {301, 138}, {19, 331}};
 
-// Most pixels of a picture and the next one are equal, others differ by little.
+// Most pixels of two such images are equal, others differ a little.
 Image8 codes(Wide size, int components, unsigned seed) {
     const auto count = static_cast<std::size_t>(size.width * size.height * components);
     Image8 image{size.width, size.height, components, std::vector<std::uint8_t>(count)};
@@ -95,7 +95,7 @@ TEST(PictureRows, EightBitsAndFloatsHaveTheSameFigures) {
         }
 }
 
-// Against all errors at once, sorted.
+// Compared with sorting all errors at once.
 TEST(PictureRows, RanksAreThoseOfTheSortedErrors) {
     for (const Metric metric : {Metric::absolute, Metric::relative, Metric::angular, Metric::exact})
         for (const Wide size : sizes) {
@@ -125,7 +125,7 @@ TEST(PictureRows, RanksAreThoseOfTheSortedErrors) {
         }
 }
 
-// More errors share their first 16 bits than are gathered: they are told apart by the bits that follow.
+// More errors share their first 16 bits than are gathered at once; the following bits distinguish them.
 TEST(PictureRows, RanksOfManyErrorsThatAreAlmostTheSame) {
     const int width = 1100, height = 1000;
     const Image a(width, height, 1, 0);
@@ -138,7 +138,7 @@ TEST(PictureRows, RanksOfManyErrorsThatAreAlmostTheSame) {
     EXPECT_EQ(stats.p999, 1 + (0.999 * 1'100'000 - 1) * 0x1p-23);
 }
 
-// The windows of one row at a time, each from the eleven rows that it reads.
+// Windows of one row at a time, each from the eleven rows it reads.
 TEST(PictureRows, SsimOfBandsIsThatOfTheirWindows) {
     for (const Wide size : sizes) {
         if (size.width < 11 || size.height < 11) continue;

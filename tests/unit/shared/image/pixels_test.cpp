@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures that are kept in files: the same numbers at the same place, and no memory once they are let go.
+// Images spilled to files: the same values at the same address, and no memory after release.
 #include "shared/image/image.h"
 #include "tests/support/files.h"
 #include "tests/support/test_pictures.h"
@@ -13,7 +13,7 @@
 namespace diptych {
 namespace {
 
-// The pages of the picture that are in this program's memory, of all that it has.
+// Fraction of the image's pages that are resident in memory.
 double residentShare(const Image& image) {
     std::ifstream maps("/proc/self/smaps");
     const auto begin = reinterpret_cast<std::uintptr_t>(image.data.data());
@@ -72,7 +72,7 @@ TEST(Pixels, AFileHasNoNameAndNeedsNoFolderOfTheUsers) {
     old ? ::setenv("TMPDIR", chosen.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
-// Its memory is another's as soon as it is gone: that one is not in a file.
+// Freed memory is reused: the next image at this address must not be in a file.
 TEST(Pixels, MemoryOfOneThatWasKeptIsNewForTheNext) {
     for (int round = 0; round < 4; ++round) {
         Image image = noise(400, 300, static_cast<unsigned>(round));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What files say of their colours and pixels: converted where that is a matrix, else said, in every format.
+// Colour and pixel metadata of files: converted if a matrix suffices, otherwise reported, in every format.
 #include "shared/image/primaries.h"
 #include "compare/files/layers.h"
 #include "shared/image/picture_file.h"
@@ -35,8 +35,8 @@ std::string bigEndianOf(std::initializer_list<std::uint32_t> numbers) {
     return text;
 }
 
-// ACES: Academy TB-2018-001's AP0 to Rec. 709 with Bradford's adaptation of D60; Display P3: CSS Color
-// 4, 10.8, of one white. Rows as printed there.
+// ACES: AP0 to Rec. 709 of Academy TB-2018-001, with Bradford adaptation of D60. Display P3: CSS Color 4,
+// 10.8, same white. Rows as printed there.
 TEST(Primaries, MatricesAreThePublishedOnes) {
     const double from_aces[9] = {2.521686,  -1.134131, -0.387555, -0.276480, 1.372719,
                                  -0.096239, -0.015378, -0.152975, 1.168353},
@@ -68,7 +68,7 @@ TEST(Primaries, Rec709ToFourDigitsIsNothingAndALineIsNoColours) {
     }
 }
 
-// Colours alone are converted: what is written as R, G, B of normals stays.
+// Only colours are converted: R, G, B of normals stay unchanged.
 TEST(Primaries, OfAnExr) {
     const MadePart part{"",
                         {{"R", Imf::FLOAT},
@@ -113,7 +113,7 @@ TEST(Primaries, OfARadiancePicture) {
         return decodedFrom("#?RADIANCE\n" + variables +
                            "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s);
     };
-    // A grey of any white is grey.
+    // Grey stays grey with any white point.
     const PictureFile grey =
         with("PRIMARIES= .64 .33 .29 .60 .15 .06 .3333 .3333\nPIXASPECT=0.5\nEXPOSURE=2\n");
     for (int c = 0; c < 3; ++c)
@@ -125,7 +125,7 @@ TEST(Primaries, OfARadiancePicture) {
     EXPECT_EQ(faultOf([&] { with("PRIMARIES=1 2 3\n"); }), "a: PRIMARIES=1 2 3 is not eight numbers");
 }
 
-// Display P3's green of full strength is no colour of sRGB: its red is negative, and so is what encodes it.
+// Display P3's full green is outside sRGB: its red is negative, also when encoded.
 TEST(Primaries, OfAPng) {
     MadePng made{PNG_COLOR_TYPE_RGB, 8, 1, {{0, 255, 0}}};
     made.chunks = {{"cHRM", bigEndianOf({31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000})}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Radiance pictures made by hand: every orientation, both run-length codes, and files with wrong headers.
+// Radiance images made by hand: every orientation, both run-length codes, and files with wrong headers.
 #include "shared/image/radiance.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/picture_file.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::string_literals;
 
-// The header up to its empty line, the resolution, the pixels.
+// Header up to the empty line, resolution, pixels.
 std::string hdr(const std::string& resolution, const std::string& pixels, const std::string& variables = "") {
     return "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n" + pixels;
 }
@@ -30,7 +30,7 @@ std::string radianceFault(const std::string& file, std::uint64_t most = limits::
 }
 
 TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {
-    // Exponent 129 is 2^1, and a mantissa m is (m + 1/2) / 256 of that.
+    // Exponent 129 is 2^1; a mantissa m is (m + 1/2) / 256 of that.
     const Image image = radianceOf(hdr("-Y 1 +X 2", "\x80\x40\x00\x81\x09\x09\x09\x00"s));
     ASSERT_EQ(image.width, 2);
     ASSERT_EQ(image.height, 1);
@@ -51,7 +51,7 @@ TEST(Radiance, ExposuresAreTakenOutAgain) {
               "a.hdr: EXPOSURE and COLORCORR scale its values beyond the range of float");
 }
 
-// A picture of 3 x 2; pixel i of its rows from the top left has the mantissa 128 + i.
+// An image of 3 x 2; pixel i, in rows from the top left, has the mantissa 128 + i.
 TEST(Radiance, EveryOrderOfTheEight) {
     struct Order {
         const char* resolution;
@@ -73,8 +73,8 @@ TEST(Radiance, EveryOrderOfTheEight) {
 }
 
 TEST(Radiance, OldRunsInARowAreDigits) {
-    // One pixel, 43 more, 1 x 256 more: 300. Then a single pixel, after which the digits start anew, and a
-    // run of 299.
+    // One pixel, 43 more, 1 x 256 more: 300. Then a single pixel, which restarts the digits, and a run of
+    // 299.
     const std::string first = "\x80\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
     const std::string second = "\xc0\x00\x00\x81\x01\x01\x01\x2b\x01\x01\x01\x01"s;
     const Image image = radianceOf(hdr("-Y 2 +X 300", first + second));
@@ -140,8 +140,8 @@ TEST(Radiance, FaultsAreNamed) {
 
 TEST(Radiance, WrittenPicturesComeBackWithinAStep) {
     const std::filesystem::path file = folder() / "a.hdr";
-    // Widths below and within the run-length code's, runs of every length, single pixels, big and small
-    // numbers.
+    // Widths below and within the run-length code's range, runs of every length, single pixels, large and
+    // small numbers.
     for (const int width : {1, 7, 8, 500}) {
         Image image(width, 3, 3);
         for (int i = 0; i < width * 3; ++i) {

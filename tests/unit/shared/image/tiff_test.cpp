@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TIFFs made byte by byte, so that nothing of what reads them also made them.
+// TIFFs made byte by byte, independent of the library that reads them.
 #include "shared/image/tiff.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
@@ -15,10 +15,11 @@
 namespace diptych {
 namespace {
 
-// TIFF 6.0, section 2: a header, one directory of 12 bytes a tag, and one strip behind it. Little-endian.
+// TIFF 6.0, section 2: a header, a directory with 12 bytes per tag, and one strip behind it.
+// Little-endian.
 struct MadeTiff {
-    // TIFF's numbers: 256 width, 257 height, 258 bits, 259 compression, 262 colours, 273 offset, 277 samples,
-    // 278 rows a strip, 279 bytes, 284 planes, 339 format, 274 orientation.
+    // TIFF tags: 256 width, 257 height, 258 bits, 259 compression, 262 colours, 273 offset, 277 samples,
+    // 278 rows per strip, 279 bytes, 284 planes, 339 format, 274 orientation.
     std::map<int, std::uint32_t> tags;
     std::string strip;
 
@@ -28,7 +29,7 @@ struct MadeTiff {
             for (int i = 0; i < size; ++i) out += static_cast<char>(value >> (8 * i));
         };
         put(static_cast<std::uint32_t>(tags.size()), 2);
-        // Of several samples the bits and the format are written once each, which libtiff takes for all.
+        // With several samples, bits and format are written only once; libtiff applies them to all.
         const std::uint32_t begin = static_cast<std::uint32_t>(8 + 2 + 12 * tags.size() + 4);
         for (const auto& [tag, value] : tags) {
             put(static_cast<std::uint32_t>(tag), 2);
@@ -147,7 +148,7 @@ TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
         EXPECT_NE(fault.find(wrong.said), std::string::npos) << wrong.tag << ": " << fault;
         EXPECT_EQ(fault.find('\n'), std::string::npos);
     }
-    MadeTiff alpha = sound;  // beside grey: two samples a pixel, which are there
+    MadeTiff alpha = sound;  // with grey: two samples per pixel
     alpha.tags[277] = 2;
     alpha.strip.resize(8, 'x');
     alpha.tags[279] = 8;
@@ -155,7 +156,7 @@ TEST(Tiff, WhatIsNotReadIsNamedInOneLine) {
     EXPECT_NE(tiffFault(sound.bytes(), 8).find("a.tif: "), std::string::npos) << "more memory than allowed";
 }
 
-// Cut anywhere, and with every byte changed in turn: it reads, or says why in a line.
+// Truncated anywhere, and with each byte changed: the file is read, or the reason is one line.
 TEST(Tiff, BrokenFilesAreOneLine) {
     const std::string sound = made(3, 2, 3, 16, 1, std::string(36, 'y')).bytes();
     ASSERT_EQ(tiffFault(sound), "");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The cells for which light lists are made, and the ranges that a cutoff gives.
+// Cells of the light lists, and light ranges for a cutoff.
 #include "shared/light/light_grid.h"
 #include "shared/light/cutoff.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
+#include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,7 @@ std::tuple<gpu::uint, gpu::uint, gpu::uint> cellSizeOf(const gpu::LightGrid& gri
     return {grid.tile_shift, grid.slice_shift, grid.slices};
 }
 
-// Only the ratios of the costs matter; where a list costs more, there are fewer.
+// Only ratios of costs matter; expensive lists mean fewer of them.
 TEST(LightGrid, HasTheSizeThatCostsLeastOnTheDevice) {
     const std::vector<Light> lights = pointsAhead(300, 3);
     const auto with = [&](const DeviceCosts& costs) {
@@ -128,16 +129,47 @@ TEST(LightCutoffRange, TheEnergyCutIsAShare) {
     const Pose pose = poseAt(scene, 0);
     Light lamp;
     lamp.position = {0, 2, 0};
-    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 0), 0);
+    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 0, {}), 0);
     double before = 0;
     for (const double cutoff : {1e-6, 1e-4, 1e-2, 0.1}) {
-        const double cut = energyCut(scene, pose, std::vector{lamp}, cutoff);
+        const double cut = energyCut(scene, pose, std::vector{lamp}, cutoff, {});
         EXPECT_GT(cut, before);
         before = cut;
     }
     EXPECT_GT(before, 0.9);
     lamp.range = 3;
-    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 1), 0) << "it has a range";
+    EXPECT_EQ(energyCut(scene, pose, std::vector{lamp}, 1, {}), 0) << "it has a range";
+}
+
+// A lamp and a spot light a square of 1 mm from 1 m above. The spot's axis misses it by 0.4 rad, so that it
+// is between its cones. The spot is four times as strong, so its squared range is four times as large.
+TEST(LightCutoffRange, TheEnergyCutHasTheFalloff) {
+    Scene scene;
+    scene.meshes.push_back({"square", {rectangle({-5e-4f, -5e-4f, 0}, {1e-3f, 0, 0}, {0, 1e-3f, 0})}});
+    scene.nodes.push_back({"square", -1, glm::dmat4(1.0), 0});
+    scene.materials.push_back({});
+    Light lamp;
+    lamp.position = {0, 0, 1};
+    lamp.intensity = 1;
+    Light spot = lamp;
+    spot.kind = LightKind::spot;
+    spot.intensity = 4;
+    spot.direction = {std::sin(0.4), 0, -std::cos(0.4)};
+    spot.inner_cone = 0.2f;
+    spot.outer_cone = 0.6f;
+    // x: squared distance by the lamp's squared range.
+    const double cutoff = 0.25, x = std::numbers::pi * cutoff;
+    const double t = (std::cos(0.4) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+    for (const bool squared : {false, true})
+        for (const bool smooth : {false, true}) {
+            const double cone = 4 * (smooth ? t * t * (3 - 2 * t) : t * t), power = squared ? 2 : 1;
+            const double kept = std::pow(1 - x * x, power) + cone * std::pow(1 - x * x / 16, power);
+            // The square's half diagonal changes the cosine by 3e-4, and its cone by 0.2 %.
+            EXPECT_NEAR(energyCut(scene, poseAt(scene, 0), std::vector{lamp, spot}, cutoff,
+                                  {.squared_window = squared, .smooth_cones = smooth}),
+                        1 - kept / (1 + cone), 1e-4)
+                << squared << smooth;
+        }
 }
 
 }  // namespace

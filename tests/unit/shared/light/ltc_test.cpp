@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stored table of linearly transformed cosines against the BRDF lobe that it approximates.
+// The stored table of linearly transformed cosines, compared with the BRDF lobe it approximates.
 #include "shared/light/ltc.h"
 #include "shared/contract/constants.h"
 #include "shared/light/fit/fit.h"
@@ -16,11 +16,11 @@ namespace diptych::ltc {
 namespace {
 
 constexpr std::size_t last = gpu::LTC_CELLS - 1;
-// The smoothest, common and roughest roughnesses, from normal incidence to grazing.
+// Smallest, common and largest roughness, from normal incidence to grazing.
 constexpr std::array<std::pair<std::size_t, std::size_t>, 8> some{
     {{0, 0}, {0, 40}, {13, 5}, {13, 31}, {30, 10}, {30, 50}, {last, 20}, {last, last}}};
 
-// Both lobes of a cell: what is fitted, its integral, and the fit.
+// Both lobes of a cell: the fitted lobe, its integral, and the fit.
 struct Fitted {
     Lobe lobe;
     double all;
@@ -36,7 +36,7 @@ std::array<Fitted, 2> bothLobes(std::size_t i, std::size_t j) {
              {lobeOf(i, j, f0), cell.reflected(f0, 1), cell.layer}}};
 }
 
-// Integrates over the hemisphere by other directions than the fit: rings of the polar angle.
+// Integrates over the hemisphere with other directions than the fit: rings of the polar angle.
 template <class F>
 double hemisphere(const F& f) {
     constexpr int rings = 800, sectors = 800;
@@ -66,9 +66,9 @@ TEST(Ltc, EveryCellIsInItsRange) {
     }
 }
 
-// The stored error is that of the stored fit, and the stored magnitude and Fresnel terms are those of the
-// lobe, computed by another quadrature, for lobes wide enough for rings: directions are drawn by the lobe
-// without F, so that a layer's error is known to half a percent.
+// The stored error is that of the stored fit. Stored magnitude and Fresnel terms are the lobe's, by
+// another quadrature for lobes wide enough for rings. Directions are sampled by the lobe without F, so a
+// layer's error is known to half a percent.
 TEST(Ltc, StoredFiguresAreTheLobes) {
     for (const auto& [i, j] : some)
         for (const Fitted& f : bothLobes(i, j)) {
@@ -85,7 +85,7 @@ TEST(Ltc, StoredFiguresAreTheLobes) {
         }
 }
 
-// Directional albedo at normal incidence with F = 1, as in the shader's BRDF.
+// Directional albedo at normal incidence with F = 1, for the shader's BRDF.
 TEST(Ltc, MagnitudeIsTheKnownDirectionalAlbedo) {
     EXPECT_NEAR(double{ltcTable().at(1.0, 1.0).magnitude}, 0.3069, 1e-4);
     EXPECT_NEAR(double{ltcTable().at(0.5, 1.0).magnitude}, 0.9158, 2e-4);
@@ -104,11 +104,11 @@ TEST(Ltc, ATransformedCosineIsADensity) {
         }
 }
 
-// A tilted cosine is negative near the horizon behind the lobe: little of all.
+// A tilted cosine is negative near the horizon behind the lobe, but only slightly.
 TEST(Ltc, WhatTheTiltMakesNegativeIsLittle) {
     for (const auto& [i, j] : some)
         for (const Fitted& f : bothLobes(i, j)) {
-            Transform plain;  // what M does to a direction changes no part of the whole
+            Transform plain;  // M does not change the integral
             plain.tilt = double{f.fit.tilt};
             EXPECT_GT(hemisphere([&](const glm::dvec3& l) { return std::min(plain.density(l), 0.0); }),
                       -0.035)
@@ -116,8 +116,8 @@ TEST(Ltc, WhatTheTiltMakesNegativeIsLittle) {
         }
 }
 
-// Fitting a cell again from distant starting values improves it by no more than a hundredth: the stored one
-// is a minimum, for the current lobe.
+// Fitting a cell again from distant starting values improves it by at most 1 %: the stored fit is a
+// minimum for the current lobe.
 TEST(Ltc, AFitComesToTheStoredCell) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{13, 31}, {30, 10}, {last, 20}}) {
         const LtcCell& stored = ltcTable().cell(i, j);
@@ -135,7 +135,7 @@ TEST(Ltc, AFitComesToTheStoredCell) {
     }
 }
 
-// Changing any of the four numbers by a twentieth, the tilt by a fiftieth, increases the error.
+// Changing one of the first three numbers by 5 %, or the tilt by 0.02, increases the error.
 TEST(Ltc, AChangedCellIsWorse) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 40}, {13, 31}, {30, 10}})
         for (const Fitted& f : bothLobes(i, j)) {
@@ -151,8 +151,8 @@ TEST(Ltc, AChangedCellIsWorse) {
         }
 }
 
-// Between both lobes by what F0 has of what is reflected: a metal's is the even one, what has an F0 below a
-// layer's is the layer's, and a mix grows from one to the other.
+// Interpolates by F0's share of the reflected light. A metal has the even lobe, an F0 below a layer's has
+// the layer's lobe, and mixes are monotonic in between.
 TEST(Ltc, AMixLiesBetweenBothLobes) {
     const LtcCell cell = ltcTable().at(0.5, 0.3);
     EXPECT_EQ(cell.lobe(1, 1).in_plane, cell.even.in_plane);

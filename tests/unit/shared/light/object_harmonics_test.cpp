@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The spherical harmonics of assignment per_object against numeric integration; also that every light is in
-// one of the three groups, and that no light jumps from one to another.
+// Spherical harmonics of assignment per_object, compared with numeric integration. Also: every light is in
+// one of the three groups, and none jumps from one to another.
 #include "tests/support/object_lights_builder.h"
 
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -29,7 +30,7 @@ std::array<double, 9> harmonics(const glm::dvec3& n) {
             c / 2 * (n.x * n.x - n.y * n.y)};
 }
 
-// Calls f with directions distributed over the sphere and the solid angle of each.
+// Calls `call` with directions distributed over the sphere and the solid angle of each.
 void overSphere(int rings, const std::function<void(const glm::dvec3&, double)>& call) {
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < rings; ++j)
@@ -63,15 +64,15 @@ TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
             EXPECT_NEAR(glm::length(evaluatedRgb(sum, n) - glm::dvec3(1, 2, 3) * assembled(cosine, n)), 0,
                         2e-4);
-            // Three bands of the cosine: off by up to 3/32, straight behind by 1/16 (Ramamoorthi and Hanrahan
-            // 2001).
+            // Three bands of the cosine are off by up to 3/32, directly behind by 1/16 (Ramamoorthi and
+            // Hanrahan 2001).
             EXPECT_NEAR(evaluated(sum, n) / 2, std::max(glm::dot(n, to_light), 0.0), 3.0 / 32 + 1e-6);
         }
     }
 }
 
-// Inside the sphere light comes from many sides: at the centre from all, which gives the mean of the clamped
-// cosine over the sphere, a quarter.
+// Inside the bounding sphere light comes from many sides, at the centre from all. This gives the clamped
+// cosine's mean over the sphere, 1/4.
 TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
     const double radius2 = 0.75;
     for (const double distance : {0.0, 1e-9}) {
@@ -81,7 +82,7 @@ TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
         for (int i = 0; i < 20; ++i)
             EXPECT_NEAR(evaluated(sum, direction(std::cos(i), i)), 2 * 0.5 / radius2 / 4, 1e-5);
     }
-    // From outside it is a light with the irradiance at the centre.
+    // From outside it acts as a light with the irradiance at the centre.
     const GpuLights far = fromEye({point({0, 0, 10}, 2)});
     gpu::ObjectIrradiance sum{}, same{};
     addHarmonics(sum, far, 0, unitBox, 1);
@@ -91,9 +92,10 @@ TEST(PerObject, ALightInTheCentreShinesOnAllSidesAlike) {
                     1e-8);
 }
 
-// A light that comes from more than one side is the lobe of Henyey and Greenstein (1941, "Diffuse radiation
-// in the Galaxy") with the mean cosine `directed`, whose bands are its powers: its radiance integrated over
-// the sphere, then over each normal's hemisphere by the cosine's bands, which are integrated too.
+// A light from more than one side is a Henyey-Greenstein lobe (1941, "Diffuse radiation in the Galaxy").
+// Its mean cosine is `directed`, and its bands are the powers of that. The test integrates the lobe's
+// radiance over the sphere, then over each normal's hemisphere by the cosine's bands, also integrated
+// numerically.
 TEST(PerObject, ADirectedLightIsALobeOfThatMeanCosine) {
     const std::array<std::function<double(double)>, 3> legendre{
         [](double) { return 1.0; }, [](double c) { return c; }, [](double c) { return (3 * c * c - 1) / 2; }};
@@ -125,7 +127,7 @@ TEST(PerObject, ADirectedLightIsALobeOfThatMeanCosine) {
 
 // ---- all groups together -----------------------------------------------------------------------------
 
-// Lights of all kinds around a small box; no light is far brighter than the next in rank, so that some have
+// Lights of all types around a small box. No light is far brighter than the next in rank, so some have
 // shares in two groups.
 std::vector<Light> mixedLights(unsigned seed, std::size_t count, double closest) {
     std::mt19937 random(seed);
@@ -167,8 +169,8 @@ std::vector<Light> mixedLights(unsigned seed, std::size_t count, double closest)
     return lights;
 }
 
-// The unit direction to a light and its irradiance at the origin, W/m^2 by colour, by the shaders' formulas:
-// none beyond the range; for an area light its radiance times the solid angle of a small patch.
+// Unit direction to a light and its irradiance at the origin, W/m^2 per colour, by the shaders' formulas.
+// It is zero beyond the range. An area light's is its radiance times the solid angle of a small patch.
 struct Arriving {
     glm::dvec3 to_light, irradiance;
 };
@@ -178,13 +180,14 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     const double squared = glm::dot(glm::dvec3(light.position), glm::dvec3(light.position));
     const glm::dvec3 l = glm::dvec3(light.position) / std::sqrt(squared);
     const double x = squared * double{light.inverse_range_squared};
-    double scale = std::max(0.0, 1 - x * x) / squared;
+    const double window = std::max(0.0, 1 - x * x);
+    double scale = (all.falloff.squared_window ? window * window : window) / squared;
     const std::size_t spots = all.directional + all.point, areas = spots + all.spot;
     if (i >= spots && i < areas) {
         const gpu::SpotCone& cone = all.spot_cones[i - spots];
         const double c = std::clamp(
             double{cone.offset} - glm::dot(l, glm::dvec3(cone.direction)) * double{cone.scale}, 0.0, 1.0);
-        scale *= c * c;
+        scale *= all.falloff.smooth_cones ? c * c * (3 - 2 * c) : c * c;
     }
     if (i >= areas) {
         const gpu::AreaLight& area = all.area_lights[i - areas];
@@ -194,7 +197,7 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     return {l, glm::dvec3(light.intensity) * scale};
 }
 
-// Every light belongs to the groups with shares that add up to one.
+// Every light's shares of the groups add up to one.
 TEST(PerObject, TheGroupsShareEachLight) {
     std::size_t broken = 0, dark = 0;
     for (unsigned round = 0; round < 60; ++round) {
@@ -229,14 +232,14 @@ TEST(PerObject, TheGroupsShareEachLight) {
     EXPECT_GT(dark, 100u);
 }
 
-// The harmonics of an object's lists are the projection of the irradiance of the remaining lights, weighted
-// by their shares; together with the other groups' lights they give the irradiance of all lights, within the
-// error of three bands.
+// An object's harmonics are the projection of the remaining lights' irradiance, weighted by their shares.
+// With the other groups' lights they give the irradiance of all lights, within the error of three bands.
 TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     const ObjectPlace box{{0, 0, 0},
-                          {0.2, 0.1, 0.3}};  // smaller than any distance here, so that no light is softened
-    for (const std::uint32_t pixels : {0u, 3u}) {
-        const GpuLights all = fromEye(mixedLights(17, 30, 4));
+                          {0.2, 0.1, 0.3}};  // smaller than all distances here, so no light is softened
+    for (const auto& [pixels, falloff] :
+         {std::pair(0u, LightFalloff{}), {3u, LightFalloff{}}, {0u, LightFalloff{true, true}}}) {
+        const GpuLights all = fromEye(mixedLights(17, 30, 4), falloff);
         const std::vector<LightShares> shares = lightShares(all, box, pixels);
         const ObjectLightLists lists = objectLightLists(all, std::span(&box, 1), pixels);
         const gpu::ObjectIrradiance& found = lists.objects[0].irradiance;
@@ -260,7 +263,7 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
         ASSERT_GT(all_of_rest, 0.1);
         for (int i = 0; i < 60; ++i) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
-            // 3e-4: 250 x 250 directions, and float32.
+            // 3e-4 for 250 x 250 directions and float32.
             EXPECT_NEAR(glm::length(evaluatedRgb(found, n) - assembled(expected, n)), 0, 3e-4 * all_of_rest)
                 << i;
             const double listed = sumOf(n, [](const LightShares& s) { return s.pixel + s.vertex; }).g;
@@ -271,9 +274,9 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     }
 }
 
-// ---- nothing pops ------------------------------------------------------------------------------------
+// ---- no popping --------------------------------------------------------------------------------------
 
-// The irradiance of each group at the box's centre for several normals, with the lights' shares.
+// Irradiance of each group at the box's centre for several normals, with the lights' shares.
 std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectPlace& box) {
     const GpuLights all = gpuLights(lights, box.centre);
     const ObjectPlace here{{0, 0, 0}, box.half};
@@ -293,7 +296,7 @@ std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectP
     return result;
 }
 
-// The largest change of any group over steps of `step` metres, of the walk from -8 to 8 m.
+// The largest change of any group between steps of `step` metres, from -8 to 8 m.
 double largestStep(const std::function<std::vector<glm::dvec3>(double)>& at, double step) {
     double largest = 0;
     std::vector<glm::dvec3> before;
@@ -307,8 +310,8 @@ double largestStep(const std::function<std::vector<glm::dvec3>(double)>& at, dou
     return largest;
 }
 
-// As a light passes others and leaves its range, or the object moves, a quarter of the step changes each
-// group by about a quarter, whereas a jump does not become smaller. 0.35 allows for curvature.
+// A light passes others and leaves its range, or the object moves. A quarter of the step changes each
+// group by about a quarter, whereas a jump does not shrink. 0.35 allows for curvature.
 TEST(PerObject, EachGroupIsContinuous) {
     std::vector<Light> lights;
     for (int i = 0; i < 14; ++i)

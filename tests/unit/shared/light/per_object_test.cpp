@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assignment per_object: ranking, fading and importance, against their definitions.
+// Assignment per_object: ranking, fading and importance, compared with their definitions.
 #include "tests/support/object_lights_builder.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 namespace diptych {
@@ -24,14 +25,40 @@ TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
     EXPECT_TRUE(std::isfinite(brightnessAt(fromEye({point({0, 0, 0}, 8)}), 0, unitBox))) << "inside the box";
 }
 
-// A long box is lit if the light is close to any part of it, not only to its centre.
+// A long box is lit if the light is close to any part of it, not only to the centre.
 TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
     const ObjectPlace plank{{0, 0, 0}, {10, 0.1, 0.1}};
     const GpuLights lights = fromEye({point({10, 1, 0}, 1, 2)});
     EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
 }
 
-// No light that reaches any point of a box by the shaders' formula is left out.
+// The light is 2 m away and has a range of 2.5 m. The spot's axis misses the object by 0.4 rad, so that the
+// object is between its cones.
+TEST(PerObject, BrightnessAndHarmonicsHaveTheFalloff) {
+    const ObjectPlace dot{{0, 0, 0}, glm::dvec3(1e-6)};
+    Light lamp = point({0, 0, 2}, 3, 2.5f), spot = lamp;
+    spot.kind = LightKind::spot;
+    spot.direction = {std::sin(0.4), 0, -std::cos(0.4)};
+    spot.inner_cone = 0.2f;
+    spot.outer_cone = 0.6f;
+    const double w = 1 - std::pow(2 / 2.5, 4),
+                 t = (std::cos(0.4) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+    for (const LightFalloff& falloff : falloffs)
+        for (const Light& light : {lamp, spot}) {
+            const GpuLights lights = fromEye({light}, falloff);
+            double irradiance = 3.0 / 4 * (falloff.squared_window ? w * w : w);
+            if (light.kind == LightKind::spot)
+                irradiance *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
+            gpu::ObjectIrradiance sum{};
+            addHarmonics(sum, lights, 0, dot, 1);
+            // Float32 in the spot's cone; brightness widens the box and the cone by 1e-5.
+            EXPECT_NEAR(evaluated(sum, {0, 0, 1}), irradiance * (1.0 / 4 + 1.0 / 2 + 5.0 / 16), 1e-5);
+            EXPECT_NEAR(brightnessAt(lights, 0, dot), irradiance, 1e-3 * irradiance);
+        }
+}
+
+// No light that reaches any point of a box, by the shaders' formula, is omitted, and nowhere in the box are
+// its window and cone larger than in its brightness.
 TEST(PerObject, NoLightThatReachesIsDark) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -46,19 +73,28 @@ TEST(PerObject, NoLightThatReachesIsDark) {
             light.outer_cone = static_cast<float>(0.01 + 1.5 * std::abs(unit(random)));
             light.inner_cone = light.outer_cone / 2;
         }
-        const GpuLights lights = fromEye({light});
-        const bool found = brightnessAt(lights, 0, box) > 0;
+        const LightFalloff& falloff = falloffs[round / 2 % std::size(falloffs)];
+        const GpuLights lights = fromEye({light}, falloff);
+        const double brightness = brightnessAt(lights, 0, box),
+                     endless = brightnessAt(fromEye({point(light.position, 1)}), 0, box);
+        const bool found = brightness > 0;
         bool reached = false;
-        for (int i = 0; i < 50 && !reached; ++i) {
+        for (int i = 0; i < 50; ++i) {
             const glm::vec3 place(box.centre +
                                   box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
             const glm::vec3 to_light = lights.lights[0].position - place;
             const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
-            reached = x < 1;
+            bool here = x < 1;
+            double share = here ? std::pow(1 - double{x} * double{x}, falloff.squared_window ? 2 : 1) : 0;
             if (light.kind == LightKind::spot) {
                 const gpu::SpotCone& cone = lights.spot_cones[0];
-                reached &= cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale > 0;
+                const float c = cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale;
+                here &= c > 0;
+                const double t = std::clamp(double{c}, 0.0, 1.0);
+                share *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
             }
+            reached |= here;
+            EXPECT_GE(brightness, endless * share) << round;
         }
         EXPECT_TRUE(found || !reached) << round;
         (found ? lit : dark) += 1;
@@ -91,8 +127,8 @@ std::vector<Light> row(std::size_t count) {
 }
 
 TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
-    // Each light is four times fainter than the one before, and further away: only the first light of the
-    // next group has shares in two groups.
+    // Each light is four times fainter than the previous one and further away, so the groups have whole
+    // lights.
     const std::vector<LightShares> shares = lightShares(fromEye(row(12)), unitBox, 3);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
@@ -148,9 +184,9 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
     }
 }
 
-// One of six lights moves past the others, into its range and out of it, in steps of a hundredth of a metre:
-// no share jumps. At most 0.05: a step changes the nearest light's brightness by up to 3 %, and the steepest
-// slope of the fade is 1.5 over ln 4.
+// One of the lights moves past the others, into its range and out of it, in steps of 1 cm: no share jumps.
+// At most 0.05: a step changes the closest light's brightness by up to 3 %, and the fade's steepest slope
+// is 1.5 over ln 4.
 TEST(PerObject, NothingPopsAsALightMoves) {
     std::vector<LightShares> before;
     std::vector<double> dark;
@@ -166,7 +202,8 @@ TEST(PerObject, NothingPopsAsALightMoves) {
         const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
         for (std::size_t i = 0; i < before.size(); ++i) {
             const double brightness = brightnessAt(all, i, unitBox);
-            // Very faint lights may change their group: at the end of its range a light contributes nothing.
+            // Very faint lights may change their group: at the end of its range a light contributes
+            // nothing.
             if (brightness < 1e-3) continue;
             for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics}) {
                 largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
@@ -194,7 +231,7 @@ TEST(PerObject, ImportanceOverridesTheRanking) {
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
 }
 
-// Lights are sorted by kind and dark ones are left out: each must keep its own importance.
+// Lights are sorted by type and dark ones are omitted: each must keep its own importance.
 TEST(PerObject, ImportanceStaysWithItsLight) {
     Light black = point({0, 0, 3}, 0), spot = point({0, 2, 3}, 1000), panel = point({0, 0, 20}, 0.01f),
           lamp = point({0, 0, 3}, 1000);
@@ -227,8 +264,8 @@ TEST(PerObject, ImportanceStaysWithItsLight) {
     EXPECT_EQ(perPixel, (std::vector<gpu::uint>{0, 1, 2, 4}));
 }
 
-// With any importances and any number of lights per pixel: important lights are fully per pixel wherever
-// they reach, unimportant ones never, and the others are as if there were no important ones.
+// For any importances and any number of lights per pixel: important lights are fully per pixel wherever
+// they reach, unimportant ones never. The others behave as without important ones.
 TEST(PerObject, ImportanceHoldsForAnyLights) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -264,8 +301,8 @@ TEST(PerObject, ImportanceHoldsForAnyLights) {
     }
 }
 
-// A lamp's panel is ranked as any other light, never per vertex, and in harmonics it is as bright as a small
-// light of its intensity.
+// An area light is ranked like any other light, but never per vertex. In harmonics it is as bright as a
+// small light of its intensity.
 TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     Light panel = point({0, 0, 20}, 5);
     panel.kind = LightKind::rect;
@@ -301,14 +338,14 @@ TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
     lights[6].importance = Importance::not_important;
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[0].pixel, 0);
     EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[1].pixel, 1) << "then the next one is the base";
-    // One that casts is the base whatever it is marked as, and no other sun is one beside it.
+    // A shadow-casting sun is the base whatever its importance, and no other sun is a base beside it.
     GpuLights casting = fromEye(lights);
     casting.base = 0;
     EXPECT_EQ(lightShares(casting, unitBox, 0)[0].pixel, 1);
     EXPECT_EQ(lightShares(casting, unitBox, 0)[1].pixel, 0);
 }
 
-// Whatever other suns there are, it has no part per vertex or in harmonics.
+// The base has no share per vertex or in harmonics, even beside equally bright suns.
 TEST(PerObject, TheBaseIsWholeBesideSunsAsBright) {
     for (const float second : {1.0f, 0.999f, 0.5f})
         for (const std::uint32_t pixels : {0u, 1u, 3u}) {
@@ -324,7 +361,7 @@ TEST(PerObject, TheBaseIsWholeBesideSunsAsBright) {
         }
 }
 
-// Of lights alike as many are in a group as it has room for, the first of the scene.
+// Among equal lights a group takes as many as it has capacity for, the scene's first ones.
 TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
     std::vector<Light> suns(64, sun(2)), lamps(64, point({0, 3, 4}, 5));
     for (const std::vector<Light>& lights : {suns, lamps})
@@ -336,7 +373,7 @@ TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
                 EXPECT_EQ(shares[i].harmonics, i >= pixels + 4 ? 1 : 0) << i;
             }
         }
-    // A spot before points that are as bright: kinds are sorted, ranks are not.
+    // A spot light before equally bright point lights: types are sorted, ranks are not.
     std::vector<Light> mixed(3, point({0, 0, 3}, 4));
     mixed.insert(mixed.begin(), mixed[0]);
     mixed[0].kind = LightKind::spot;
@@ -353,7 +390,7 @@ TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
     EXPECT_EQ(shares[2].pixel, 0);
 }
 
-// A lamp that becomes brighter than lights alike takes the place of the last of them bit by bit.
+// A light that becomes brighter than several equal ones replaces the last of them gradually.
 TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
     std::vector<LightShares> before;
     double largest = 0, least = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which attachments a scene's materials need, and no others: each costs bandwidth at every pixel.
+// A G-buffer has exactly the attachments that a scene's materials need: each costs bandwidth at every
+// pixel.
 #include "shared/material/gbuffer_layout.h"
 
 #include "shared/vulkan/resources.h"
@@ -26,7 +27,7 @@ TEST(GBufferLayout, HoldsWhatTheMaterialsNeed) {
     for (const auto& [encoding, least, emission, more] :
          {std::tuple{GBufferEncoding::compact, 12u, 4u, 4u},
           {GBufferEncoding::standard, 16u, 4u, 4u},
-          {GBufferEncoding::full, 64u, 0u, 16u}}) {  // full keeps the material's number beside the emission
+          {GBufferEncoding::full, 64u, 0u, 16u}}) {  // full stores the material's index with the emission
         const Requirements none = noneNeeded();
         EXPECT_EQ(bytesOf(encoding, none), least);
         Requirements needs = none;
@@ -45,7 +46,7 @@ TEST(GBufferLayout, HoldsWhatTheMaterialsNeed) {
     }
 }
 
-// Beyond what 9.9.9.e5 holds radiance is stored as float32, and numbers beyond their bits get a word.
+// Radiance beyond 9.9.9.e5 is stored as float32, and indices beyond their bits get a word.
 TEST(GBufferLayout, WidensWhatDoesNotFit) {
     Requirements needs = noneNeeded();
     needs.emission = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the slots of a material find their texels.
+// Where a material's slots get their texels.
 #include "shared/material/texel_plan.h"
 
 #include "shared/scene/model/material_slots.h"
@@ -13,14 +13,14 @@
 namespace diptych {
 namespace {
 
-// Of 4 x 2 texels, each component with two values.
+// 4 x 2 texels; each component has two values.
 TextureImage twoValues(int width = 4, int height = 2) {
     TextureImage result{"image", width, height, {}};
     for (int i = 0; i < 4 * width * height; ++i) result.rgba.push_back(i % 8 < 4 ? 10 : 200);
     return result;
 }
 
-// Four textures of four such images, and a fifth of the first with another sampler.
+// Four textures of four such images, and a fifth with the first image and another sampler.
 Scene fourImages() {
     Scene scene;
     scene.images.assign(4, twoValues());
@@ -29,7 +29,7 @@ Scene fourImages() {
     return scene;
 }
 
-// As Materials asks, of images that nothing was uploaded of.
+// The plan that Materials requests, for images that were not uploaded.
 SlotTexels plannedTexels(const Material& material, const Scene& scene, bool packed = false) {
     const auto imageOf = [&](int texture) -> const Texture& {
         return scene.textures[static_cast<std::size_t>(texture)];
@@ -59,7 +59,7 @@ TEST(TexelPlan, AnImageHasOneColorWhereASlotReadsIt) {
         for (std::size_t c = 0; c < 4; ++c) {
             TextureImage one{"one", 2, 2, std::vector<std::uint8_t>(16, 77)};
             EXPECT_TRUE(hasOneColor(one, slot));
-            one.rgba[12 + c] = 78;  // of the last texel
+            one.rgba[12 + c] = 78;  // the last texel
             EXPECT_EQ(hasOneColor(one, slot), components.find("rgba"[c]) == std::string::npos)
                 << slot << ", component " << c;
         }
@@ -85,8 +85,8 @@ TEST(TexelPlan, OneColorIsAFactor) {
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
 }
 
-// Occlusion with roughness and metallic, what is emitted with the base colour, but not where anything about
-// how they are read differs.
+// Occlusion shares a sample with roughness and metallic, emission with the base colour, unless anything
+// about their lookup differs.
 TEST(TexelPlan, SlotsThatReadAlikeShareASample) {
     const Scene scene = fourImages();
     Material m;
@@ -113,12 +113,12 @@ TEST(TexelPlan, SlotsThatReadAlikeShareASample) {
         change(other.emissive_texture);
         EXPECT_EQ(plannedTexel(gpu::SLOT_emissive, other, scene), gpu::TEXEL_OWN) << what;
     }
-    Scene half = scene;  // roughness and metallic are factors, occlusion is not
+    Scene half = scene;  // roughness and metallic become constant, occlusion does not
     for (std::size_t i = 0; i < half.images[0].rgba.size(); ++i)
         if (i % 4 == 1 || i % 4 == 2) half.images[0].rgba[i] = 5;
     EXPECT_EQ(plannedTexel(gpu::SLOT_occlusion, m, half), gpu::TEXEL_OWN);
     EXPECT_EQ(plannedTexel(gpu::SLOT_metallic_roughness, m, half), gpu::TEXEL_CONSTANT);
-    Material rough = m;  // occlusion alone reads
+    Material rough = m;  // only occlusion reads the texture
     rough.metallic_roughness_texture.texture = -1;
     EXPECT_EQ(plannedTexel(gpu::SLOT_occlusion, rough, scene), gpu::TEXEL_OWN);
 }

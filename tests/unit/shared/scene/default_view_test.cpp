@@ -23,7 +23,7 @@ using Place = DefaultView::Place;
 
 const glm::dvec3 standardSide = glm::normalize(glm::dvec3(1, 0.6, 1));
 
-// A box, a primitive a side, seen from outside or, where `inwards`, from inside.
+// A box with one primitive per side, facing outwards or, if `inwards`, inwards.
 void addBox(Scene& scene, const glm::vec3& low, const glm::vec3& high, bool inwards, int without = -1) {
     if (scene.materials.empty()) scene.materials.resize(1);
     Mesh mesh;
@@ -53,7 +53,7 @@ void addBox(Scene& scene, const glm::vec3& low, const glm::vec3& high, bool inwa
     scene.nodes.push_back(node);
 }
 
-// Walls of 0.2 m around a room of 8 x 3 x 6 m, in which four crates stand.
+// Walls of 0.2 m around a room of 8 x 3 x 6 m with four crates.
 Scene closedRoom(bool crates = true) {
     Scene scene;
     addBox(scene, {0, 0, 0}, {8, 3, 6}, true);
@@ -99,7 +99,7 @@ TEST(VisibleSurface, IsTheNearestThatIsDrawn) {
     EXPECT_FALSE(back->front);
     EXPECT_NEAR(glm::length(back->normal - glm::dvec3(-1, 0, 0)), 0, 1e-6);
 
-    // Mirrored, the front faces are those that were.
+    // A mirrored box keeps its front faces.
     scene.materials[0].double_sided = false;
     scene.nodes[0].parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
     const Pose mirrored = poseAt(scene, 0);
@@ -109,7 +109,7 @@ TEST(VisibleSurface, IsTheNearestThatIsDrawn) {
     EXPECT_NEAR(near->distance, 1, 1e-6) << "not the far side, whose back is towards us";
 }
 
-// A skin or a morph target may make one; the rest of the surface is there.
+// Skinning or morphing may produce a NaN vertex; the rest of the surface stays.
 TEST(VisibleSurface, VerticesThatAreNoNumbersAreLeftOut) {
     Scene scene;
     addBox(scene, {-1, -1, -1}, {1, 1, 1}, false);
@@ -121,8 +121,8 @@ TEST(VisibleSurface, VerticesThatAreNoNumbersAreLeftOut) {
     EXPECT_FALSE(box.nearest(nowhere, {1, 0, 0}));
 }
 
-// A wall of 128 x 128 squares, of which an eighth is kept: as much of it is met, though by fewer and larger
-// triangles, and the same every time.
+// A wall of 128 x 128 squares; an eighth of the triangles is kept. Rays hit about as much of the wall, by
+// fewer and larger triangles, reproducibly.
 TEST(VisibleSurface, ASampleCoversWhatTheWholeDoes) {
     Scene scene;
     scene.materials.resize(1);
@@ -152,7 +152,8 @@ TEST(VisibleSurface, ASampleCoversWhatTheWholeDoes) {
     };
     EXPECT_NEAR(share(side * side), 0.5, 0.01);
     const double sampled = share(side * side / 8);
-    // Triangles of eight times the area at random places overlap: 1 - e^-0.5 of the wall instead of a half.
+    // Triangles with eight times the area at random positions overlap: 1 - e^-0.5 of the wall instead of a
+    // half.
     EXPECT_NEAR(sampled, 1 - std::exp(-0.5), 0.03);
     EXPECT_EQ(share(side * side / 8), sampled);
 }
@@ -168,7 +169,7 @@ TEST(DefaultView, OfAnObjectIsTheUsual) {
     EXPECT_NE(wordsOf(view).find("from outside; "), std::string::npos) << wordsOf(view);
 }
 
-// A room of 8 x 3 x 6 m is no smaller than many an object: the surface around decides.
+// A room of 8 x 3 x 6 m is no smaller than many objects: the surrounding surface decides.
 TEST(DefaultView, OfASolidBlockAsLargeAsARoomIsTheUsual) {
     Scene block;
     addBox(block, {0, 0, 0}, {8, 3, 6}, false);
@@ -186,7 +187,7 @@ TEST(DefaultView, OfAClosedRoomIsFromInside) {
     EXPECT_EQ(wordsOf(view), "from inside; the scene covers 100 % of the image");
 }
 
-// As tall as a doll's house, or as a crawl space: nobody stands in it.
+// Low like a doll's house or a crawl space: nobody can stand in it.
 TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
     for (const auto& [scale, place] :
          {std::pair{0.1, Place::standard}, {0.65, Place::standard}, {0.7, Place::inside}}) {
@@ -196,7 +197,7 @@ TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
     }
 }
 
-// What faces other ways is another part of the picture, whether it is another primitive or not.
+// Surfaces facing other ways are other parts of the image, in one primitive or several.
 TEST(DefaultView, SidesOfOnePrimitiveArePartsOfThePicture) {
     Scene scene;
     addBox(scene, {-1, -1, -1}, {1, 1, 1}, false);
@@ -221,7 +222,7 @@ TEST(DefaultView, OfAnOpenFloorIsFromOutside) {
     EXPECT_EQ(chooseDefaultView(floor).place, Place::standard) << "half of what is around is sky";
 }
 
-// A stage whose back is towards the usual view, with much to see on the other side.
+// A stage with its back to the default view, and much to see on the other side.
 TEST(DefaultView, ChangesSidesWhereThatShowsTwiceAsMuch) {
     Scene stage;
     addBox(stage, {0, 0, 0}, {20, 10, 0.2f}, false);
@@ -251,7 +252,7 @@ TEST(DefaultView, IsTheSameEveryTimeAndForEverySize) {
     EXPECT_EQ(views.at(wide).default_view, a.inWords());
 }
 
-// The sun of a scene without lights stands behind that viewer, also where another camera is asked for.
+// The default sun is behind the default view's viewer, even if another camera is requested.
 TEST(DefaultView, HasTheSunBehindIt) {
     const Scene scene = closedRoom();
     const glm::dvec3 expected = defaultSun(chooseDefaultView(scene).backward).direction;
@@ -263,7 +264,7 @@ TEST(DefaultView, HasTheSunBehindIt) {
     }
 }
 
-// The first camera's, where it is at 0 s, whichever is asked for and whenever.
+// Behind the first camera at 0 s, whatever camera and time are requested.
 TEST(DefaultView, HasTheSunBehindTheScenesFirstCamera) {
     Scene scene = closedRoom();
     scene.cameras.resize(2);
@@ -309,7 +310,7 @@ TEST(DefaultView, OfHostileScenesIsFinite) {
     }
 }
 
-// The built-in scenes above prove it; this is a real one.
+// A real scene, in addition to the built-in ones above.
 TEST(DefaultView, OfSponzaIsFromInside) {
     const std::filesystem::path file =
         std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/scenes/sponza/Sponza.gltf";

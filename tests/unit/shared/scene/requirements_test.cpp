@@ -12,7 +12,7 @@ using namespace diptych;
 
 namespace {
 
-// One triangle of material 0; no triangle uses material 1.
+// One triangle with material 0; no triangle uses material 1.
 Scene plainScene() {
     Scene scene;
     scene.materials.resize(2);
@@ -35,7 +35,7 @@ const Requirements::Line& line(const std::vector<Requirements::Line>& lines, con
     throw std::out_of_range(what);
 }
 
-// Of several suns one casts in maps; the others are named.
+// One of several suns has a shadow map; the others are named.
 TEST(Requirements, SunsWithoutAShadowAreNamed) {
     std::vector<Light> lights(4);
     for (const std::size_t i : {0u, 1u, 3u}) lights[i].kind = LightKind::directional;
@@ -125,8 +125,8 @@ TEST(Requirements, OcclusionOfStrengthZeroIsNone) {
     EXPECT_FALSE(of(scene).occlusion);
 }
 
-// An unlit surface emits its base colour and has neither F0 nor F90: even a black one needs the channel for
-// the latter. What it ignores requires nothing.
+// An unlit surface emits its base colour and has neither F0 nor F90: even a black one needs the channel
+// for F90. Ignored properties require nothing.
 TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
     Scene scene = plainScene();
     Material& m = scene.materials[0];
@@ -181,13 +181,13 @@ TEST(Requirements, LightsAreCountedByKind) {
     EXPECT_EQ(r.lights(), 4u);
 }
 
-// No path draws discs of suns yet: they are listed as left out, and no other line changes.
+// No path draws sun discs yet: they are listed as unsupported, and no other line changes.
 TEST(Requirements, AreaLightsAndEnvironmentsAreModelledDiscsOfSunsLeftOut) {
     Scene scene = plainScene();
     const auto before = of(scene).lines();
     EXPECT_FALSE(line(before, "area lights").modelled);
     for (const char* what : {"area lights", "sun discs", "environment"})
-        EXPECT_EQ(line(before, what).why.find("no path"), std::string::npos) << what;
+        EXPECT_EQ(line(before, what).why.find("only the reference"), std::string::npos) << what;
     for (const LightKind kind : {LightKind::tube, LightKind::rect, LightKind::tube, LightKind::disc}) {
         scene.lights.emplace_back().kind = kind;
     }
@@ -222,7 +222,7 @@ TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     EXPECT_TRUE(leftOutLight(Path::reference, needs).empty()) << "it draws all";
 }
 
-// Counted once for each mesh, whatever its number of primitives; a target of weight 0 has no effect.
+// Counted once per mesh, whatever its number of primitives. A target with weight 0 has no effect.
 TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     Scene scene = plainScene();
     const auto before = of(scene).lines();
@@ -247,7 +247,7 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     scene.weights = {{0.5f}};
     scene.nodes[1].weights = 0;
     scene.nodes[1].skin = -1;
-    // A third moves nothing of the scene.
+    // One of three animations moves nothing in the scene.
     scene.animations.resize(3);
     for (const std::size_t moving : {0u, 2u}) {
         scene.animations[moving].keyframes = {{Interpolation::step, {0}, {0.5f}, 1}};

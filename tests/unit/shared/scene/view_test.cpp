@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The unit square in the plane z = 0, facing +Z, around `centre`.
+// The unit square around `centre`, parallel to z = 0, facing +Z.
 Scene squareAt(const glm::dvec3& centre, bool doubleSided = false, double mirror = 1) {
     Scene scene;
     scene.materials.resize(1);
@@ -43,7 +43,7 @@ std::string viewFault(const std::string& choice, const Scene& scene = squareAt({
     return faultOf([&] { viewOf(scene, choice); });
 }
 
-// As the shaders use gpu::View: from a pixel and its depth to a position, in float.
+// The shaders' use of gpu::View: from a pixel and its depth to a position, in float.
 glm::vec3 reconstruct(const gpu::View& v, const glm::vec2& pixel, float z) {
     const float d =
         (v.depth_numerator.x + v.depth_numerator.y * z) / (v.depth_denominator.x + v.depth_denominator.y * z);
@@ -66,8 +66,8 @@ Camera tiltedCamera(bool orthographic, double near, double far) {
 
 }  // namespace
 
-// By hand: fov 90 gives tan(fov / 2) = 1; 200 x 100 an aspect of 2; n = 1, f = 3: n/(f-n) = 0.5, nf/(f-n)
-// = 1.5.
+// By hand: fov 90 gives tan(fov / 2) = 1; 200 x 100 has an aspect of 2; n = 1, f = 3: n/(f-n) = 0.5,
+// nf/(f-n) = 1.5.
 TEST(View, PerspectiveMatrixByHand) {
     View view{Camera{}, 200, 100};
     view.camera.yfov = std::acos(0.0);
@@ -105,7 +105,7 @@ TEST(View, InfiniteMatrixByHand) {
     EXPECT_EQ(view.gpuView().depth_denominator, gpu::vec2(0, 1));
 }
 
-// By hand: half the height 2, half the width 4; n = 1, f = 5: z = (f - d) / 4.
+// By hand: half the height is 2, half the width 4; n = 1, f = 5: z = (f - d) / 4.
 TEST(View, OrthographicMatrixByHand) {
     View view{Camera{}, 200, 100};
     view.camera.orthographic = true;
@@ -123,7 +123,7 @@ TEST(View, OrthographicMatrixByHand) {
     EXPECT_EQ(gpu.depth_numerator, gpu::vec2(5, -4));
 }
 
-// From world to clip space, pixel and float depth and back, over the whole picture and all depths.
+// From world to clip space, pixel and float depth and back, over the whole image and all depths.
 TEST(View, PixelAndDepthGiveThePositionBack) {
     struct Case {
         bool orthographic;
@@ -144,14 +144,14 @@ TEST(View, PixelAndDepthGiveThePositionBack) {
                             worldFromClip * glm::dvec4(2 * x / width - 1, 2 * y / height - 1, z, 1);
                         const glm::dvec3 position = glm::dvec3(world) / world.w;
                         const glm::vec3 back = reconstruct(gpu, {x, y}, static_cast<float>(z));
-                        // A dozen roundings of 6e-8 of the largest summand: half the picture's width times
+                        // A dozen roundings of 6e-8 of the largest summand: half the image's width times
                         // the depth (4097 x 3 spans 1366 times its height).
                         const double span =
                             std::max(1.0, 1.0 * width / height) *
                             std::max({glm::length(position), 1.0, c.orthographic ? c.far : 0.0});
                         EXPECT_NEAR(glm::length(glm::dvec3(back) - position), 0, 12 * 6e-8 * span)
                             << width << "x" << height << " at " << x << " " << y << " " << z;
-                        // The depth along the axis is d.
+                        // The depth along the axis is the near or far distance.
                         const double depth = -glm::dot(position, view.backward());
                         if (z == 1) {
                             EXPECT_NEAR(depth, c.near, 1e-9 * std::max(span, 1.0));
@@ -250,9 +250,9 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
     EXPECT_EQ(viewFault("third", scene).find("did you mean"), std::string::npos);
 }
 
-// By hand: in front of a camera whose frame is F:1, the frame's corners at depth d are (+-F h, +-h), h being
-// ymag or d tan(yfov / 2). All are in a picture of any shape, at its left and right edges or at its top and
-// bottom; a picture that is not narrower keeps the camera's height to the bit.
+// By hand: for a camera frame of F:1, the frame's corners at depth d are (+-F h, +-h), where h is ymag or
+// d tan(yfov / 2). They are inside an image of any shape, at its left and right or top and bottom edges.
+// An image that is not narrower keeps the camera's height exactly.
 TEST(MakeView, AllThatACameraFramesIsInThePicture) {
     constexpr double yfov = 0.7, ymag = 1.5;
     for (const bool orthographic : {false, true})
@@ -281,12 +281,12 @@ TEST(MakeView, AllThatACameraFramesIsInThePicture) {
                     EXPECT_NEAR(std::max(x, y), 1, 1e-12) << what;
                     EXPECT_GT(std::min(x, y), 0) << what;
                 }
-                // What is made of the view is not widened again.
+                // A camera made from the view is not widened again.
                 Scene again = scene;
                 again.cameras = {view.camera};
                 EXPECT_EQ(viewOf(again, "", width, height).clipFromWorld(), view.clipFromWorld()) << what;
             }
-    // A ratio that a file holds in float32 is the picture's.
+    // A float32 aspect ratio in the file counts as the image's ratio.
     Scene rounded = squareAt({0, 0, 0});
     rounded.cameras.emplace_back().aspect = double{16.0f / 9.0f};
     EXPECT_EQ(viewOf(rounded, "", 640, 360).wider_frame, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cascades that serve the shown view depths alone.
+// Cascades that only cover the visible view depths.
 #include "shared/shadow/cascades.h"
 
 #include <gtest/gtest.h>

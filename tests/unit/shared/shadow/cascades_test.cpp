@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the cascades of the sun's shadow map lie.
+// Positions of the sun's shadow cascades.
 #include "shared/shadow/cascades.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ Bounds boxOf(const glm::dvec3& min, const glm::dvec3& max) {
 
 const glm::dvec3 toLight = glm::normalize(glm::dvec3(0.3, 1, 0.2));
 
-// A point of the view: x and y from -1 to 1 over the picture.
+// A point of the view; x and y are -1 to 1 over the image.
 glm::dvec3 pointAt(const View& view, double x, double y, double depth) {
     const double aspect = static_cast<double>(view.width) / view.height;
     const double side = view.camera.orthographic ? view.camera.ymag : depth * std::tan(view.camera.yfov / 2);
@@ -50,7 +50,8 @@ TEST(Cascades, SplitsAreInOrderAndEndAtTheDistance) {
         EXPECT_EQ(ends.back(), 100);
         for (std::size_t i = 1; i < ends.size(); ++i) EXPECT_LT(ends[i - 1], ends[i]);
     }
-    // Three quarters of equal ratios (0.2 (500)^(1/2) = 4.472) and one of equal differences (50.1).
+    // Three quarters of equal ratios (0.2 (500)^(1/2) = 4.472) and one quarter of equal differences
+    // (50.1).
     EXPECT_NEAR(splitDepths(0.2, 100, 2).front(), 0.75 * 4.47214 + 0.25 * 50.1, 1e-4);
 }
 
@@ -63,8 +64,8 @@ TEST(Cascades, LightSpaceIsRightHandedWhereverTheSunStands) {
     }
 }
 
-// Each covers all that it serves, with what the filter reads around it, perspective or orthographic, in
-// scenes of a millimetre and of a hundred kilometres.
+// Each covers all its receivers and the filter around them: perspective or orthographic, in scenes of a
+// millimetre and of a hundred kilometres.
 TEST(Cascades, CoverWhatTheyServeAndTheFilterAroundIt) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -83,7 +84,7 @@ TEST(Cascades, CoverWhatTheyServeAndTheFilterAroundIt) {
                     for (int k = 0; k < 50; ++k) {
                         const double depth = area.begin + (area.end - area.begin) * (any(random) + 1) / 2;
                         const glm::dvec3 p = pointAt(view, any(random), any(random), depth);
-                        // Of a cascade that covers the whole scene, the points of the scene.
+                        // If a cascade covers the whole scene, only points of the scene.
                         if (glm::any(glm::lessThan(p, bounds.min)) ||
                             glm::any(glm::greaterThan(p, bounds.max)))
                             continue;
@@ -100,7 +101,7 @@ TEST(Cascades, CoverWhatTheyServeAndTheFilterAroundIt) {
             }
 }
 
-// Neighbours overlap where they blend, and the last ends at the distance that was asked for.
+// Neighbours overlap where they blend, and the last ends at the requested distance.
 TEST(Cascades, FollowEachOther) {
     const CascadeRequest request{.distance = 50};
     const Cascades cascades =
@@ -114,7 +115,7 @@ TEST(Cascades, FollowEachOther) {
     }
 }
 
-// A texel covers the same part of the world wherever the camera stands and looks.
+// A texel covers the same part of the world for any camera position and direction.
 TEST(Cascades, StayOnTheirTexelsWhileTheCameraMoves) {
     const Bounds bounds = boxOf({-300, 0, -300}, {300, 9, 300});
     const CascadeRequest request{.distance = 60};
@@ -132,7 +133,7 @@ TEST(Cascades, StayOnTheirTexelsWhileTheCameraMoves) {
     }
 }
 
-// Where the scene is smaller than the view no texel is spent beside it, and the map does not move at all.
+// If the scene is smaller than the view, no texel is wasted around it, and the map does not move.
 TEST(Cascades, OfASmallSceneCoverIt) {
     const Bounds bounds = boxOf({-1, -1, -1}, {1, 1, 1});
     const Cascades one = fitCascades(viewFrom({0, 2, 9}, {0, 0, 0}), bounds, toLight, {.count = 1});
@@ -141,7 +142,7 @@ TEST(Cascades, OfASmallSceneCoverIt) {
     EXPECT_LT(one.areas[0].texel * 2048, 2 * std::sqrt(3.0) * 1.02);
 }
 
-// What the shaders are given is what the matrices that draw the maps say.
+// The shaders' constants agree with the matrices that draw the maps.
 TEST(Cascades, ShadersAndMapsAgree) {
     const View view = viewFrom({3, 2, 9}, {0, 0, 0});
     const CascadeRequest request{.size = 1024};

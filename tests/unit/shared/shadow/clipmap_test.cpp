@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the levels of the sun's clipmap lie, and which of their pages have a slot.
+// Positions of the sun's clipmap levels, and the pages with a slot.
 #include "shared/shadow/clipmap_cache.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ Clipmap mapAt(const glm::dvec3& eye) {
     return fitClipmap(viewAt(eye), fieldOf(), sunwards, smallMap);
 }
 
-// The level and the page as the shaders choose them.
+// Level and page, chosen as in the shaders.
 Clipmap::Place placeFor(const Clipmap& map, const glm::dvec3& point) {
     std::size_t level = 0;
     while (level + 1 < map.levels.size() && glm::distance(point, map.centre) > map.levels[level].area.end)
@@ -63,14 +63,14 @@ Marks marksOf(const Clipmap& map, const std::vector<Clipmap::Place>& places) {
     return marks;
 }
 
-// What a picture of the field's ground and walls asks for, seen from the map's centre.
+// Pages requested by an image of the field's ground and walls, seen from the map's centre.
 Marks marksAround(const Clipmap& map, int points = 3000) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(0, 1);
     const Bounds field = fieldOf();
     std::vector<Clipmap::Place> places;
     for (int i = 0; i < points; ++i) {
-        // As many near as far.
+        // Logarithmic distances, from 1/4 to 16 m.
         const glm::dvec3 away = glm::normalize(glm::dvec3(any(random), any(random), any(random)) - 0.5) *
                                 std::exp2(6 * any(random) - 2);
         places.push_back(placeFor(map, glm::clamp(map.centre + away, field.min, field.max)));
@@ -88,10 +88,10 @@ void draw(ClipmapCache& cache, const ServedPages& served) {
     for (const PageDraw& page : cache.stale(served.resident)) cache.drawn(page);
 }
 
-// ---- where levels lie --------------------------------------------------------------------------------
+// ---- positions of levels -----------------------------------------------------------------------------
 
-// Every point of the scene lies in the window of its level, whatever the scale, the camera and its lens, and
-// what filters and biases read around it in the page's slot.
+// Every point of the scene is in its level's window, at any scale, camera and lens. The page's slot
+// contains all texels that filters and biases read around it.
 TEST(Clipmap, WindowsHoldWhatTheirLevelsServe) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -122,7 +122,8 @@ TEST(Clipmap, WindowsHoldWhatTheirLevelsServe) {
                 }
 }
 
-// Levels have texels twice as wide as the one before and reach twice as far; the last is the whole scene.
+// Each level has texels twice as wide as the previous one and reaches twice as far; the last covers the
+// whole scene.
 TEST(Clipmap, LevelsDouble) {
     const Clipmap map = mapAt({3, 1, -4});
     for (std::size_t i = 1; i + 1 < map.levels.size(); ++i) {
@@ -134,7 +135,7 @@ TEST(Clipmap, LevelsDouble) {
     EXPECT_TRUE(std::isinf(map.levels.back().area.end));
 }
 
-// The same part of the world has the same page wherever the camera is, and the same depths.
+// The same part of the world has the same page and depths for any camera position.
 TEST(Clipmap, PagesAndDepthsStayWhereTheyAreWhileTheCameraMoves) {
     const Clipmap here = mapAt({3, 1, -4}), there = mapAt({-17.3, 5, 2});
     EXPECT_EQ(here.grid, there.grid);
@@ -153,13 +154,13 @@ TEST(Clipmap, PagesAndDepthsStayWhereTheyAreWhileTheCameraMoves) {
             ++compared;
         }
     EXPECT_GE(compared, 5u);
-    // What casts may move a little without a change of the depths.
+    // Casters may move a little without changing the depths.
     Bounds moved = fieldOf();
     moved.max.y += 0.01;
     EXPECT_EQ(fitClipmap(viewAt({3, 1, -4}), moved, sunwards, smallMap).grid, here.grid);
 }
 
-// The page of the next level that a page names as its parent covers it, below 0 too.
+// A page's parent in the next level covers it, also at negative coordinates.
 TEST(Clipmap, ParentsCoverTheirPages) {
     for (const glm::dvec3& eye : {glm::dvec3(3, 1, -4), glm::dvec3(-39, -1, -29), glm::dvec3(39, 9, 29)}) {
         const Clipmap map = mapAt(eye);
@@ -183,7 +184,7 @@ TEST(Clipmap, ParentsCoverTheirPages) {
     }
 }
 
-// A surface is moved by the bias and aside, then the filter reads around it: never beyond the page's slot.
+// The bias moves a surface, also sideways, and the filter reads around it: never beyond the page's slot.
 TEST(Clipmap, TheGutterHoldsWhatFiltersRead) {
     for (const int kernel : {1, 3, 5, 7})
         for (const double bias : {0.0, 0.5, 4.0}) {
@@ -197,10 +198,10 @@ TEST(Clipmap, TheGutterHoldsWhatFiltersRead) {
         }
 }
 
-// ---- which pages have slots --------------------------------------------------------------------------
+// ---- pages with slots --------------------------------------------------------------------------------
 
-// Every marked page is served, by itself where there is room, and by a page that covers it where there is
-// not; no page has another's slot.
+// Every marked page is resident if there is capacity; otherwise a page that covers it is. No two pages
+// share a slot.
 void expectServed(const Clipmap& map, const Marks& marks, const ServedPages& served, std::uint32_t slots) {
     ASSERT_EQ(served.table.size(), map.pages());
     EXPECT_EQ(served.requested, countOf(marks));
@@ -231,7 +232,7 @@ TEST(ClipmapCache, EveryPageIsServedWhateverThePoolHolds) {
         ClipmapCache cache(slots);
         const ServedPages served = cache.serve(map, marks);
         expectServed(map, marks, served, slots);
-        // The whole scene's page is there beside those that were asked for.
+        // The whole scene's page is resident in addition to the requested ones.
         EXPECT_EQ(served.fallback == 0, slots > all) << slots;
         if (slots == 1) {
             EXPECT_EQ(served.fallback, all);
@@ -239,8 +240,8 @@ TEST(ClipmapCache, EveryPageIsServedWhateverThePoolHolds) {
     }
 }
 
-// Coarser levels give way last: of a pool that is nearly large enough the farthest pages of the finest level
-// alone go to the next one.
+// Coarser levels fall back last. If the pool is almost large enough, only the farthest pages of the finest
+// level use the next one.
 TEST(ClipmapCache, TheFinestLevelGivesWayFirst) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
@@ -258,8 +259,8 @@ TEST(ClipmapCache, TheFinestLevelGivesWayFirst) {
         }
 }
 
-// A level's step back leaves a quarter of its pages: half a pool costs hardly more than one, and a few pages
-// are still finer than the whole scene's.
+// One step back leaves a quarter of a level's pages. So half a pool costs little more than one step, and a
+// small pool still has finer pages than the whole scene's.
 TEST(ClipmapCache, ASmallPoolFallsBackStepByStep) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map, 20000);
@@ -281,7 +282,7 @@ TEST(ClipmapCache, ASmallPoolFallsBackStepByStep) {
     EXPECT_EQ(farthestBack(1).second, all);
 }
 
-// A still camera draws nothing more; another place of the same pages neither.
+// A static camera redraws nothing, nor does another viewpoint with the same pages.
 TEST(ClipmapCache, WhatStaysIsDrawnOnce) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
@@ -293,14 +294,14 @@ TEST(ClipmapCache, WhatStaysIsDrawnOnce) {
     }
 }
 
-// Which pages serve follows from the marks alone: after any history the same pages as in a new cache, and
-// those that are not drawn anew hold what they were drawn as.
+// The marks alone determine the resident pages: after any history they are the same as in a new cache.
+// Pages that are not redrawn have the right contents.
 TEST(ClipmapCache, HistoryChangesNoPage) {
     const auto walk = [] {
         std::vector<glm::dvec3> eyes;
         for (int i = 0; i < 100; ++i) eyes.push_back({3 + 0.05 * i, 1, -4 - 0.02 * i});
-        eyes.push_back({-35, 8, 25});  // a teleport, to where coordinates are negative
-        // A jump of exactly one window's width, of each of some levels, and back.
+        eyes.push_back({-35, 8, 25});  // a teleport to negative coordinates
+        // Jumps by exactly one window's width of some levels, and back.
         const Clipmap map = mapAt(eyes.back());
         for (const std::size_t level : {std::size_t{3}, std::size_t{5}})
             for (const double to : {1.0, -1.0})
@@ -310,7 +311,7 @@ TEST(ClipmapCache, HistoryChangesNoPage) {
     }();
     for (const std::uint32_t slots : {40u, 200u, 4096u}) {
         ClipmapCache cache(slots);
-        std::map<std::uint32_t, PageAddress> atlas;  // what each slot holds
+        std::map<std::uint32_t, PageAddress> atlas;  // page in each slot
         std::size_t redrawn = 0, served_pages = 0;
         for (std::size_t step = 0; step < walk.size(); ++step) {
             const Clipmap map = mapAt(walk[step]);
@@ -336,8 +337,8 @@ TEST(ClipmapCache, HistoryChangesNoPage) {
     }
 }
 
-// Of a caster that moves, pages that show it are drawn anew, also where a filter alone reads it, and no
-// other; the whole scene's always.
+// If a caster moves, exactly the pages that show it are redrawn, including those where only a filter reads
+// it. The whole scene's page is always redrawn.
 TEST(ClipmapCache, WhatHasMovedIsDrawnAnew) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
@@ -362,7 +363,7 @@ TEST(ClipmapCache, WhatHasMovedIsDrawnAnew) {
     EXPECT_GT(fresh, stale.size());
 }
 
-// Another sun, another depth range: no page is kept.
+// With another sun or another depth range, no page is kept.
 TEST(ClipmapCache, PagesOfAnotherGridAreForgotten) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
@@ -378,7 +379,7 @@ TEST(ClipmapCache, PagesOfAnotherGridAreForgotten) {
     }
 }
 
-// A page that was given a slot and never drawn, as its view was not, is drawn by the next.
+// A page that got a slot but was not drawn, because its view was not drawn, is drawn the next time.
 TEST(ClipmapCache, WhatWasNotDrawnIsNotTakenForDrawn) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
@@ -388,8 +389,7 @@ TEST(ClipmapCache, WhatWasNotDrawnIsNotTakenForDrawn) {
     EXPECT_EQ(cache.stale(served.resident).size(), served.resident.size());
 }
 
-// Of the ground around somebody who stands on it, a step of 5 cm leaves more than nine pages of ten as they
-// are.
+// With the camera standing on the ground, a step of 5 cm keeps more than nine of ten pages.
 TEST(ClipmapCache, ASmallStepRedrawsFewPages) {
     const auto marksOfGround = [](const Clipmap& map) {
         std::vector<Clipmap::Place> places;

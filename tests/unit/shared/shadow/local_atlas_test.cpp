@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the shadow maps of points and spots lie in their atlas.
+// Shadow map tiles of point and spot lights in their atlas.
 #include "shared/shadow/local_atlas.h"
 #include "shared/shadow/scene_bounds.h"
 
@@ -47,7 +47,7 @@ Bounds roomBounds() {
     return bounds;
 }
 
-// All that is seen is the room itself.
+// The visible geometry is the room itself.
 LocalAtlas atlasOf(const std::vector<Light>& lights, const View& view, const AtlasRequest& request = {},
                    const Bounds& bounds = roomBounds()) {
     std::array<glm::dvec3, 8> box = cornersOf(bounds);
@@ -55,7 +55,7 @@ LocalAtlas atlasOf(const std::vector<Light>& lights, const View& view, const Atl
     return layOutAtlas(lights, bounds, std::span(&box, 1), std::span(&box, 1), view, request);
 }
 
-// The number of texels that no tile or more than one has.
+// Number of texels that belong to no tile, or to several.
 std::size_t texelsNotOwnedOnce(const LocalAtlas& atlas) {
     std::vector<int> owners(static_cast<std::size_t>(atlas.side) * static_cast<std::size_t>(atlas.side));
     std::size_t wrong = 0;
@@ -69,7 +69,7 @@ std::size_t texelsNotOwnedOnce(const LocalAtlas& atlas) {
     return wrong;
 }
 
-// Tiles of any number of lights, sizes and places share no texel and leave none outside.
+// Tiles of any number of lights, sizes and positions share no texel and are all inside the atlas.
 TEST(LocalAtlas, TilesShareNoTexel) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -87,20 +87,20 @@ TEST(LocalAtlas, TilesShareNoTexel) {
             ASSERT_FALSE(atlas.tiles.empty());
             EXPECT_EQ(texelsNotOwnedOnce(atlas), 0u) << count << " " << size;
             for (const AtlasTile& tile : atlas.tiles) EXPECT_GE(tile.size, leastTile);
-            // The negative control.
+            // Negative control.
             atlas.tiles.back().corner.x += atlas.tiles.size() > 1 ? -1 : 1;
             EXPECT_GT(texelsNotOwnedOnce(atlas), 0u) << count << " " << size;
         }
 }
 
-// A light whose reach covers less of the picture has smaller tiles.
+// A light that covers less of the image gets smaller tiles.
 TEST(LocalAtlas, TilesFollowTheLightsPartOfThePicture) {
     const View view = lookingFrom({0, 1.5, 30}, {0, 1.5, 0});
     const LocalAtlas atlas = atlasOf({spotAt({0, 2, 0}, {0, -1, 0}, 40), pointAt({2, 1, 0}, 1.0f)}, view);
     ASSERT_FALSE(atlas.tiles.empty());
     const AtlasTile &large = atlas.tiles[static_cast<std::size_t>(atlas.lights[0].tiles[4])],
                     &small = atlas.tiles[static_cast<std::size_t>(atlas.lights[1].tiles[2])];
-    // Its reach of 5.5 m at 30 m is a third of the picture's height of 34.6 m, 1 m a seventeenth.
+    // Its range of 5.5 m at 30 m is a third of the image's height of 34.6 m; 1 m is a seventeenth.
     EXPECT_EQ(large.size, 256);
     EXPECT_EQ(small.size, 32);
     const LocalAtlas near = atlasOf({pointAt({0, 1.5, 29}, 4.0f)}, view);
@@ -108,7 +108,7 @@ TEST(LocalAtlas, TilesFollowTheLightsPartOfThePicture) {
     EXPECT_EQ(atlasOf({spotAt({0, 2, 0}, {0, -1, 0}, 40)}, view).side, 256) << "no more than is needed";
 }
 
-// Faces that nothing seen lies in, or that lie beside the view, have no tile, and the rest is counted.
+// Faces without visible geometry, or beside the view, have no tile; they are counted as unseen.
 TEST(LocalAtlas, WhatReachesNothingThatIsSeenHasNoTile) {
     const View view = lookingFrom({0, 1.5, 12}, {0, 1.5, 0});
     const LocalAtlas above = atlasOf({pointAt({0, 3.5, 0})}, view);
@@ -126,7 +126,7 @@ TEST(LocalAtlas, WhatReachesNothingThatIsSeenHasNoTile) {
     EXPECT_EQ(wide.tiles.size(), 5u);
 }
 
-// A small thing on the floor casts downwards alone; without anything that casts there is no tile.
+// A small object on the floor only casts downwards; without casters there is no tile.
 TEST(LocalAtlas, WhatNothingCastsIntoHasNoTile) {
     const View view = lookingFrom({0, 1.5, 12}, {0, 1.5, 0});
     const std::vector<Light> lights{pointAt({0, 1.5, 0})};
@@ -147,8 +147,8 @@ TEST(LocalAtlas, WhatNothingCastsIntoHasNoTile) {
     EXPECT_EQ(none.lights.size(), 1u) << "what is turned from it sees nothing of it all the same";
 }
 
-// What the shaders are given is what the matrices that draw the tiles say, and every filter of what a face
-// serves stays in its tile.
+// The shaders' constants agree with the matrices that draw the tiles, and the filter of every receiver
+// stays in its face's tile.
 TEST(LocalAtlas, ShadersAndTilesAgree) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -167,7 +167,7 @@ TEST(LocalAtlas, ShadersAndTilesAgree) {
         const auto axes = faceAxes(light, tile.face);
         EXPECT_EQ(own[2].w, 0.25f);
         for (int i = 0; i < 200; ++i) {
-            // In the light's own axes as the contract says which they are on a face.
+            // In the light's axes for a face, as defined in the contract.
             const double a = light.tangent * any(random), b = light.tangent * any(random),
                          depth = light.far * (0.01 + 0.98 * std::abs(any(random)));
             const glm::dvec3 place = light.position + depth * (a * axes[0] + b * axes[1] + axes[2]);
@@ -184,7 +184,8 @@ TEST(LocalAtlas, ShadersAndTilesAgree) {
     }
 }
 
-// Depth is 1 at the nearest caster, 0 where the light ends: at its range, or at the scene's farthest corner.
+// Depth is 1 at the nearest caster, 0 at the end of the light: at its range, or at the scene's farthest
+// corner.
 TEST(LocalAtlas, DepthEndsWhereTheLightDoes) {
     const View view = lookingFrom({1, 2, 4}, {0, 1, 0});
     const LocalAtlas atlas = atlasOf({pointAt({0, 1, 0}, 2.0f), pointAt({0, 1, 0})}, view);

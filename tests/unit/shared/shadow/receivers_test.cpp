@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What casts nowhere into the part of a map that is read may be left out of it, and nothing else.
+// Only casters whose shadows cannot reach the visible receivers of a map may be skipped.
 #include "shared/shadow/receivers.h"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ struct Case {
         box.max = {20, 10, 20};
         return box;
     }
-    // x and y from -1 to 1 over the picture; world axes from the eye.
+    // x and y are -1 to 1 over the image; world axes from the eye.
     glm::dvec3 at(double x, double y, double depth) const {
         const double side =
             view.camera.orthographic ? view.camera.ymag : depth * std::tan(view.camera.yfov / 2);
@@ -65,11 +65,11 @@ ClipBox pointBox(const glm::dvec3& at) {
     return {at, at};
 }
 
-// Everything that is drawn, in one box that is larger than the view.
+// Everything that is drawn, in one box larger than the view.
 const std::vector<VisibleBox> everything{{{0, 0, 0}, {glm::dvec3(90, 0, 0), {0, 90, 0}, {0, 0, 90}}}};
 
-// Whatever place of a cascade's part of the view is seen, up to its very edges: what casts on it from above
-// matters, and what lies as far beside it as a filter reads.
+// Takes any visible point in a cascade's part of the view, up to its edges. Casters between it and the
+// light matter, and so do casters beside these within the filter.
 TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -78,7 +78,7 @@ TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
         for (const CascadeArea& area : test.cascades.areas) {
             const ReceiverMask ofAll = test.mask(area, everything);
             for (int i = 0; i < 4000; ++i) {
-                // Half of them on the sides of the picture, a third where the cascade ends.
+                // Half of them on the sides of the image, a third at the end of the cascade.
                 const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
                 const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
                 const double share = i % 3 == 0 ? 1 : std::abs(part(random));
@@ -86,7 +86,7 @@ TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
                 const double angle = 3.15 * part(random);
                 glm::dvec3 caster = test.clip(area, seen);
                 if (std::abs(caster.x) > 0.95 || std::abs(caster.y) > 0.95) continue;
-                // The filter's reach from the middle, and as far as a surface is moved aside.
+                // The filter's radius from the centre, plus the surface's sideways bias.
                 const double beside = (2 + 2 * std::sqrt(2.0) + 0.5) * test.texel();
                 caster += glm::dvec3(std::cos(angle) * beside, std::sin(angle) * beside, 0);
                 caster.z = std::abs(part(random));
@@ -100,8 +100,8 @@ TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
     }
 }
 
-// Of one receiver: what is farther from the light than it by a thousandth of the range, and what is beside it
-// by a hundredth of the map beyond what is read, does not matter; with moments what is farther does.
+// A single receiver: casters behind it by a thousandth of the range do not matter. Neither do casters
+// beside it by a hundredth of the map beyond the filter. With moments, casters behind it matter.
 TEST(ReceiverMask, LeavesOutWhatIsBehindAndBeside) {
     const Case test;
     const CascadeArea& area = test.cascades.areas[1];
@@ -114,16 +114,16 @@ TEST(ReceiverMask, LeavesOutWhatIsBehindAndBeside) {
     for (const glm::dvec3& away : {glm::dvec3(far, 0, 0), {-far, 0, 0}, {0, far, 0}, {0, -far, 0}}) {
         EXPECT_FALSE(mask.reachedBy(pointBox(at + away)));
         EXPECT_FALSE(moments.reachedBy(pointBox(at + away)));
-        // A box that reaches from there over the receiver does.
+        // A box that extends from there over the receiver matters.
         EXPECT_TRUE(mask.reachedBy({glm::min(at, at + away), glm::max(at, at + away)}));
     }
-    // In another cascade's part of the view it is none.
+    // It is not a receiver in another cascade's part of the view.
     const CascadeArea& last = test.cascades.areas[2];
     EXPECT_FALSE(test.mask(last, {{seen, {}}}).reachedBy({{-1, -1, 0}, {1, 1, 1}}));
 }
 
-// Of what is drawn all over, what the view does not show is left out: a view of 60 degrees is seen from above
-// as a wedge of its bounding sphere.
+// Geometry outside the view is not a receiver: seen from the light, a view of 60 degrees is a wedge of its
+// bounding sphere.
 TEST(ReceiverMask, IsNoLargerThanTheView) {
     const Case test;
     for (const CascadeArea& area : test.cascades.areas) {
@@ -136,9 +136,9 @@ TEST(ReceiverMask, IsNoLargerThanTheView) {
     }
 }
 
-// The texels that a filter reads around any place of a cascade's part of the view, when everything is seen or
-// that place alone, lie in the part of the map that is drawn; of one place that is no wider than the filter
-// and the cells that it meets. The first cascade serves what is nearer than it, too.
+// The drawn part of the map contains all texels that a filter reads around a point of a cascade's part of
+// the view. Either everything or only that point is visible. For one point, the part is no wider than the
+// filter and the cells it meets. The first cascade also covers closer points.
 void expectDrawn(const Case& test) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(-1, 1);
@@ -156,12 +156,12 @@ void expectDrawn(const Case& test) {
             // Beyond the scene's bounds, which no map covers.
             if (std::min(texel.x, texel.y) < 0 || std::max(texel.x, texel.y) > size) continue;
             const ReceiverMask::Texels one = test.mask(area, {{seen, {}}}).read();
-            // Two cells where the place lies on their edge, and a texel rounded on either side.
+            // Two cells if the point is on their edge, and a texel of rounding on either side.
             const double widest = 2 * marginOf(test.request) + 2 * size / ReceiverMask::cells + 2;
             EXPECT_LE(one.width, widest) << area.begin << " " << i;
             EXPECT_LE(one.height, widest) << area.begin << " " << i;
             for (const double turn : {0.0, 0.7, 1.6, 2.3, 3.2, 3.9, 4.7, 5.5}) {
-                // The filter's half diagonal, a texel that it touches, and as far as a surface is moved.
+                // The filter's half diagonal, one more texel, and the surface's bias.
                 const double beside = test.request.kernel / std::sqrt(2.0) + 1 + 0.5;
                 const glm::dvec2 read = texel + beside * glm::dvec2(std::cos(turn), std::sin(turn));
                 const auto column = static_cast<int>(std::floor(read.x)),
@@ -180,15 +180,15 @@ void expectDrawn(const Case& test) {
 
 TEST(ReceiverMask, ReadsNothingBesideWhatIsDrawn) {
     for (const bool orthographic : {false, true})
-        for (const int kernel : {3, 16}) {  // that of pcss is at most a 32nd of the map
+        for (const int kernel : {3, 16}) {  // PCSS's filter is at most 1/32 of the map
             SCOPED_TRACE(kernel);
             expectDrawn(Case(orthographic, kernel));
         }
 }
 
-// An area is a sphere around a part of the view, of which a map shows a wedge: as much of the square as its
-// rectangle takes, whichever way it is turned; here 0.62, 0.62 and 0.46. Nothing of it would be left out at
-// 1, and a view that is as wide as this one fills more than a fifth.
+// A cascade's area is a sphere around a part of the view; its map shows a wedge. The wedge's rectangle
+// takes a fraction of the square in any rotation, here 0.62, 0.62 and 0.46. A value of 1 would mean that
+// nothing is skipped, and a view as wide as this one fills more than a fifth.
 TEST(ReceiverMask, DrawsAboutHalfOfAMap) {
     const Case test;
     for (const CascadeArea& area : test.cascades.areas) {

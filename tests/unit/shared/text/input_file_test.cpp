@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opening files that are none, and names that lead elsewhere.
+// Opening special files, and names that lead elsewhere.
 #include "shared/text/input_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
@@ -28,7 +28,7 @@ TEST(InputFile, ReadsARegularFileAndALinkToOne) {
     EXPECT_EQ(faultOf([&] { textIn(root / "none.txt", 3); }), "no such file");
 }
 
-// None of them waits: the test would hang.
+// None of them blocks; otherwise the test would hang.
 TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
     const fs::path root = folder();
     ASSERT_EQ(::mkfifo((root / "fifo").c_str(), 0600), 0);
@@ -44,7 +44,7 @@ TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
     EXPECT_EQ(faultOf([&] { textIn(root, 100); }), "is a folder");
     EXPECT_EQ(faultOf([&] { textBelow(root, "fifo", 100); }), "is not a regular file");
     ::close(listening);
-    // A file of 2^40 bytes that takes no room on disk.
+    // A sparse file of 2^40 bytes.
     { std::ofstream(root / "sparse"); }
     fs::resize_file(root / "sparse", std::uintmax_t(1) << 40);
     EXPECT_EQ(faultOf([&] { textIn(root / "sparse", 1000); }), "has 1099511627776 bytes; the limit is 1000");

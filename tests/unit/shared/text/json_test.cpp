@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reader of JSON: what it refuses before it parses, and the places that its errors name.
+// The JSON reader: input refused before parsing, and the positions in its errors.
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
 #include "tests/support/files.h"

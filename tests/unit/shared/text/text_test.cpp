@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Untrusted strings: their form in messages, and the shape of JSON before it is parsed.
+// Untrusted strings: their form in messages, and the limits on JSON before parsing.
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
@@ -33,7 +33,7 @@ TEST(OneLine, LongTextIsCutBetweenCharacters) {
     EXPECT_EQ(oneLine("\x80\x80\x80", 2), "...") << "no character begins here";
 }
 
-// What a terminal obeys or what reorders text, character by character, in UTF-8.
+// Characters that terminals obey or that reorder text, in UTF-8.
 std::vector<std::string> controls() {
     std::vector<std::string> all;
     for (int code = 0; code < 0x20; ++code) all.emplace_back(1, static_cast<char>(code));
@@ -59,7 +59,7 @@ TEST(Controls, StandInLinesAsJsonWritesThem) {
     EXPECT_EQ(shownText("\xff\xc3"), "??") << "no UTF-8";
     EXPECT_EQ(shownText("größer\U0001f600"), "größer\U0001f600");
     for (const std::string& control : controls()) {
-        // As it comes out of a report, in which the library escapes C0 alone.
+        // As in a report, where the library only escapes C0.
         const nlohmann::json value = {{"scene", "a" + control + "b"}};
         const std::string shown = shownText(value.dump(2));
         EXPECT_EQ(nlohmann::json::parse(shown), value) << shown;

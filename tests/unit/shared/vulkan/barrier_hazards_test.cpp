@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every way to use an image or a buffer after every other: the barriers that the tracker puts between them
-// are enough for the memory model (hazards.h), and each of them is needed.
+// Every use of an image or a buffer after every other: the tracker's barriers satisfy the memory model
+// (hazards.h), and each is necessary.
 #include "tests/support/hazards.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ const std::vector<Access> bufferAccesses{access::storageRead(inCompute),
                                          access::transferWrite,
                                          access::hostRead};
 
-// The uses of one resource each, pass by pass, and the tracker's barriers.
+// Uses of one resource, pass by pass, and the tracker's barriers.
 struct Tracked {
     std::vector<DeclaredUse> uses;
     std::vector<RecordedBarrier> barriers;
@@ -62,7 +62,8 @@ std::vector<std::string> hazardsIn(const Tracked& tracked) {
     return hazards.found();
 }
 
-// The fault of the last barrier without its source stages; and, where it has accesses, of all without theirs.
+// The last barrier without its source stages must fail; if it has accesses, so must all barriers without
+// theirs.
 void expectSourcesNeeded(Tracked tracked, const std::string& what) {
     if (tracked.barriers.empty() || tracked.barriers.back().from.stages == 0) return;
     Tracked accesses = tracked;
@@ -87,7 +88,7 @@ TEST(BarrierHazards, NoneBetweenAnyThreeUses) {
                 }
 }
 
-// Parts of an image, contents that are let go, a dozen uses.
+// Parts of an image, discarded contents, a dozen uses.
 TEST(BarrierHazards, NoneInLongerLives) {
     std::mt19937 random(5);
     const auto below = [&](std::size_t n) {

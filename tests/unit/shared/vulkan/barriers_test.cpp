@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From declared uses to barriers: the rules of synchronization2, each by itself. The validation layer sees
+// From declared uses to barriers: the rules of synchronization2, one by one. The validation layer finds
 // neither a missing source stage nor a barrier that waits for too much; these tests do.
 #include "shared/vulkan/barriers.h"
 #include "shared/vulkan/device.h"
@@ -41,7 +41,7 @@ TEST_F(Barriers, AReadSeesTheWriteOnceForEachStageAndAccess) {
     EXPECT_EQ(buffer(access::indirectRead).size(), 1u);
 }
 
-// The pass's own reads saw what was there before, not what it writes.
+// The pass's own reads see the previous contents, not its writes.
 TEST_F(Barriers, WhatAPassReadsAndWritesIsReadByTheNext) {
     tracker.before("scan", {{list, {}, computeRead}, {list, {}, computeWrite}});
     EXPECT_EQ(buffer(computeRead).size(), 1u);
@@ -64,7 +64,7 @@ TEST_F(Barriers, AWriteAfterAWriteWaits) {
     EXPECT_EQ(buffer(computeWrite), (std::vector<Barrier>{{list, {}, access::transferWrite, computeWrite}}));
 }
 
-// What earlier submits have left is read without a barrier; only a write makes later readers wait.
+// Data from earlier submits is read without a barrier; only a write makes later readers wait.
 TEST_F(Barriers, WhatWasThereBeforeIsReadAtOnce) {
     tracker.setWritten(list);
     EXPECT_TRUE(buffer(fragmentRead).empty());
@@ -83,12 +83,12 @@ TEST_F(Barriers, AnImageChangesItsLayout) {
                                        access::colorAttachment.layout}));
     EXPECT_EQ(sampled[0].to, colorSampled);
     EXPECT_TRUE(image(colorSampled).empty());
-    // Another stage waits for the change of layout, which ended before the fragment shader.
+    // Another stage waits for the layout transition, which ended before the fragment shader.
     const std::vector<Barrier> elsewhere = image(access::sampledColor(inCompute));
     ASSERT_EQ(elsewhere.size(), 1u);
     EXPECT_EQ(elsewhere[0].from.stages, inFragment);
     EXPECT_EQ(elsewhere[0].from.layout, elsewhere[0].to.layout);
-    // Cleared: the contents are let go, their readers are waited for.
+    // Cleared: the contents are discarded, but the barrier waits for their readers.
     const std::vector<Barrier> next = image(access::colorAttachment, true);
     ASSERT_EQ(next.size(), 1u);
     EXPECT_EQ(next[0].from.layout, VK_IMAGE_LAYOUT_UNDEFINED);
@@ -106,7 +106,7 @@ TEST_F(Barriers, OnePassMayTestAndSampleDepth) {
                       VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL}));
 }
 
-// Level by level, as a chain of mip maps is made: each reads the one above.
+// Level by level, as for a mip chain: each reads the one above.
 TEST_F(Barriers, LevelsAndLayersAreApart) {
     const Part all{0, 3, 0, 2}, top{0, 1, 0, 2}, middle{1, 1, 0, 2};
     EXPECT_EQ(tracker.before("draw", {{pyramid, top, access::colorAttachment, true}}).size(), 1u);
@@ -121,7 +121,7 @@ TEST_F(Barriers, LevelsAndLayersAreApart) {
     const std::vector<Barrier> whole = tracker.before("shade", {{pyramid, all, colorSampled}});
     ASSERT_EQ(whole.size(), 1u) << "only the last level is still an attachment, of both layers at once";
     EXPECT_EQ(whole[0].part, (Part{2, 1, 0, 2}));
-    // One layer drawn again: the other one is left alone.
+    // If one layer is redrawn, the other is unaffected.
     EXPECT_EQ(tracker.before("draw", {{pyramid, {0, 1, 1, 1}, access::colorAttachment, true}})[0].part,
               (Part{0, 1, 1, 1}));
     EXPECT_EQ(tracker.before("shade", {{pyramid, all, colorSampled}})[0].part, (Part{0, 1, 1, 1}));
@@ -165,7 +165,7 @@ TEST_F(Barriers, ContradictionsAreNamed) {
             << "a level or a layer may be made of its neighbour";
 }
 
-// What one use of a pass needs is kept, whatever its other uses of the same part discard.
+// Contents that one use of a pass needs are kept, even if its other uses of the same part discard them.
 TEST_F(Barriers, ContentsAreDiscardedOnlyWhereEveryUseDoes) {
     image(access::colorAttachment, true);
     image(colorSampled);
@@ -175,7 +175,7 @@ TEST_F(Barriers, ContentsAreDiscardedOnlyWhereEveryUseDoes) {
     EXPECT_EQ(kept[0].from.layout, colorSampled.layout);
 }
 
-// SHADER_READ stands for every way in which a shader reads.
+// SHADER_READ covers every way in which a shader reads.
 TEST_F(Barriers, AGeneralReadOfShadersCoversEachKind) {
     buffer(computeWrite);
     EXPECT_EQ(buffer({inFragment, VK_ACCESS_2_SHADER_READ_BIT}).size(), 1u);
@@ -190,7 +190,7 @@ TEST_F(Barriers, WhatWasUploadedIsInTheLayoutThatItWasLeftIn) {
     EXPECT_EQ(image(access::colorAttachment).at(0).from.layout, colorSampled.layout);
 }
 
-// An image in another's memory waits for who wrote it and who read it.
+// An image in another's memory waits for that image's writers and readers.
 TEST_F(Barriers, MemoryIsTakenOverFromItsWritersAndReaders) {
     const std::size_t second = tracker.add("second");
     buffer(computeWrite);

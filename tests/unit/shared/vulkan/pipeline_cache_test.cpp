@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is kept of compiled pipelines: only the same device, driver and program get it back, and only whole.
+// The pipeline cache's file: only the same device, driver and program read it back, and only if it is
+// complete.
 #include "shared/vulkan/pipeline_cache.h"
 #include "shared/vulkan/user_cache.h"
 #include "tests/support/files.h"
@@ -34,7 +35,7 @@ PipelineCacheKey someKey() {
     return key;
 }
 
-// An environment variable, as it was before when this dies.
+// Sets an environment variable and restores it on destruction.
 class Variable {
 public:
     Variable(const char* name, const char* value) : name_(name) {
@@ -86,7 +87,7 @@ TEST(PipelineCache, AnotherDriverDeviceOrProgramGetsNothing) {
         PipelineCacheKey other = someKey();
         others[i](other);
         EXPECT_TRUE(readPipelineCache(file, other).empty()) << i;
-        // Another program's file is written over, another driver's stays.
+        // Another program's file is overwritten, another driver's file stays.
         EXPECT_EQ(pipelineCacheFile(place, other) == pipelineCacheFile(place, someKey()), i == 1) << i;
     }
     EXPECT_FALSE(readPipelineCache(file, someKey()).empty());
@@ -113,7 +114,7 @@ TEST(PipelineCache, DamagedFilesAreIgnoredAndWrittenOver) {
     EXPECT_EQ(readPipelineCache(file, someKey()), someData(5));
 }
 
-// Whatever the umask, what is written can be read again, and nobody else may write to it.
+// With any umask, the written file can be read again, and nobody else can write to it.
 TEST(PipelineCache, AFileIsOfThisUserAlone) {
     const fs::path file = folder() / "made" / "pipelines";
     const mode_t before = ::umask(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared memory of the shipped kernels, and of a module made word by word.
+// Shared memory of the shipped compute shaders, and of a module made word by word.
 #include "shared/vulkan/shared_memory.h"
 #include "shared/vulkan/specialize.h"
 #include "shared/vulkan/spirv.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Specialised modules against SPIRV-Tools, which nobody here wrote: its validator takes them, and its
-// optimiser, which does the same more slowly, makes of them what it makes of the module with the same values.
+// Specialised modules, compared with SPIRV-Tools as an independent implementation. Its validator accepts
+// them, and its slower optimiser gives the same result for the module with the same values.
 #include "shared/vulkan/specialize.h"
 
 #include "shared/contract/debug_mode.h"
@@ -33,7 +33,7 @@ namespace diptych {
 namespace {
 
 using SpirvWords = std::vector<std::uint32_t>;
-using FeatureValues = std::vector<std::uint32_t>;  // by number
+using FeatureValues = std::vector<std::uint32_t>;  // by feature id
 
 constexpr spv_target_env spirvEnvironment = SPV_ENV_VULKAN_1_3;
 
@@ -43,7 +43,7 @@ SpirvWords specializedBy(std::span<const std::uint32_t> module, const FeatureVal
         module, [&](std::uint32_t id) { return values.at(id); }, outputs);
 }
 
-// What the validator says against it; nothing of a valid one.
+// The validator's messages; empty for a valid module.
 std::string complaint(const SpirvWords& words) {
     spvtools::SpirvTools tools(spirvEnvironment);
     std::string said;
@@ -55,13 +55,13 @@ std::string complaint(const SpirvWords& words) {
     return said;
 }
 
-// The module as SPIRV-Tools leaves it with these values.
+// The module after SPIRV-Tools' optimiser, with these values.
 SpirvWords optimised(std::span<const std::uint32_t> module, const FeatureValues& values) {
     spvtools::Optimizer optimizer(spirvEnvironment);
     std::unordered_map<std::uint32_t, SpirvWords> given;
     for (std::uint32_t id = 0; id < values.size(); ++id) given[id] = {values[id]};
     optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(given));
-    // Several rounds: one finds more dead after another has.
+    // Several rounds, because each finds more dead code after the previous one.
     const std::vector<std::string> begin{"--strip-debug", "--freeze-spec-const",
                                          "--fold-spec-const-op-composite"};
     const std::vector<std::string> round{
@@ -71,12 +71,12 @@ SpirvWords optimised(std::span<const std::uint32_t> module, const FeatureValues&
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(optimizer.RegisterPassesFromFlags(round));
     SpirvWords small;
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false);  // it knows no scalar layout of blocks
+    options.set_run_validator(false);  // it lacks scalar block layout
     EXPECT_TRUE(optimizer.Run(module.data(), module.size(), &small, options));
     return small;
 }
 
-// How many of each instruction a module's function has, but for those that say only where to go.
+// Number of each instruction in a module's functions, except control flow.
 std::map<std::string, int> computations(const SpirvWords& small) {
     std::map<std::string, int> instructions;
     bool inside = false;
@@ -84,8 +84,8 @@ std::map<std::string, int> computations(const SpirvWords& small) {
         const std::uint32_t op = small[at] & 0xffff;
         inside |= op == 54;                        // OpFunction
         const bool goes = op >= 245 && op <= 255;  // OpPhi to OpUnreachable
-        // The optimiser keeps every OpCopyLogical and what leads to it: OpLoad, OpAccessChain, OpBitcast of
-        // an address, and, or. OpCopyObject computes nothing.
+        // The optimiser keeps every OpCopyLogical and its operands: OpLoad, OpAccessChain, OpBitcast of an
+        // address, and, or. OpCopyObject computes nothing.
         const bool copies =
             op == 400 || op == 61 || op == 65 || op == 124 || op == 83 || op == 166 || op == 167;
         if (!inside || goes || copies) continue;
@@ -95,8 +95,8 @@ std::map<std::string, int> computations(const SpirvWords& small) {
     return instructions;
 }
 
-// What a module has between it and the world: its inputs, outputs and bindings, each by storage class and
-// location or set and binding, with how many there are of each.
+// A module's interface: number of inputs, outputs and bindings, by storage class and location, or set and
+// binding.
 std::map<std::string, int> interfaceOf(const SpirvWords& words) {
     std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> decorations;
     std::map<std::string, int> found;
@@ -115,7 +115,7 @@ std::map<std::string, int> interfaceOf(const SpirvWords& words) {
     return found;
 }
 
-// Values as a scene may ask for, most of them off, and others that no scene would.
+// Feature values that a scene may need, most of them off, and others that no scene needs.
 FeatureValues featureValues(std::uint32_t seed) {
     FeatureValues values(gpu::FEATURE_COUNT);
     if (seed == 0) return values;
@@ -138,7 +138,8 @@ std::string disassembled(const SpirvWords& words) {
     return text;
 }
 
-// A fragment shader with constants 0 and 1 by number, %number and %flag, the input %x and the output %out.
+// A fragment shader with specialization constants 0 and 1 (%number and %flag), the input %x and the output
+// %out.
 SpirvWords fragmentShader(const std::string& body) {
     return assembled(R"(OpCapability Shader
 %ext = OpExtInstImport "GLSL.std.450"
@@ -183,7 +184,8 @@ std::size_t countOf(const std::string& text, const std::string& what) {
     return found;
 }
 
-// Each module with these values, on all cores; what `judge` says against one, by its name and seed.
+// Runs `judge` on each module with these values, on all cores. Returns its messages with module name and
+// seed.
 std::string ofEveryModule(
     std::uint32_t first, std::uint32_t end,
     const std::function<std::string(const ShaderModule&, const FeatureValues&)>& judge) {
@@ -205,8 +207,8 @@ TEST(Specialize, EveryModuleStaysValid) {
               "");
 }
 
-// An id of the code that no instruction above has made; 0 where there is none. What leads to a block is
-// written above it, so that whatever dominates it is.
+// An id in the code that no earlier instruction defines; 0 if there is none. A block's predecessors are
+// written above it, so every dominating block is, too.
 std::uint32_t madeBelow(const SpirvWords& words) {
     struct Walk {
         std::vector<bool> made;
@@ -232,8 +234,8 @@ std::uint32_t madeBelow(const SpirvWords& words) {
     return walk.fault;
 }
 
-// At a tenth of the validator's time for hundreds of values: with blocks in the module's own order seed 27
-// left gbuffer.frag with ids that were made below.
+// Takes a tenth of the validator's time for hundreds of values. With blocks in the module's own order,
+// seed 27 left gbuffer.frag with ids defined further below.
 TEST(Specialize, WhatTheCodeNamesIsMadeAbove) {
     EXPECT_EQ(ofEveryModule(20, 300,
                             [](const ShaderModule& module, const FeatureValues& values) {
@@ -255,7 +257,7 @@ TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
               "");
 }
 
-// SPIRV-Tools finds no input, output or binding any more that the code does not name.
+// SPIRV-Tools finds no more inputs, outputs or bindings that the code does not use.
 TEST(Specialize, LeavesNoInterfaceThatTheCodeDoesNotName) {
     EXPECT_EQ(ofEveryModule(0, 12,
                             [](const ShaderModule& module, const FeatureValues& values) {
@@ -264,7 +266,7 @@ TEST(Specialize, LeavesNoInterfaceThatTheCodeDoesNotName) {
                                 optimizer.RegisterPassesFromFlags(
                                     {"--remove-unused-interface-variables", "--eliminate-dead-variables"});
                                 spvtools::OptimizerOptions options;
-                                options.set_run_validator(false);  // it knows no scalar layout of blocks
+                                options.set_run_validator(false);  // it lacks scalar block layout
                                 SpirvWords tidied;
                                 EXPECT_TRUE(optimizer.Run(words.data(), words.size(), &tidied, options));
                                 return std::string(interfaceOf(tidied) == interfaceOf(words)
@@ -291,14 +293,14 @@ OpReturn
     EXPECT_EQ(inputLocations(specializedBy(words, {1, 0})), std::set<std::uint32_t>{});
 }
 
-// Each column of a matrix has a location of its own.
+// Each column of a matrix has its own location.
 TEST(Specialize, InputsOfMatricesHaveALocationAColumn) {
     const std::set<std::uint32_t> all = inputLocations(shaderModule(Shader::surface_vert).words);
     for (std::uint32_t location = 0; location <= 15; ++location)
         EXPECT_TRUE(all.contains(location)) << location;
 }
 
-// Each element of an array, too: the texture coordinates of slots begin at 7.
+// Each element of an array, too: the slots' texture coordinates begin at 7.
 TEST(Specialize, InputsOfArraysHaveALocationAnElement) {
     const std::set<std::uint32_t> all = inputLocations(shaderModule(Shader::forward_shade_frag).words);
     for (std::uint32_t location = 0; location < 7 + gpu::SLOT_COUNT; ++location)
@@ -312,7 +314,7 @@ int outputs(const SpirvWords& of) {
     return count;
 }
 
-// A vertex shader stores what the fragment shader reads, and computes and fetches nothing for the rest.
+// A vertex shader stores what the fragment shader reads, and computes and fetches nothing else.
 TEST(Specialize, StoresNoOutputThatNothingReads) {
     FeatureValues values(gpu::FEATURE_COUNT);
     const auto& words = shaderModule(Shader::surface_vert).words;
@@ -327,10 +329,10 @@ TEST(Specialize, StoresNoOutputThatNothingReads) {
     EXPECT_GT(inputLocations(all).size(), normal.size());
     EXPECT_EQ(outputs(none), 1);  // gl_Position
     EXPECT_EQ(outputs(normals), 2);
-    EXPECT_EQ(outputs(all), 6);  // without slots and lights of vertices
+    EXPECT_EQ(outputs(all), 6);  // without slots and vertex lights
 }
 
-// Attachments are those images alone that a capture draws, from the first location on.
+// Attachments are only the images that a capture draws, from the first location on.
 TEST(Specialize, CapturesStoreTheImagesThatAreDrawn) {
     for (const Shader shader : {Shader::deferred_capture_frag, Shader::forward_capture_frag})
         for (const std::uint32_t images :
@@ -342,7 +344,7 @@ TEST(Specialize, CapturesStoreTheImagesThatAreDrawn) {
         }
 }
 
-// What a device may lack is asked for only where a variant has it.
+// A variant only requires optional device capabilities that it uses.
 TEST(Specialize, LeavesOutCapabilitiesThatNothingDemands) {
     const auto has = [](Shader shader, std::uint32_t capability, std::map<std::uint32_t, std::uint32_t> on) {
         FeatureValues values(gpu::FEATURE_COUNT);
@@ -361,13 +363,12 @@ TEST(Specialize, LeavesOutCapabilitiesThatNothingDemands) {
     EXPECT_FALSE(has(Shader::pose_comp, 11, {{joints, 1}}));
     EXPECT_TRUE(has(Shader::deferred_shade_comp, 27, {{gpu::FEATURE_samples, 4}}));  // stored samples
     EXPECT_FALSE(has(Shader::deferred_shade_comp, 27, {}));
-    EXPECT_TRUE(has(Shader::gbuffer_frag, 52, {}));  // interpolation at a place: SwiftShader wants it said
+    EXPECT_TRUE(has(Shader::gbuffer_frag, 52, {}));  // interpolation at an offset; SwiftShader requires it
     EXPECT_TRUE(has(Shader::gbuffer_frag, 5379, {{gpu::FEATURE_alpha_mask, 1}}));  // helper invocations
     EXPECT_FALSE(has(Shader::gbuffer_frag, 5379, {}));
 }
 
-// A block that loses an edge may come to depend on one that stands below it: %second then follows %first
-// alone.
+// After losing an edge, a block may depend on one below it: %second then only follows %first.
 TEST(Specialize, ABlockStandsBelowThoseThatLeadToIt) {
     const SpirvWords words = fragmentShader(R"(
 OpSelectionMerge %after None
@@ -419,7 +420,8 @@ OpReturn
     }
 }
 
-// A loop that ends in its first round has a place where it would go on; a loop of no round has no body.
+// A loop that ends in its first iteration keeps its continue target; a loop without iterations has no
+// body.
 TEST(Specialize, ALoopThatDoesNotGoRoundIsStillOne) {
     const SpirvWords words = fragmentShader(R"(
 OpBranch %loop
@@ -456,7 +458,7 @@ OpReturn
     EXPECT_EQ(countOf(never, "OpULessThan"), 0u);
 }
 
-// A branch out of a construct that is decided becomes one of its own.
+// After the outer condition is decided, a branch out of its construct gets its own merge block.
 TEST(Specialize, ABranchOutOfWhatIsDecidedHasItsOwnMerge) {
     const SpirvWords words = fragmentShader(R"(
 %small = OpFOrdLessThan %bool %x %one
@@ -476,7 +478,7 @@ OpReturn
     EXPECT_EQ(countOf(with1, "OpStore"), 0u);
 }
 
-// The end of a construct is there though nothing reaches it.
+// A construct keeps its merge block even if nothing reaches it.
 TEST(Specialize, AConstructKeepsItsEnd) {
     const SpirvWords words = fragmentShader(R"(
 %small = OpFOrdLessThan %bool %x %one
@@ -501,7 +503,8 @@ OpReturn
     EXPECT_EQ(countOf(never, "OpUnreachable"), 1u);
 }
 
-// What several sides give is what those give that are left, and decides what hangs on it.
+// A phi takes its value from the remaining predecessors, and this value decides the branches that depend
+// on it.
 TEST(Specialize, WhatIsLeftOfSeveralSidesDecides) {
     const SpirvWords words = fragmentShader(R"(
 OpSelectionMerge %after None
@@ -519,7 +522,7 @@ OpReturn
     EXPECT_EQ(countOf(specializedText(words, 1, 1), "OpFMul"), 0u);
 }
 
-// A switch is left as one, since branches out of it need it, with the one case.
+// A switch stays a switch with its single case, because branches out of it need it.
 TEST(Specialize, ASwitchKeepsItsCase) {
     const SpirvWords words = fragmentShader(R"(
 OpSelectionMerge %after None
@@ -568,14 +571,14 @@ OpFunctionEnd
     EXPECT_THROW(specializedBy(none, {0, 0}), std::logic_error);
 }
 
-// How many of each instruction a module has.
+// Number of each instruction in a module.
 std::map<std::uint32_t, int> instructionsOf(const SpirvWords& words) {
     std::map<std::uint32_t, int> count;
     for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) ++count[words[at] & 0xffff];
     return count;
 }
 
-// Computations stay, each phi becomes a selection, and branches are fewer.
+// Computations stay, each phi becomes a select, and there are fewer branches.
 TEST(Flatten, EveryModuleComputesTheSameWithFewerBranches) {
     constexpr std::uint32_t select = 169, phi = 245, selectionMerge = 247, label = 248, branch = 249,
                             conditional = 250;
@@ -595,7 +598,7 @@ TEST(Flatten, EveryModuleComputesTheSameWithFewerBranches) {
     EXPECT_LT(after, before * 2 / 3) << before;
 }
 
-// The condition selects the right side; a branch that reads memory stays, and so do those around it.
+// The condition selects the right side. A branch that reads memory stays, and so do those around it.
 TEST(Flatten, SelectsTheSideOfTheConditionAndLeavesMemoryAlone) {
     const auto branches = [](const std::string& inner) {
         return flattened(specializedBy(fragmentShader(R"(%c = OpFOrdLessThan %bool %x %one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which images share memory: those whose lives do not overlap, and no others.
+// Exactly the images whose lifetimes do not overlap share memory.
 #include "shared/vulkan/transients.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(Transients, LivesThatDoNotOverlapShareABlock) {
     EXPECT_EQ(blocks[0].needs.alignment, 64u);
 }
 
-// One that ends in the pass that another begins in is read there while the other is written.
+// If one ends in the pass in which another begins, it is read there while the other is written.
 TEST(Transients, LivesThatMeetInAPassDoNot) {
     EXPECT_EQ(shareMemory(std::vector{living(0, 2, 100), living(2, 3, 100)}).size(), 2u);
 }
@@ -36,7 +36,7 @@ TEST(Transients, MemoryTypesThatNoneShareAreApart) {
     EXPECT_EQ(shareMemory(std::vector{living(0, 1, 100, 1), living(2, 3, 100, 2)}).size(), 2u);
     const std::vector<SharedBlock> both =
         shareMemory(std::vector{living(0, 1, 100, 6), living(2, 3, 100, 3), living(4, 5, 100, 5)});
-    ASSERT_EQ(both.size(), 2u);  // the first two leave type 1 alone, which the third cannot have
+    ASSERT_EQ(both.size(), 2u);  // the first two only share type 1, which the third does not support
     EXPECT_EQ(both[0].needs.memoryTypeBits, 2u);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The user's cache takes files of this user alone.
+// The user's cache only accepts files of this user.
 #include "shared/vulkan/user_cache.h"
 #include "tests/support/files.h"
 
@@ -38,7 +38,7 @@ TEST(UserCache, AFolderThatOthersMayWriteToIsNotUsed) {
     }
 }
 
-// Only root can give a folder away.
+// Only root can change the owner of a folder.
 TEST(UserCache, AFolderOfAnotherUserIsNotUsed) {
     const fs::path cache = cacheOf(0755), link = cache.parent_path() / "link";
     fs::create_directory_symlink("diptych", link);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// builtin:tangents, against the derivatives of its planes and columns in closed form.
+// builtin:tangents, compared with the derivatives of its planes and columns in closed form.
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
@@ -16,7 +16,7 @@ namespace {
 
 class BuiltinTangents : public testing::TestWithParam<double> {};
 
-// At rest, turned, and turned and mirrored by its animation.
+// At rest, rotated, and rotated and mirrored by its animation.
 TEST_P(BuiltinTangents, AreThoseOfTheTransformedCoordinatesInClosedForm) {
     const Scene scene = makeBuiltin("tangents");
     const Pose pose = poseAt(scene, GetParam());
@@ -30,13 +30,14 @@ TEST_P(BuiltinTangents, AreThoseOfTheTransformedCoordinatesInClosedForm) {
         const PosedVertices posed = posedVertices(scene, pose, instance);
         const bool column = mesh.name.starts_with("column");
         ++(column ? columns : planes);
-        // How the map's coordinates grow along u and v of the first set. The second is (v, 1 - u).
+        // Derivatives of the map's coordinates along u and v of the first set. The second set is (v, 1 -
+        // u).
         const bool second = map.texcoord == 1;
         const glm::dvec2 u = second ? glm::dvec2(-map.u.y, map.u.x) : glm::dvec2(map.u);
         const glm::dvec2 v = second ? glm::dvec2(-map.v.y, map.v.x) : glm::dvec2(map.v);
         const double determinant = u.x * v.y - u.y * v.x;
-        // A column's 64 chords are shorter than its arcs, by a share of 1 - sinc(2 pi / 64) = 1.6e-3, and
-        // triangles to the left and right of a vertex weigh in by angles that differ as little.
+        // A column's 64 chords are shorter than the arcs by 1 - sinc(2 pi / 64) = 1.6e-3. The angle
+        // weights of triangles left and right of a vertex differ by as little.
         const double tolerance = column ? 3e-3 : 1e-6;
         for (std::size_t i = 0; i < p.positions.size(); ++i) {
             const glm::dvec3 n(p.normals[i]), t(posed.tangents[i]);
@@ -44,7 +45,7 @@ TEST_P(BuiltinTangents, AreThoseOfTheTransformedCoordinatesInClosedForm) {
                                            ? 2 * std::numbers::pi * 0.4 * glm::cross(glm::dvec3(0, 1, 0), n)
                                            : glm::dvec3(1, 0, 0);
             const glm::dvec3 along_v(0, -1.6, 0);
-            // The inverse of the matrix of rows u and v.
+            // Inverse of the matrix with rows u and v.
             const glm::dvec3 expected = (v.y * along_u - v.x * along_v) / determinant;
             const glm::dvec3 downwards = (-u.y * along_u + u.x * along_v) / determinant;
             EXPECT_LT(glm::length(t - glm::normalize(expected)), tolerance) << mesh.name << " vertex " << i;

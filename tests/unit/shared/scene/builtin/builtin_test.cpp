@@ -31,8 +31,8 @@ std::size_t triangles(const Scene& scene) {
     return count;
 }
 
-// Checks what scene.h promises of every primitive, and that normals, winding, texture coordinates and
-// tangents, as the normal map reads them, are consistent with each other.
+// Checks scene.h's guarantees for primitives, and that normals, winding, texture coordinates and tangents
+// (for the normal map) are consistent.
 void expectWhole(const Primitive& p, const TextureSlot& map, const std::string& what) {
     ASSERT_EQ(p.normals.size(), p.positions.size()) << what;
     ASSERT_EQ(p.tangents.size(), p.positions.size()) << what;
@@ -151,7 +151,8 @@ TEST(Builtin, NamesAreUniqueAndMistakesListWhatThereIs) {
     }
     EXPECT_NE(builtinFault("spheres?light=4").find("lights=N"), std::string::npos);
     EXPECT_NE(builtinFault("array?object=4").find("objects=N, triangles=N"), std::string::npos);
-    EXPECT_NE(builtinFault("array?objects=1&materials=x").find("no number of materials"), std::string::npos);
+    EXPECT_NE(builtinFault("array?objects=1&materials=x").find("'x' is not a number of materials"),
+              std::string::npos);
 }
 
 TEST(Builtin, AnArrayHasAsManyAsItIsTold) {
@@ -166,7 +167,7 @@ TEST(Builtin, AnArrayHasAsManyAsItIsTold) {
     EXPECT_EQ(many.meshes.size(), 7u);
     EXPECT_EQ(many.materials.size(), 3u);
     EXPECT_TRUE(many.images.empty());
-    // A sphere of k rings has 4 k (k - 1) triangles; of 16 it is nearest to 1000.
+    // A sphere of k rings has 4 k (k - 1) triangles; 16 rings are closest to 1000.
     EXPECT_EQ(trianglesOf(many), 30u * 960);
     const Scene squares = makeBuiltin("array?objects=5&triangles=10&materials=50");
     EXPECT_EQ(trianglesOf(squares), 10u);
@@ -179,7 +180,7 @@ TEST(Builtin, AnArrayHasAsManyAsItIsTold) {
     EXPECT_EQ(makeBuiltin("array?objects=0").nodes.size(), 1u);
 }
 
-// Check values of the scene's definition, six decimals: half a step is 5e-7.
+// Check values of the scene's definition, to six decimals: half a step is 5e-7.
 TEST(Builtin, SpheresHasItsPublishedNumbers) {
     const Scene scene = makeBuiltin("spheres?lights=64");
     const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
@@ -201,8 +202,8 @@ TEST(Builtin, SpheresHasItsPublishedNumbers) {
     const Primitive& ball = scene.meshes[1].primitives[0];
     EXPECT_EQ(ball.positions.size(), 561u);
     EXPECT_EQ(ball.indices.size(), 3u * 960u);
-    // The first triangle is (b, c, d) of cell (0, 0), followed by the next cell's; (a, b, d) exists from row
-    // 1 on.
+    // The first triangle is (b, c, d) of cell (0, 0), followed by the next cell's; (a, b, d) exists from
+    // row 1 on.
     EXPECT_EQ((std::vector<std::uint32_t>(ball.indices.begin(), ball.indices.begin() + 6)),
               (std::vector<std::uint32_t>{0, 33, 34, 1, 34, 35}));
     EXPECT_EQ((std::vector<std::uint32_t>(ball.indices.begin() + 96, ball.indices.begin() + 102)),
@@ -243,8 +244,8 @@ TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
         }
 }
 
-// A white Lambertian plane has irradiance pi under a constant radiance of 1, in any orientation. 64 suns
-// sample the cosine at 64 points; the error falls as N^-3/4 and is below 3 % here.
+// Under constant radiance 1, a white Lambertian plane has irradiance pi in any orientation. 64 suns sample
+// the cosine at 64 points; the error falls as N^-3/4 and is below 3 % here.
 TEST(Builtin, TheFurnaceIsEvenlyLit) {
     const Scene scene = makeBuiltin("furnace");
     const Primitive directions = sphere(1, 24, 12);
@@ -321,8 +322,8 @@ TEST(Textures, AreTheSameBytesOnEveryMachine) {
     EXPECT_EQ(squares.rgba[0], 1);
     EXPECT_EQ(squares.rgba[8], 5);          // the third texel of the first row
     EXPECT_EQ(squares.rgba[4 * 4 * 2], 5);  // the first texel of the third row
-    // FNV-1a over all bytes: another value means that this machine or a change makes other textures, so that
-    // pictures are no longer comparable with older ones.
+    // FNV-1a over all bytes. Another value means that the textures differ on this machine or after a
+    // change, and that images cannot be compared with older ones.
     const auto fingerprint = [](const TextureImage& image) {
         std::uint32_t hash = 2166136261u;
         for (const std::uint8_t byte : image.rgba) hash = (hash ^ byte) * 16777619u;
@@ -334,15 +335,15 @@ TEST(Textures, AreTheSameBytesOnEveryMachine) {
 }
 
 TEST(Textures, NormalMapsRiseTowardsTheTop) {
-    // A ramp that rises to the right and, more steeply, to the top: normals tilt to the left and, more
+    // A ramp that rises to the right and, more steeply, to the top. Normals tilt to the left and, more
     // strongly, downwards.
     HeightField ramp{16, {}};
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) ramp.height.push_back(1000 * x + 2000 * (15 - y));
     const TextureImage map = normalMap("ramp", ramp, 16);
     const std::uint8_t* n = &map.rgba[4 * (16 * 8 + 8)];
-    // Slopes 1000 * 16 / 65535 = 0.24414 and 0.48828: n = (-0.24414, -0.48828, 1) / 1.13941, in steps of 1 /
-    // 127.5.
+    // Slopes 1000 * 16 / 65535 = 0.24414 and 0.48828: n = (-0.24414, -0.48828, 1) / 1.13941, in steps of 1
+    // / 127.5.
     EXPECT_EQ(n[0], std::lround((1 - 0.24414 / 1.13941) * 127.5));
     EXPECT_EQ(n[1], std::lround((1 - 0.48828 / 1.13941) * 127.5));
     EXPECT_EQ(n[2], std::lround((1 + 1 / 1.13941) * 127.5));

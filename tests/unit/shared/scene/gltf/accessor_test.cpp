@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every shape, type, layout and mode in which glTF stores numbers, with values known by hand.
+// Every shape, component type, layout and mode of glTF numbers, with values known by hand.
 #include "shared/scene/gltf/accessor.h"
 #include "tests/support/gltf_builder.h"
 
@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A number as a component type stores it: `real` itself for floats; for normalized integers `real` times the
-// largest integer.
+// A number as a component type stores it: `real` itself for floats; `real` times the largest integer for
+// normalized integers.
 void append(std::string& data, int type, double real, bool normalized) {
     const auto put = [&](auto value) { data.append(reinterpret_cast<const char*>(&value), sizeof value); };
     const auto integer = [&](auto sample) {
@@ -42,7 +42,7 @@ std::size_t bytesOf(int type) {
     return type == BYTE || type == UBYTE ? 1 : type == SHORT || type == USHORT ? 2 : 4;
 }
 
-// A model of one accessor over the given bytes.
+// A model with one accessor over the given bytes.
 tinygltf::Model modelOf(const std::string& bytes, int type, int componentType, std::size_t count) {
     tinygltf::Model model;
     model.buffers.emplace_back().data.assign(bytes.begin(), bytes.end());
@@ -59,7 +59,7 @@ tinygltf::Model modelOf(const std::string& bytes, int type, int componentType, s
 
 }  // namespace
 
-// glTF 2.0, 3.6.2.4: columns begin at multiples of 4 bytes. x is padding; 9 bytes of a MAT3 lie in 12.
+// glTF 2.0, 3.6.2.4: columns begin at multiples of 4 bytes. x is padding; a MAT3 of 9 bytes takes 12.
 TEST(GltfAccessor, MatrixColumnsAreAligned) {
     const std::string mat2 = {1, 2, 'x', 'x', 3, 4, 'x', 'x', 5, 6, 'x', 'x', 7, 8};
     gltf::Numbers n = gltf::readNumbers(modelOf(mat2, TINYGLTF_TYPE_MAT2, UBYTE, 2), 0, "test");
@@ -88,7 +88,8 @@ TEST(GltfAccessor, MatrixColumnsAreAligned) {
     }
 }
 
-// glTF 2.0, 3.11: f = max(c / 127, -1) of signed bytes, c / 255 of unsigned ones, and so of shorts.
+// glTF 2.0, 3.11: f = max(c / 127, -1) for signed bytes, c / 255 for unsigned ones, and accordingly for
+// shorts.
 TEST(GltfAccessor, NormalizedIntegersAreAtLeastMinusOne) {
     const auto numbers = [](int type, std::initializer_list<int> values, bool normalized) {
         std::string bytes;
@@ -106,8 +107,8 @@ TEST(GltfAccessor, NormalizedIntegersAreAtLeastMinusOne) {
     EXPECT_EQ(numbers(SHORT, {-32768, 32767}, false), (Values{-32768, 32767}));
 }
 
-// The types that KHR_mesh_quantization allows, interleaved: all attributes of a vertex side by side, from an
-// offset without alignment.
+// Types that KHR_mesh_quantization allows, interleaved: a vertex's attributes are adjacent, from an
+// unaligned offset.
 TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
     struct Row {
         const char* name;
@@ -128,7 +129,7 @@ TEST(GltfAccessor, EveryAttributeTypeInterleaved) {
     for (const char* shape : {"VEC3", "VEC4"})
         for (const int type : {UBYTE, USHORT, FLOAT}) rows.push_back({"COLOR_0", shape, type, type != FLOAT});
 
-    // For each vertex; 0 and 1 are exact in every type, normalized or not.
+    // Values of each vertex; 0 and 1 are exact in every type, normalized or not.
     const double values[3][4] = {{0, 0, 1, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
     for (const Row& row : rows) {
         GltfFile f = GltfFile::triangle();

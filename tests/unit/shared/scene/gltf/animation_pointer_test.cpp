@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_animation_pointer: what pointers name, what of it moves and how far.
+// KHR_animation_pointer: targets of pointers, animated properties, and ranges.
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/requirements.h"
@@ -22,7 +22,7 @@ const char* const onePixel =
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5E"
     "rkJggg==";
 
-// A morphed triangle of a textured material, a spot, a sun, and both kinds of camera.
+// A morphed triangle with a textured material, a spot light, a sun, and both camera types.
 struct PointerFile : GltfFile {
     PointerFile() : GltfFile(triangle()) {
         const int up = accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, FLOAT, "VEC3", 3);
@@ -83,7 +83,7 @@ const Material& materialAt(const Scene& scene, const Pose& pose) {
 
 // ---- every property ----------------------------------------------------------------------------------
 
-// Each moves from 0.25 to 0.75 alone: at half a second it is 0.5, in every component.
+// Each is animated alone, from 0.25 to 0.75: at half a second every component is 0.5.
 TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
     using Read = std::function<std::vector<double>(const Scene&, const Pose&)>;
     const auto material = [](auto member) {
@@ -176,13 +176,13 @@ TEST(GltfAnimationPointer, RestIsAsTheFileSays) {
 TEST(GltfAnimationPointer, RotationsTakeTheShortArc) {
     PointerFile f;
     const float s = static_cast<float>(std::sin(std::numbers::pi / 4));
-    f.channel("/nodes/0/rotation", {0, 0, 0, 1, 0, 0, -s, -s});  // 90 degrees, the other sign
+    f.channel("/nodes/0/rotation", {0, 0, 0, 1, 0, 0, -s, -s});  // 90 degrees, with opposite sign
     const glm::dmat4 w = poseAt(f.load(), 0.5).instances.at(0).world_from_object;
     EXPECT_NEAR(w[0].x, std::sqrt(0.5), 1e-7);
     EXPECT_NEAR(w[0].y, std::sqrt(0.5), 1e-7) << "45 degrees, not -135";
 }
 
-// A factor and its strength may move each by itself; the file's own is used for the one that does not.
+// Factor and strength may be animated separately; the file's value is used for the other.
 TEST(GltfAnimationPointer, EmissionIsFactorTimesStrength) {
     const auto at = [](const std::function<void(PointerFile&)>& change) {
         PointerFile f;
@@ -205,7 +205,7 @@ TEST(GltfAnimationPointer, EmissionIsFactorTimesStrength) {
               glm::vec3(1, 2, 0.5f));
 }
 
-// Offset, rotation and scale combine as KHR_texture_transform says, whichever of them move.
+// Offset, rotation and scale combine as in KHR_texture_transform, whichever are animated.
 TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
     const std::pair<const char*, TextureSlot Material::*> slots[] = {
         {"pbrMetallicRoughness/baseColorTexture", &Material::base_color_texture},
@@ -223,7 +223,7 @@ TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
         f.channel(at + "rotation", {0, static_cast<float>(std::numbers::pi)});
         const Scene scene = f.load();
         const TextureSlot turned = poseAt(scene, 0.5).materials.at(0).*member;
-        // A quarter of a turn: u' = sin * scale.y * v + offset.x, v' = -sin * scale.x * u + offset.y.
+        // Rotation by 90 degrees: u' = sin * scale.y * v + offset.x, v' = -sin * scale.x * u + offset.y.
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(turned.u[c], glm::dvec3(0, 3, 0.5)[c], 1e-6) << slot;
             EXPECT_NEAR(turned.v[c], glm::dvec3(-2, 0, 0.25)[c], 1e-6) << slot;
@@ -252,7 +252,7 @@ TEST(GltfAnimationPointer, OneWeightLeavesTheOthers) {
         << "the node's own replace it";
 }
 
-// One light of the file is two lights of the scene.
+// The file's light is on two nodes, so it is two lights of the scene.
 TEST(GltfAnimationPointer, EveryNodeOfALightShowsItsMotion) {
     PointerFile f;
     f.channel("/extensions/KHR_lights_punctual/lights/0/intensity", {0, 8});
@@ -279,7 +279,7 @@ TEST(GltfAnimationPointer, LaterAnimationsWin) {
     EXPECT_EQ(poseAt(scene, 0.5, "1").materials.at(0).metallic, 1);
 }
 
-// Integers stand for themselves, normalized ones for parts of their largest.
+// Integers are taken as they are, normalized ones as fractions of the largest.
 TEST(GltfAnimationPointer, ValuesMayBeIntegers) {
     PointerFile f;
     const std::string intensity = "/extensions/KHR_lights_punctual/lights/0/intensity";
@@ -290,9 +290,9 @@ TEST(GltfAnimationPointer, ValuesMayBeIntegers) {
     EXPECT_EQ(poseAt(scene, 0.5).materials.at(0).alpha_cutoff, 0.5f);
 }
 
-// ---- what is out of range ----------------------------------------------------------------------------
+// ---- ranges ------------------------------------------------------------------------------------------
 
-// A spline from 0 to 1 with steep tangents passes both ends; values are held there.
+// A spline from 0 to 1 with steep tangents exceeds both ends; values are clamped there.
 TEST(GltfAnimationPointer, SplinesAreHeldWithinTheRange) {
     PointerFile f;
     const std::vector<float> steep{0, 0, -20, -20, 1, 0};  // below 0 first, then above 1
@@ -337,7 +337,7 @@ TEST(GltfAnimationPointer, ConesAndPlanesStayInOrder) {
     EXPECT_EQ(poseAt(scene, 0).cameras.at(1).near, 0);
 }
 
-// ---- what a factor switches on -----------------------------------------------------------------------
+// ---- factors that switch on a feature ----------------------------------------------------------------
 
 TEST(GltfAnimationPointer, WhatAFactorSwitchesOnIsNeeded) {
     PointerFile f;
@@ -421,7 +421,7 @@ TEST(GltfAnimationPointer, OutputsFitWhatTheyMove) {
     EXPECT_TRUE(mentions(h.load().notes, "3 weights per key, but node 0 has 2 morph targets"));
 }
 
-// Neither by two pointers, nor by a pointer and a plain target, nor as an array and as its element.
+// By two pointers, by a pointer and a plain target, or by an array and its element.
 TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
     const std::pair<const char*, const char*> cases[] = {{"/nodes/0/weights", "/nodes/0/weights"},
                                                          {"/nodes/0/weights", "/nodes/0/weights/1"},
@@ -448,7 +448,7 @@ TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
     EXPECT_TRUE(mentions(plain.load().notes, "an earlier channel already animates node 0"));
 }
 
-// An unlit material shows its base colour alone, a sun has no cone: such channels move nothing.
+// An unlit material only shows its base colour, and a sun has no cone: such channels change nothing.
 TEST(GltfAnimationPointer, WhatCannotBeSeenIsIgnored) {
     PointerFile f;
     f.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();

@@ -10,7 +10,7 @@ namespace {
 const std::filesystem::path assets = std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets";
 }
 
-// Triangles, draws and extents as the assets' own table lists them.
+// Triangles, draws and extents from the assets' own table.
 TEST(GltfAssets, ScenesHaveTheirTabledSizes) {
     if (!std::filesystem::exists(assets))
         GTEST_SKIP() << "NO ASSETS at " << assets << ": real files are not tried";

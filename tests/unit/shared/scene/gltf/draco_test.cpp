@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_draco_mesh_compression: streams of the library's own encoder, decoded by the loader.
+// KHR_draco_mesh_compression: streams from the library's own encoder, decoded by the loader.
 #include "shared/scene/gltf/gltf.h"
 #include "tests/support/draco_builder.h"
 #include "tests/support/files.h"
@@ -21,7 +21,7 @@ namespace {
 std::vector<std::array<float, 9>> cornersOf(const Primitive& p) {
     std::vector<std::array<float, 9>> result;
     for (std::size_t i = 0; i < p.indices.size(); i += 3) {
-        // Triangles may begin at any corner: here at the least one.
+        // Triangles may begin at any corner; here at the smallest one.
         std::array<std::array<float, 3>, 3> t;
         for (std::size_t c = 0; c < 3; ++c) {
             const glm::vec3 v = glm::round(p.positions[p.indices[i + c]]);
@@ -34,8 +34,7 @@ std::vector<std::array<float, 9>> cornersOf(const Primitive& p) {
     return result;
 }
 
-// Checks for the n x n squares: every triangle exactly once, with the attributes that belong to its corners'
-// positions.
+// Checks the n x n squares: each triangle exactly once, with the attributes for its corners' positions.
 void expectSurface(const Primitive& p, int n, float positionError, float texcoordError) {
     Primitive expected;
     for (const auto& t : trianglesOf(n))
@@ -64,7 +63,7 @@ std::string dracoLine(GltfFile& f) {
     return "";
 }
 
-// Loads damaged bytes, which must result in a scene or a one-line error. Returns that line.
+// Loads damaged bytes, which must give a scene or a one-line error. Returns that line.
 std::string lineOfDamage(const std::string& binary) {
     try {
         parseGltf({binary.begin(), binary.end()}, "damaged");
@@ -88,7 +87,7 @@ TEST(GltfDraco, EveryMethodAndSpeedGivesTheSurface) {
             }
 }
 
-// Quantised to 12 bits a coordinate is half a step off at most: of the longest side, 12 and 3.
+// A coordinate quantized to 12 bits is off by at most half a step of the longest side: 12 and 3.
 TEST(GltfDraco, QuantizedAttributesAreWithinHalfAStep) {
     for (const int speed : {0, 5}) {
         GltfFile f = compressed(encoded(12, {draco::MESH_EDGEBREAKER_ENCODING, speed, 12}));
@@ -106,7 +105,7 @@ TEST(GltfDraco, MetadataIsPassedOver) {
     }
 }
 
-// The stream holds one square and the accessors' own data another: each primitive gets its own.
+// The stream and the accessors' own data are different squares: each primitive gets its own.
 TEST(GltfDraco, SharedAccessorsStayAsTheyAre) {
     GltfFile f = GltfFile::triangle();
     const DracoStream s = encoded(1, {draco::MESH_SEQUENTIAL_ENCODING});
@@ -132,7 +131,7 @@ TEST(GltfDraco, AttributesBesideTheStreamStay) {
     for (const glm::vec2& t : f.only(scene).texcoords[1]) EXPECT_EQ(t, glm::vec2(0.25f));
 }
 
-// The stream of a strip holds the triangles that it consists of.
+// The stream of a strip contains separate triangles.
 TEST(GltfDraco, StripsAreTriangles) {
     GltfFile f = compressed(encoded(2));
     f.primitive()["mode"] = 5;
@@ -224,7 +223,7 @@ TEST(GltfDraco, ClaimsBeyondTheFileAreRefused) {
     f.json["accessors"][5]["count"] = 30000000;
     EXPECT_EQ(dracoLine(f).find("its compressed geometry claims 960000"), 0u);
     GltfFile strip = compressed(encoded(2));
-    strip.primitive().erase("indices");  // without indices nothing tells the number of triangles
+    strip.primitive().erase("indices");  // the indices alone give the number of triangles
     EXPECT_EQ(dracoLine(strip), "");
     strip.data.replace(13, 1, "\xff\xff\xff\x7f");
     strip.json["bufferViews"][0]["byteLength"] = strip.data.size();
@@ -232,8 +231,8 @@ TEST(GltfDraco, ClaimsBeyondTheFileAreRefused) {
         << dracoLine(strip);
 }
 
-// Predicted texture coordinates have one bit each. The library loops over as many bits as the stream says,
-// up to 2^31: wherever that number is, a large one must be detected before.
+// Predicted texture coordinates have one bit each. The library loops over the stream's number of bits, up
+// to 2^31. A large number must be detected before, wherever it is in the stream.
 TEST(GltfDraco, MoreOrientationsThanTexcoordsAreRefused) {
     const DracoStream s = encoded(4, {draco::MESH_EDGEBREAKER_ENCODING, 0, 10});
     GltfFile f = compressed(s);
@@ -249,7 +248,7 @@ TEST(GltfDraco, MoreOrientationsThanTexcoordsAreRefused) {
     EXPECT_EQ(seen, 1);
 }
 
-// Damaged streams result in a scene or in a one-line error; AddressSanitizer checks memory.
+// Damaged streams give a scene or a one-line error; AddressSanitizer checks memory.
 TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
     std::mt19937 random(11);
     int scenes = 0, lines = 0;

@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// A change to a valid file, and the whole message after the file's name.
+// A change to a valid file, and the complete message after the file's name.
 struct Fault {
     const char* line;
     std::function<void(GltfFile&)> change;
@@ -162,8 +162,7 @@ TEST(GltfErrors, Documents) {
               "is not JSON: number overflow parsing '1e999'");
 }
 
-// A recursive parser would need a stack frame for each level: a million levels are refused before such a
-// parser sees them.
+// A recursive parser needs a stack frame per level: a million levels are refused before it sees them.
 TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     GltfFile f = GltfFile::triangle();
     f.json["extras"] = deep(127);
@@ -177,7 +176,7 @@ TEST(GltfErrors, NestingIsBoundedBeforeParsing) {
     EXPECT_EQ(linesFor("{\"extras\":" + objects), "is nested deeper than 128 levels");
 }
 
-// Symbolic links are followed if they stay in the folder, and refused if they lead out of it.
+// Symbolic links are followed within the folder and refused if they lead out of it.
 TEST(GltfErrors, LinksStayInTheFolder) {
     namespace fs = std::filesystem;
     const fs::path folder = testFolder() / "scene", outside = testFolder() / "outside";

@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The triangle, with one or several lights in its scene's extras.
+// The triangle, with one or several lights in the scene's extras.
 GltfFile with(const Json& lights) {
     GltfFile f = GltfFile::triangle();
     f.json["scenes"][0]["extras"]["diptych"]["lights"] = lights.is_array() ? lights : Json::array({lights});
@@ -67,14 +67,14 @@ TEST(GltfExtras, OnANodeTheyStandInItsSpace) {
     expectNear(turned.axis, {0, 1, 0}, "axis in the node's space");
 }
 
-// The axes of a sheared node are not at right angles; those of the light stay so.
+// A sheared node's axes are not orthogonal; the light's axes stay orthogonal.
 TEST(GltfExtras, AShearedNodeKeepsTheAxisAtRightAngles) {
     GltfFile f = with({{"type", "rect"}, {"node", 0}});
     f.json["nodes"][0]["matrix"] = {1, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const Light light = poseAt(f.load(), 0).lights.at(0);
     expectNear(light.direction, {0, 0, -1}, "direction");
     expectNear(light.axis, {1, 0, 0}, "axis");
-    // The projection of +X leaves only rounding errors beside -Z.
+    // Projecting +X leaves only rounding errors perpendicular to -Z.
     f.json["nodes"][0]["matrix"] = {0.3, 0.7, 0.1, 0, 0, 1, 0, 0, 0.9, 2.1, 0.3, 0, 0, 0, 0, 1};
     const Light squashed = poseAt(f.load(), 0).lights.at(0);
     EXPECT_NEAR(glm::dot(squashed.axis, squashed.direction), 0, 1e-9);
@@ -93,7 +93,7 @@ TEST(GltfExtras, OnlyTheScenesOwn) {
     EXPECT_TRUE(mentions(dark.notes, "scene 1: extras: diptych: light 0: type: \"laser\""));
 }
 
-// The same faults as in a lights file, but they only leave out the light, with a note.
+// The same faults as in a lights file, but here they only skip the light, with a note.
 TEST(GltfExtras, WhatIsWrongIsLeftOutWithANote) {
     const std::pair<Json, const char*> cases[] = {
         {{{"type", "rect"}, {"size", {0, 1}}}, "size: 0 is below 1e-18: left out"},
@@ -140,7 +140,7 @@ TEST(GltfExtras, OthersMayBeAnything) {
 
 namespace {
 
-// The triangle's node is also a light of KHR_lights_punctual.
+// The triangle's node is also a KHR_lights_punctual light.
 Scene lit(const Json& light) {
     GltfFile f = GltfFile::triangle();
     f.json["extensionsUsed"] = {"KHR_lights_punctual"};

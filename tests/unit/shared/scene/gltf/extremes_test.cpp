@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Geometry that is broken, huge, tiny, far away or overlapping: loading results in a scene of the valid
-// parts, a note, or a one-line error.
+// Broken, huge, tiny, distant or overlapping geometry: loading gives a scene of the valid parts, a note,
+// or a one-line error.
 #include "shared/scene/model/tangents.h"
 #include "shared/scene/motion/bounds.h"
 #include "tests/support/gltf_builder.h"
@@ -77,7 +77,7 @@ TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
     EXPECT_TRUE(mentions(scene.notes, "COLOR_0: 2 are not finite: white"));
 }
 
-// Values beyond maxCoordinate are not called infinite.
+// Finite values beyond maxCoordinate are not reported as infinite.
 TEST(GltfExtremes, AttributesBeyondWhatIsDrawnAreNamedSo) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["attributes"]["TEXCOORD_0"] =
@@ -132,7 +132,7 @@ TEST(GltfExtremes, WhatDecodesToTooMuchIsRefusedBeforehand) {
               error.npos)
         << error;
 
-    // A thousand primitives that use one triangle each of the same accessor need little memory.
+    // A thousand primitives that each use one triangle of the same accessor need little memory.
     const int indices = f.accessor<std::uint32_t>({0, 2999999, 7}, UINT, "SCALAR", 1);
     for (Json& primitive : f.json["meshes"][0]["primitives"]) primitive["indices"] = indices;
     const Scene scene = f.load();
@@ -172,7 +172,7 @@ TEST(GltfExtremes, NotesOnMaterialsSkinsAndAnimationsAreFewToo) {
 TEST(GltfExtremes, MeshesThatNothingDrawsAreNotRead) {
     GltfFile f = GltfFile::triangle();
     f.json["meshes"].push_back(f.json["meshes"][0]);
-    // An accessor of floats, which would be refused as indices.
+    // An accessor of floats, which is refused as indices once the mesh is used.
     f.json["meshes"][1]["primitives"][0]["indices"] = 0;
     const Scene scene = f.load();
     ASSERT_EQ(scene.meshes.size(), 2u);
@@ -200,7 +200,7 @@ TEST(GltfExtremes, WhatLiesBeyondFloatIsLeftOutWithACount) {
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     f.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
     const Json lit = {{"KHR_lights_punctual", {{"light", 0}}}};
-    // Two nested scales of 1e30 leave float32: the mesh, light and camera of the child are left out.
+    // Two nested scales of 1e30 exceed float32: the child's mesh, light and camera are skipped.
     f.json["nodes"] = {{{"mesh", 0}},
                        {{"scale", {1e30, 1e30, 1e30}}, {"children", {2}}},
                        {{"scale", {1e30, 1e30, 1e30}}, {"children", {3}}},
@@ -218,7 +218,7 @@ TEST(GltfExtremes, WhatLiesBeyondFloatIsLeftOutWithACount) {
     EXPECT_TRUE(mentions(scene.notes, "1 camera is not finite"));
 }
 
-// The node is not too far away, but its scaled vertices are: 1 becomes 1e19 m.
+// The node is close enough, but its scaled vertices are not: 1e10 becomes 1e19 m.
 TEST(GltfExtremes, TheMeshCountsNotOnlyItsNode) {
     GltfFile f = strip({0, 0, 0, 1e10f, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
     f.json["nodes"][0]["scale"] = {1e9, 1, 1};
@@ -227,7 +227,7 @@ TEST(GltfExtremes, TheMeshCountsNotOnlyItsNode) {
     EXPECT_TRUE(mentions(scene.notes, "1 drawn node is not finite or beyond"));
 }
 
-// A pose at another time may leave float32 as well.
+// A pose at another time may also exceed float32.
 TEST(GltfExtremes, PosesHoldWhatHasAPlace) {
     GltfFile f = GltfFile::triangle();
     Scene scene = f.load();
@@ -272,9 +272,9 @@ TEST(GltfExtremes, AHundredThousandNodesAreDrawn) {
     EXPECT_EQ(worldBounds(scene, pose).max.x, count);
 }
 
-// ---- what could be quadratic -------------------------------------------------------------------------
+// ---- linear time -------------------------------------------------------------------------------------
 
-// 200 000 separate triangles meet in one vertex, each with another tangent there: comparing each with all
+// 200 000 separate triangles meet in one vertex, each with another tangent there. Comparing all pairs
 // would take minutes, beyond the test's time limit.
 TEST(GltfExtremes, ManyTangentsAtOneVertexTakeLinearTime) {
     constexpr std::uint32_t count = 200000;
@@ -285,7 +285,7 @@ TEST(GltfExtremes, ManyTangentsAtOneVertexTakeLinearTime) {
         const double a = 6.283185307179586 * i / count, b = a + 1e-6;
         for (const double angle : {a, b}) {
             p.positions.push_back({std::cos(angle), std::sin(angle), 0});
-            // UV coordinates of its own, u along the spoke, so that the tangent rotates with it.
+            // Separate UV coordinates, u along the spoke, so that the tangent rotates with it.
             p.texcoords[0].push_back(angle == a ? glm::vec2(1, 0) : glm::vec2(1, -1));
         }
         p.indices.insert(p.indices.end(), {0, 2 * i + 1, 2 * i + 2});

@@ -13,7 +13,7 @@ TEST(GltfLoading, BinaryHoldsTheSame) {
     EXPECT_EQ(f.only(scene).positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
-// Each change makes one number of a valid file wrong; the error names file, object and fault on one line.
+// Each change breaks one number of a valid file; the error names file, object and fault on one line.
 TEST(GltfLoading, WrongNumbersAreRefusedByName) {
     struct Case {
         const char* expected;
@@ -53,7 +53,7 @@ TEST(GltfLoading, WrongNumbersAreRefusedByName) {
              f.primitive()["indices"] = f.accessor<float>({0, 1, 2}, FLOAT, "SCALAR", 1);
          }},
         {"mesh 0, primitive 0: mode is 9, not from 0 to 6", [](GltfFile& f) { f.primitive()["mode"] = 9; }},
-        {"at most",
+        {"4000000000 vertices without a bufferView; the limit is 16777216",
          [](GltfFile& f) {
              f.json["accessors"][0].erase("bufferView");
              f.json["accessors"][0]["count"] = 4000000000u;
@@ -120,7 +120,7 @@ TEST(GltfLoading, UrisStayInTheFolder) {
     }
 }
 
-// Every prefix of a binary file, and every file with one wrong byte in its lengths, results in a scene or an
+// Every prefix of a binary file, and every file with one wrong byte in its lengths, gives a scene or an
 // error.
 TEST(GltfLoading, TruncatedBinariesAreRefused) {
     const std::string whole = GltfFile::triangle().binary();
@@ -236,7 +236,7 @@ TEST(GltfLoading, OtherFilesAreRefusedInOneLine) {
 TEST(GltfLoading, OnlyWhatABufferNamesIsRead) {
     GltfFile f = GltfFile::triangle();
     f.written();
-    // A sparse file with 3 GiB behind the data: sixteen of them read whole would not fit in memory.
+    // A sparse file with 3 GiB after the data: sixteen of them would not fit in memory.
     std::filesystem::resize_file(testFolder() / "a buffer.bin", std::uint64_t(3) << 30);
     const Json buffer = f.json["buffers"][0];
     for (int i = 1; i < 16; ++i) f.json["buffers"].push_back(buffer);
@@ -246,7 +246,7 @@ TEST(GltfLoading, OnlyWhatABufferNamesIsRead) {
     std::filesystem::remove(testFolder() / "a buffer.bin");
 }
 
-// Two image files that together are slightly larger than the limit; the large one is a sparse file.
+// Two image files slightly larger than the limit together; the large one is a sparse file.
 TEST(GltfLoading, ImageFilesHaveALimitTogether) {
     GltfFile f = GltfFile::triangle();
     f.written();

@@ -38,7 +38,7 @@ TEST(GltfGeometry, EveryIndexType) {
     }
 }
 
-// glTF 2.0, 3.7.2.1: a strip flips every other triangle, a fan goes around vertex 0; all must face +Z.
+// glTF 2.0, 3.7.2.1: a strip flips every other triangle, a fan goes around vertex 0. All must face +Z.
 TEST(GltfGeometry, StripsAndFansBecomeTriangles) {
     for (const int mode : {5, 6}) {
         GltfFile f = GltfFile::triangle();
@@ -73,7 +73,8 @@ TEST(GltfGeometry, PointsLinesAndEmptyPrimitivesAreLeftOutWithANote) {
     EXPECT_EQ(worldBounds(scene, pose).radius(), 0);
 }
 
-// Colours in every type and width that glTF allows: (1, 0.2, 0) and, with four components, alpha 0.6.
+// Colours in every type and width that glTF allows: (1, 0.2, 0), with alpha 0.6 if there are four
+// components.
 TEST(GltfGeometry, VertexColorsOfEveryType) {
     for (const bool alpha : {false, true})
         for (const int type : {FLOAT, UBYTE, USHORT}) {
@@ -199,7 +200,7 @@ TEST(GltfGeometry, TangentsOfTheFileAreUsedOnlyWithItsNormals) {
         << "one without a direction is replaced";
 }
 
-// A textured surface without texture coordinates shows one texel and looks untextured.
+// A textured surface without texture coordinates shows a single texel and looks untextured.
 TEST(GltfGeometry, MissingTextureCoordinatesAreNoted) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXT_lights_image_based: the environment of a scene as pictures of a cube.
+// EXT_lights_image_based: a scene's environment as the images of a cube.
 #include "compare/reference/environment.h"
 #include "shared/image/png.h"
 #include "shared/scene/image/cube_map.h"
@@ -21,7 +21,7 @@ const std::array<glm::dvec3, 6> cubeAxes{
     {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 constexpr int cubeSide = 16;
 
-// Each face of a grey of its own, sRGB, under an alpha of a half: the radiance is twice the linear grey.
+// Each face has its own grey, sRGB, with alpha 0.5: the radiance is twice the linear grey.
 std::uint8_t greyOf(std::size_t face) {
     return static_cast<std::uint8_t>(40 + 35 * face);
 }
@@ -29,7 +29,7 @@ double radianceOfGrey(std::size_t face) {
     return std::pow((greyOf(face) / 255.0 + 0.055) / 1.055, 2.4) / (128 / 255.0);
 }
 
-// A triangle's file with a light of six pictures beside it.
+// The triangle's file with a light of six images beside it.
 GltfFile withCube(Json light = Json::object()) {
     GltfFile f = GltfFile::triangle();
     for (std::size_t face = 0; face < 6; ++face) {
@@ -67,8 +67,7 @@ TEST(GltfImageLight, HasAFaceInEachDirection) {
     EXPECT_FALSE(GltfFile::triangle().load().environment);
 }
 
-// A quarter turn about +Y, counter-clockwise seen from above, brings what was at +X to -Z, that to -X and so
-// on.
+// Rotation by 90 degrees around +Y, counter-clockwise seen from above: +X moves to -Z, -Z to -X and so on.
 TEST(GltfImageLight, IsRotated) {
     const Scene scene = withCube({{"rotation", {0, 2 * std::sqrt(0.5), 0, 2 * std::sqrt(0.5)}}}).load();
     for (const auto& [towards, face] : {std::pair{5, 0}, {1, 5}, {4, 1}, {0, 4}, {2, 2}, {3, 3}})
@@ -77,8 +76,7 @@ TEST(GltfImageLight, IsRotated) {
             << towards;
 }
 
-// The corners of each face as it is seen from within, in the file's axes: at its top left, top right and
-// bottom left.
+// Corners of each face seen from inside, in the file's axes: top left, top right, bottom left.
 const std::array<std::array<glm::dvec3, 3>, 6> cubeCorners{{{{{1, 1, -1}, {1, 1, 1}, {1, -1, -1}}},
                                                             {{{-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}}},
                                                             {{{1, 1, -1}, {-1, 1, -1}, {1, 1, 1}}},
@@ -86,9 +84,8 @@ const std::array<std::array<glm::dvec3, 3>, 6> cubeCorners{{{{{1, 1, -1}, {1, 1,
                                                             {{{1, 1, 1}, {-1, 1, 1}, {1, -1, 1}}},
                                                             {{{-1, 1, -1}, {1, 1, -1}, {-1, -1, -1}}}}};
 
-// Directions painted as colours are read again, on edges and at corners as well; a texel is 5.6 degrees,
-// within which they change by up to 1e-3 more than linearly, and by 0.05 where the nearest texel of the next
-// face serves.
+// Directions stored as colours are read back, also on edges and at corners. Within a texel of 5.6 degrees
+// they deviate from linear by up to 1e-3, and by 0.05 where the next face's nearest texel is used.
 TEST(CubeMap, EveryDirectionIsWhereItIsSeenFromWithin) {
     CubeMap cube{cubeSide};
     for (std::size_t face = 0; face < 6; ++face) {
@@ -118,7 +115,7 @@ TEST(CubeMap, EveryDirectionIsWhereItIsSeenFromWithin) {
     for (const auto& corners : cubeCorners)
         for (const glm::dvec3& corner : corners) tryOne(3.0 * corner);
     EXPECT_LT(worst, 0.05);
-    // A picture of all directions, each pixel a mean over itself.
+    // A latitude-longitude image; each pixel is a mean over its area.
     const Image image = latLongOf(cube, glm::dmat3(1));
     const Environment sky{"", image};
     const reference::EnvironmentLight light(sky, 1);

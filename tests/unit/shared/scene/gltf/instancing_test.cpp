@@ -26,7 +26,7 @@ TEST(GltfInstancing, TranslationRotationAndScaleOfEach) {
     InstancedFile f;
     f.json["nodes"][0]["translation"] = {0, 10, 0};
     f.translations({1, 0, 0, 0, 2, 0});
-    // None, and 90 degrees about +Z.
+    // No rotation, and 90 degrees around +Z.
     f.attributes()["ROTATION"] =
         f.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 23170, 23170}, SHORT, "VEC4", 4, true);
     f.attributes()["SCALE"] = f.accessor<float>({1, 1, 1, 3, 1, 1}, FLOAT, "VEC3", 3);
@@ -40,7 +40,7 @@ TEST(GltfInstancing, TranslationRotationAndScaleOfEach) {
         return glm::dvec3(pose.instances[i].world_from_object * glm::dvec4(1, 0, 0, 1));
     };
     EXPECT_EQ(at(0), glm::dvec3(2, 10, 0));
-    // Scaled to 3, turned to +Y, moved by 2, then by the node's 10.
+    // Scaled by 3, rotated to +Y, moved by 2, then by the node's 10.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(1)[c], glm::dvec3(0, 15, 0)[c], 1e-6);
     EXPECT_TRUE(scene.notes.empty()) << scene.notes[0];
     EXPECT_EQ(requirements(scene, pose).draws, 2u);
@@ -66,7 +66,7 @@ TEST(GltfInstancing, NodesAndTargetsMoveAll) {
         EXPECT_EQ(glm::dvec3(pose.instances[i].world_from_object[3]), places[i]);
         ASSERT_TRUE(pose.instances[i].deformed());
         const PosedBox& box = pose.boxes.at(static_cast<std::size_t>(pose.instances[i].box));
-        // Boxes have room for what float32 rounds: 1e-5 of their diagonal.
+        // Boxes have a margin for float32 rounding: 1e-5 of their diagonal.
         EXPECT_NEAR(box.origin.z + box.min.z, places[i].z + 0.5, 2e-5);
     }
     const Bounds bounds = worldBounds(scene, pose);
@@ -138,7 +138,7 @@ TEST(GltfInstancing, FaultyAttributesAreErrors) {
     EXPECT_NE(absent.error().find("TRANSLATION"), std::string::npos) << absent.error();
 }
 
-// A few bytes of JSON that ask for 2^24 instances: refused, by number, before any is made.
+// A few bytes of JSON that request 2^24 instances: refused by their number before any is created.
 TEST(GltfInstancing, AsManyAsTheFileHasBytesFor) {
     InstancedFile f;
     f.json["accessors"].push_back({{"componentType", FLOAT}, {"count", 1 << 24}, {"type", "VEC3"}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lightmaps in the extras of materials.
+// Lightmaps in materials' extras.
 #include "shared/image/exr.h"
 #include "tests/support/gltf_material_builder.h"
 
@@ -73,7 +73,7 @@ TEST(GltfLightmap, TheLargestValueIsThatOfAnyColour) {
     }
 }
 
-// A float picture beside the glTF: two pixels, one of which has a negative component.
+// A float image beside the glTF: two pixels, one with a negative component.
 TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     Image light(2, 1, 3, 0.25f);
     light.at(0, 0, 1) = 40;

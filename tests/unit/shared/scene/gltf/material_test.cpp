@@ -89,7 +89,7 @@ TEST(GltfMaterial, WhatIsDrawnOtherwiseIsNoted) {
     EXPECT_TRUE(mentions(scene.notes, "KHR_materials_clearcoat"));
 }
 
-// Base colour, alpha and sides are kept; the rest is ignored, and its images are not even opened.
+// Base colour, alpha and sidedness are kept; the rest is ignored, and its images are not even opened.
 TEST(GltfMaterial, UnlitKeepsBaseColourAlphaAndSidesAlone) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["material"] = 0;
@@ -154,7 +154,7 @@ TEST(GltfMaterial, AnEmptyMaterialIsTheDefault) {
     }
 }
 
-// Numbers outside the range that glTF allows are clamped, with a note.
+// Numbers outside glTF's range are clamped, with a note.
 TEST(GltfMaterial, FactorsOutsideTheirRangeAreNoted) {
     struct Case {
         Json material;
@@ -257,7 +257,7 @@ TEST(GltfMaterial, EmissionBeyondAnyFloatIsRefused) {
     EXPECT_TRUE(f.error().ends_with(": material 0: emits 1e+39, more than a float can store")) << f.error();
 }
 
-// Thin surfaces: the factor is read, and once a scene it is said what is not modelled.
+// Thin surfaces: the factor is read, and one note per scene names the parts that are not modelled.
 TEST(GltfMaterial, TransmissionIsReadAndWhatIsNotModelledIsSaid) {
     const Json transmits = {{"KHR_materials_transmission",
                              {{"transmissionFactor", 0.75}, {"transmissionTexture", {{"index", 0}}}}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Morph targets of texture coordinates and colours, and what targets make of tangents.
+// Morph targets of texture coordinates and colours, and their effect on tangents.
 #include "tests/support/gltf_builder.h"
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct MorphFile : GltfFile {
     }
     Json& target() { return primitive()["targets"][0]; }
     MorphTarget loaded() { return only(load()).targets.at(0); }
-    // A material with a normal texture of that UV set.
+    // A material with a normal texture that uses this UV set.
     void addNormalMap(int texcoord = 0) {
         json["images"] = {{{"uri", twoPixels}}};
         json["textures"] = {{{"source", 0}}};
@@ -52,7 +52,7 @@ TEST(GltfMorph, ColorsWithoutAlphaLeaveItAsItIs) {
     f.target()["COLOR_0"] = f.accessor<float>({-1, 0, 0, 0, 0.5f, 0, 0, 0, 1}, FLOAT, "VEC3", 3);
     EXPECT_EQ(f.loaded().colors, (std::vector<glm::vec4>{{-1, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 1, 0}}));
     f = {};
-    // A row of 8 bit elements is 4 bytes long.
+    // A row of 8-bit elements is 4 bytes long.
     f.target()["COLOR_0"] =
         f.accessor<std::uint8_t>({255, 0, 0, 51, 0, 0, 0, 0, 0, 0, 0, 255}, UBYTE, "VEC4", 4, true);
     EXPECT_EQ(f.loaded().colors, (std::vector<glm::vec4>{{1, 0, 0, 0.2f}, {0, 0, 0, 0}, {0, 0, 0, 1}}));
@@ -84,7 +84,7 @@ TEST(GltfMorph, SparseDeltasAreReadWhereTheyAre) {
     EXPECT_EQ(target.colors, (std::vector<glm::vec4>{{0, 0, 0, 0}, {0, 0, 0, 0}, {1, 2, 3, 0}}));
 }
 
-// glTF 2.0, 3.7.2.2: a target's attributes are attributes of the mesh.
+// glTF 2.0, 3.7.2.2: a target's attributes must be attributes of the mesh.
 TEST(GltfMorph, DeltasToNothingAreLeftOutWithANote) {
     for (const char* name : {"TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "NORMAL", "TEXCOORD_2"}) {
         MorphFile f;
@@ -114,7 +114,7 @@ TEST(GltfMorph, DeltasThatAreNotFiniteAreZeroWithANote) {
     EXPECT_TRUE(mentions(scene.notes, "target 0: COLOR_0: 1 is not finite: 0"));
 }
 
-// Vertices that are split, for flat normals or tangents, keep all their deltas.
+// Vertices split for flat normals or tangents keep all their deltas.
 TEST(GltfMorph, DeltasFollowTheirVertices) {
     MorphFile f;
     f.primitive()["attributes"].erase("NORMAL");

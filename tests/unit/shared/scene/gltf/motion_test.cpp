@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The triangle with two morph targets: one of positions, one of normals and of sparse positions without a
+// The triangle with two morph targets: one of positions; one of normals and sparse positions without a
 // bufferView.
 struct MorphedFile : GltfFile {
     MorphedFile() : GltfFile(triangle()) {
@@ -73,7 +73,7 @@ TEST(GltfMotion, MorphTargetsHaveTheirDeltas) {
     EXPECT_EQ(p.positions[1], glm::vec3(1, 0, 0)) << "as they are without them";
 }
 
-// A corner that gets a vertex of its own for its flat normal keeps its morph deltas.
+// A corner that gets its own vertex for its flat normal keeps its morph deltas.
 TEST(GltfMotion, DeltasFollowTheirVertices) {
     MorphedFile f;
     f.primitive()["attributes"].erase("NORMAL");
@@ -144,7 +144,7 @@ TEST(GltfMotion, AnimationsOfEveryPartAndInterpolation) {
     EXPECT_EQ(keys(0).values, (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
     EXPECT_EQ(keys(1).interpolation, Interpolation::step);
     EXPECT_EQ(keys(1).width, 4u);
-    // 32767 is 1, -32768 counts as -1, and rotations are unit: (1, 0, 0, -1) / sqrt 2.
+    // 32767 is 1, -32768 counts as -1, and rotations are normalized: (1, 0, 0, -1) / sqrt 2.
     EXPECT_EQ(keys(1).values[3], 1);
     EXPECT_FLOAT_EQ(keys(1).values[8], std::sqrt(0.5f));
     EXPECT_FLOAT_EQ(keys(1).values[11], -std::sqrt(0.5f));
@@ -183,7 +183,7 @@ TEST(GltfMotion, WhatMovesNothingOfTheSceneIsIgnored) {
     f.json["nodes"].push_back({{"name", "elsewhere"}});
     f.json["animations"][0]["channels"][0]["target"]["node"] = 1;  // a node of no scene
     EXPECT_TRUE(f.load().animations.empty());
-    // A target without node is defined by extensions (glTF 2.0, 5.6).
+    // A target without a node is defined by extensions (glTF 2.0, 5.6).
     f.json["animations"][0]["channels"][0]["target"].erase("node");
     const Scene scene = f.load();
     EXPECT_TRUE(scene.animations.empty());
@@ -199,7 +199,7 @@ TEST(GltfMotion, KeysAtOneTimeAreReadAndNoted) {
         mentions(scene.notes, "animation 0: channel 0: several keys at one time: the last one is used"));
 }
 
-// Animations are not essential: a faulty channel is left out with a note on its fault.
+// Animations are optional: a faulty channel is skipped with a note on its fault.
 TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
     struct Case {
         const char* fault;

@@ -12,7 +12,7 @@
 using namespace diptych;
 using Json = nlohmann::json;
 
-// A child before its parent in the list, TRS and matrix; nodes that no scene reaches are not drawn.
+// A child before its parent in the list, TRS and matrix. Nodes outside the scene are not drawn.
 TEST(GltfNode, NodesAreChainedInAnyOrder) {
     GltfFile f = GltfFile::triangle();
     const double s = std::sqrt(0.5);
@@ -91,7 +91,7 @@ TEST(GltfNode, LightsOfEveryKindDirectionalFirst) {
     EXPECT_TRUE(std::isinf(point.range));
 }
 
-// Bit for bit at the node's origin, along its -Z, though lights of extras may have a position of their own.
+// Bit for bit at the node's origin, along its -Z, although lights in extras may have their own position.
 TEST(GltfNode, LightsStandAtTheOriginOfTheirNode) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-100, 100);
@@ -132,7 +132,7 @@ TEST(GltfNode, Cameras) {
     EXPECT_EQ(pose.cameras[1].far, 9);
 }
 
-// What the specification forbids is repaired if the intention is clear; otherwise the camera is left out.
+// Invalid values are repaired if the intention is clear; otherwise the camera is skipped.
 TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
     constexpr double none = std::numeric_limits<double>::infinity();
     struct Case {
@@ -205,8 +205,8 @@ TEST(GltfNode, LightsThatCannotBeAreRepaired) {
          "light 0: intensity -3: 0 is used",
          [](const Light& l) { return l.intensity; },
          0},
-        {{{"range", 0}}, "light 0: range 0: no range is used", range, none},
-        {{{"range", -2}}, "light 0: range -2: no range is used", range, none},
+        {{{"range", 0}}, "light 0: range 0: ignored", range, none},
+        {{{"range", -2}}, "light 0: range -2: ignored", range, none},
         {cone(0.5, 0.25), "light 0: innerConeAngle 0.5: 0.25 is used", inner, 0.25f},
         {cone(-1, 0.25), "light 0: innerConeAngle -1: 0 is used", inner, 0},
         {cone(0.25, 3), "light 0: outerConeAngle 3: 1.5708 is used", outer, right},
@@ -239,8 +239,8 @@ TEST(GltfNode, TransformsThatCannotBeAreNoted) {
     EXPECT_EQ(scene.nodes[0].parent_from_node, glm::dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 7, 8, 9, 1));
 }
 
-// Products of float32 matrices may end in 0 0 0 0.99999994, and a spot without a penumbra has two equal
-// angles: both are accepted.
+// Products of float32 matrices may end in 0 0 0 0.99999994, and a spot light without a penumbra has two
+// equal angles. Both are accepted.
 TEST(GltfNode, RoundedMatricesAndHardSpotsAreRight) {
     GltfFile f = GltfFile::triangle();
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Deviations from the specification that are common in real files: the scene is drawn, with a note.
+// Common deviations from the specification in real files: the scene is drawn, with a note.
 #include "shared/scene/motion/pose.h"
 #include "tests/support/gltf_builder.h"
 
@@ -17,7 +17,7 @@ using Lines = std::vector<std::string>;
 
 const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-// Loads the file with its buffers' uris unchanged.
+// Loads the file with unchanged buffer URIs.
 Scene loadAsIs(const GltfFile& f) {
     std::ofstream(testFolder() / "as_is.gltf") << f.json.dump();
     return loadScene((testFolder() / "as_is.gltf").string());
@@ -39,7 +39,7 @@ void write(const std::string& name, const std::string& bytes) {
 
 }  // namespace
 
-// ---- what nothing draws ------------------------------------------------------------------------------
+// ---- undrawn parts -----------------------------------------------------------------------------------
 
 TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
     struct Case {
@@ -165,11 +165,10 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
     }
 }
 
-// A mesh or a primitive with a fault is left out where something else is drawn, and refused where it is all
-// there is.
+// A faulty mesh or primitive is skipped if something else is drawn, otherwise the file is refused.
 TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
     struct Case {
-        const char* line;  // the fault; of mesh 1
+        const char* line;  // the fault, in mesh 1
         const char* note;
         std::function<void(GltfFile&, Json& mesh)> change;
     };
@@ -218,7 +217,7 @@ TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
         c.change(f, mesh);
         f.json["meshes"][1] = mesh;
         const std::string buffers = f.json["buffers"].dump();
-        f.written();  // with what the change has added
+        f.written();  // including the change's additions
         if (f.json["buffers"].size() != Json::parse(buffers).size())
             f.json["buffers"].push_back(Json::parse(buffers)[1]);
         const Scene scene = loadAsIs(f);
@@ -237,7 +236,7 @@ TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
     EXPECT_EQ(scene.notes,
               Lines{"mesh 0, primitive 0: index 2 of its indices is 7, past its 3 vertices: left out"});
     EXPECT_EQ(f.only(scene).positions, corners);
-    // A node's own weights of a mesh that is left out are no fault of their own.
+    // Weights of a node whose mesh is skipped are not another fault.
     GltfFile w = GltfFile::triangle();
     w.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 7}}}}}}});
     w.json["nodes"].push_back({{"mesh", 1}, {"weights", {1}}});
@@ -245,7 +244,8 @@ TEST(GltfRepair, AFaultyMeshIsLeftOutBesideOthers) {
     EXPECT_EQ(w.error(), "");
 }
 
-// What depends on a broken part is broken as well: an animation over a broken accessor over a broken view.
+// Parts that depend on a broken part are broken, too: an animation over a broken accessor over a broken
+// view.
 TEST(GltfRepair, WhatNeedsABrokenThingIsLeftOutWithIt) {
     GltfFile f = GltfFile::triangle();
     const int times = f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
@@ -332,7 +332,7 @@ TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
         {{"samplers", Json::array()},
          {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}, {"extensions", with("EXT_f")}}}}}}}};
     f.json["asset"]["extensions"] = with("EXT_g");
-    // An extension that is read, but not in a node.
+    // A supported extension that does not belong in a node.
     f.json["nodes"][0]["extensions"] = with("KHR_texture_transform");
     Lines expected;
     for (const char letter : std::string("abcdefg"))
@@ -354,7 +354,7 @@ TEST(GltfRepair, NewerVersionsAreRefusedByName) {
     }
 }
 
-// ---- where bytes lie ---------------------------------------------------------------------------------
+// ---- bytes in buffers --------------------------------------------------------------------------------
 
 TEST(GltfRepair, Strides) {
     GltfFile f = GltfFile::triangle();
@@ -408,7 +408,8 @@ TEST(GltfRepair, FallbackBuffersMayBeMissing) {
     }
 }
 
-// Indices of 6 bytes, padded to 8 at the end of the buffer: the padding is counted, and not written.
+// Indices of 6 bytes, padded to 8 at the buffer's end: byteLength counts the padding, but the file lacks
+// it.
 TEST(GltfRepair, PaddingThatIsNotThereIsNotNeeded) {
     GltfFile f = GltfFile::triangle();
     f.primitive()["indices"] = f.accessor<std::uint16_t>({2, 1, 0}, USHORT, "SCALAR", 1);
@@ -425,17 +426,17 @@ TEST(GltfRepair, PaddingThatIsNotThereIsNotNeeded) {
     EXPECT_EQ(scene.notes,
               Lines{"buffer 0: has 42 of the 44 bytes in its byteLength: the scene does not use the rest"});
     EXPECT_EQ(f.only(scene).positions, turned);
-    // A byte that is drawn is needed.
+    // Bytes that are drawn must exist.
     write("a buffer.bin", f.data.substr(0, 41));
     EXPECT_EQ(errorAsIs(f), "buffer 0: has 41 of the 44 bytes in its byteLength");
     f.json["buffers"][0]["byteLength"] = 41;
     EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes at offset 36 end past buffer 0 (41 bytes)");
-    // None of a view's is there.
+    // All bytes of a view are missing.
     f.json["bufferViews"][1]["byteOffset"] = 41;
     EXPECT_EQ(errorAsIs(f), "bufferView 1: 8 bytes at offset 41 end past buffer 0 (41 bytes)");
 }
 
-// An empty view of an empty buffer is valid and empty.
+// An empty view of an empty buffer is valid.
 TEST(GltfRepair, EmptyBuffersAreNobodysFault) {
     GltfFile f = GltfFile::triangle();
     f.written();
@@ -479,14 +480,14 @@ TEST(GltfRepair, UrisOfEveryKindOfWriter) {
         EXPECT_EQ(f.only(scene).positions, corners) << uri;
         EXPECT_EQ(scene.notes, note.empty() ? Lines{} : Lines{note}) << uri;
     }
-    // +, / and = percent-encoded: the three bytes 0xfb 0xef 0xff are "++//", the byte 0xfb alone is "+w==".
+    // +, / and = percent-encoded: the bytes 0xfb 0xef 0xff are "++//", the byte 0xfb alone is "+w==".
     f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "data:;base64,%2B%2b%2F%2f%2Bw%3D%3D"}});
     EXPECT_EQ(loadAsIs(f).notes.size(), 1u) << "only that of buffer 0";
     f.json["buffers"][1]["byteLength"] = 5;
     EXPECT_TRUE(mentions(loadAsIs(f).notes, "buffer 1: has 4 of the 5 bytes in its byteLength"));
 }
 
-// No way of writing a path leads out of the folder.
+// No spelling of a path leads out of the folder.
 TEST(GltfRepair, OddUrisStayInTheFolder) {
     GltfFile f = GltfFile::triangle();
     f.written();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Quaternions of any length turn as their direction says: of nodes, of nodes that something else moves, of
-// keys of every interpolation and component type. Exporters write float32 that is not quite unit, and
-// normalised integers.
+// Quaternions of any length rotate by their direction: of nodes, of animated nodes, and of keys of every
+// interpolation and component type. Exporters write normalized integers, and float32 that is not exactly
+// unit length.
 #include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/pose.h"
 #include "tests/support/gltf_builder.h"
@@ -21,7 +21,7 @@ constexpr double degrees = std::numbers::pi / 180;
 constexpr std::array lengths{1e-3, 0.5, 0.999, 1.0, 1.001, 2.0, 300.0};
 const glm::dvec3 axis = glm::normalize(glm::dvec3(1, -2, 0.5));
 
-// Rodrigues' formula: v turned about `axis`.
+// Rodrigues' formula: v rotated around `axis`.
 glm::dvec3 turned(const glm::dvec3& v, double angle) {
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
            axis * (glm::dot(axis, v) * (1 - std::cos(angle)));
@@ -32,7 +32,7 @@ std::array<double, 4> xyzw(double angle, double length) {
     return {axis.x * s, axis.y * s, axis.z * s, std::cos(angle / 2) * length};
 }
 
-// The columns of the instance's matrix are the turned axes, without any scale.
+// The columns of the instance's matrix are the rotated axes, without scale.
 void expectTurned(const Scene& scene, double seconds, double angle, double bound, const std::string& what) {
     const glm::dmat4 m = poseAt(scene, seconds).instances.at(0).world_from_object;
     for (int column = 0; column < 3; ++column) {
@@ -52,7 +52,7 @@ TEST(GltfRotation, OfANodeIsMadeUnit) {
         }
 }
 
-// A node whose place alone is animated keeps its rotation in parts.
+// A node with an animated translation keeps its rotation as a separate part.
 TEST(GltfRotation, OfANodeThatMovesIsMadeUnit) {
     for (const double length : lengths) {
         GltfFile f = GltfFile::triangle();
@@ -68,8 +68,8 @@ TEST(GltfRotation, OfANodeThatMovesIsMadeUnit) {
     }
 }
 
-// Keys of 20 and 80 degrees, one shorter and one longer than unit. Halfway: 50 degrees, whatever the lengths;
-// but a spline of values that are not alike in length would turn otherwise, so that its keys have one.
+// Keys of 20 and 80 degrees, one shorter and one longer than unit length. Halfway it is 50 degrees at any
+// length. A spline depends on the lengths, so its keys have the same length.
 TEST(GltfRotation, OfKeysIsMadeUnit) {
     for (const double length : lengths)
         for (const std::string interpolation : {"STEP", "LINEAR", "CUBICSPLINE"}) {
@@ -88,14 +88,14 @@ TEST(GltfRotation, OfKeysIsMadeUnit) {
                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
             const Scene scene = f.load();
             const std::string what = fmt::format("{}, length {}", interpolation, length);
-            // What the loader keeps of keys between which nothing is added up is unit already.
+            // The loader normalizes keys, except those of splines.
             const std::vector<float>& stored = scene.animations.at(0).keyframes.at(0).values;
             for (std::size_t i = 0; i + 3 < stored.size() && !cubic; i += 4)
                 EXPECT_NEAR(std::hypot(std::hypot(stored[i], stored[i + 1]),
                                        std::hypot(stored[i + 2], stored[i + 3])),
                             1, 2e-7)
                     << what;
-            // The keys are float32: half of a quaternion's rounding is that of the angle.
+            // The keys are float32: the angle's rounding is twice a quaternion's.
             constexpr double rounding = 5e-7;
             expectTurned(scene, 0, 20 * degrees, rounding, what);
             expectTurned(scene, 0.5, (interpolation == "STEP" ? 20 : 50) * degrees, rounding, what);
@@ -104,7 +104,7 @@ TEST(GltfRotation, OfKeysIsMadeUnit) {
         }
 }
 
-// Sampling does not rely on the loader: two keys of different lengths turn evenly, too.
+// Sampling does not rely on the loader: two keys of different lengths also rotate evenly.
 TEST(GltfRotation, SamplingMakesKeysUnit) {
     for (const double length : lengths) {
         Keyframes keys{Interpolation::linear, {0, 1}, {}, 4};
@@ -118,7 +118,7 @@ TEST(GltfRotation, SamplingMakesKeysUnit) {
     }
 }
 
-// Of signed bytes a component is off by up to 1/254, so that hardly any such quaternion is unit.
+// Components in signed bytes are off by up to 1/254, so hardly any such quaternion has unit length.
 TEST(GltfRotation, OfNormalisedIntegersIsMadeUnit) {
     std::vector<std::int8_t> bytes;
     for (const double q : xyzw(70 * degrees, 1))
@@ -139,7 +139,7 @@ TEST(GltfRotation, OfNormalisedIntegersIsMadeUnit) {
         for (int b = 0; b < 3; ++b) EXPECT_NEAR(glm::dot(m[a], m[b]), a == b, 1e-14) << "orthonormal";
 }
 
-// Lights and cameras stand in turned nodes too.
+// Lights and cameras may be in rotated nodes, too.
 TEST(GltfRotation, LightsAndCamerasAreTurnedAlike) {
     for (const double length : lengths) {
         GltfFile f = GltfFile::triangle();

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The triangle of GltfFile, moved by a skin of two joints, nodes 1 and 2; node 0 draws it.
+// GltfFile's triangle with a skin of two joints, nodes 1 and 2; node 0 draws it.
 struct SkinnedFile : GltfFile {
     SkinnedFile() : GltfFile(triangle()) {
         json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
@@ -30,7 +30,7 @@ struct SkinnedFile : GltfFile {
     void setWeights(const std::vector<float>& weights) {
         primitive()["attributes"]["WEIGHTS_0"] = accessor(weights, FLOAT, "VEC4", 4);
     }
-    // Sets both joints' inverse bind matrices, to translations.
+    // Sets both joints' inverse bind matrices to translations.
     void setInverseBinds(const glm::vec3& first, const glm::vec3& second) {
         std::vector<float> values;
         for (const glm::vec3& t : {first, second})
@@ -55,27 +55,27 @@ TEST(GltfSkin, SkinsJointsAndWeights) {
     EXPECT_EQ(skin.joint_from_mesh[1][3], glm::vec4(0, -6, 0, 1));
     EXPECT_EQ(scene.nodes[0].skin, 0);
     EXPECT_EQ(scene.nodes[1].skin, -1);
-    // With flat normals every corner has a vertex of its own, here in the file's order.
+    // With flat normals every corner has its own vertex, here in the file's order.
     const JointSet& set = f.only(scene).joint_sets.at(0);
     ASSERT_EQ(set.joints.size(), 3u);
     EXPECT_EQ(set.joints[1], glm::u16vec4(1, 0, 0, 0));
     EXPECT_EQ(set.weights[2], glm::vec4(0.25f, 0.75f, 0, 0));
 }
 
-// The node's own translation by 100 has no effect: vertices are where joint 0 (y = 5) and its inverse bind
-// matrix (y - 4) put them.
+// The node's own translation by 100 has no effect: joint 0 (y = 5) and its inverse bind matrix (y - 4)
+// place the vertices.
 TEST(GltfSkin, SkinnedMeshesStandInBindPose) {
     SkinnedFile f;
     f.setInverseBinds({0, -4, 0}, {0, -5, 0});
     const Scene scene = f.load();
     EXPECT_EQ(poseAt(scene, 0).instances.at(0).world_from_object[3], glm::dvec4(0, 1, 0, 1));
-    // A joint of scale 0 in y: the node's own transform is used instead.
+    // A joint with scale 0 in y: the node's own transform is used instead.
     f.json["nodes"][1]["scale"] = {1, 0, 1};
     const Scene flat = f.load();
     EXPECT_EQ(poseAt(flat, 0).instances.at(0).world_from_object[3], glm::dvec4(100, 0, 0, 1));
 }
 
-// A real model: made with +Z up, it stands upright only through its joints. The extent is from the assets'
+// A real model: modelled with +Z up, only its joints make it stand upright. The extent is from the assets'
 // own table.
 TEST(GltfSkin, CesiumManStandsOnItsFeet) {
     const auto file =
@@ -84,7 +84,7 @@ TEST(GltfSkin, CesiumManStandsOnItsFeet) {
     const Scene scene = loadScene(file.string());
     EXPECT_EQ(scene.skins.at(0).joints.size(), 19u);
     EXPECT_EQ(scene.animations.at(0).channels.size(), 57u) << "three parts of 19 joints";
-    // In bind pose, not at the first key of its animation.
+    // In bind pose, not at the animation's first key.
     Scene resting = scene;
     resting.animations.clear();
     Pose bind = poseAt(resting, 0);
@@ -103,8 +103,8 @@ TEST(GltfSkin, WithoutInverseBindMatricesTheyAreTheIdentity) {
         << "that of the second joint, with 1.75 of 3 shares";
 }
 
-// Weights 64, 191, 0 add up to 255 and are 64/255 and 191/255 as normalized bytes; the floats 1 and 3 are
-// normalised to a quarter and three quarters.
+// Weights 64, 191, 0 add up to 255 and are 64/255 and 191/255 as normalized bytes. The floats 1 and 3 are
+// normalized to 1/4 and 3/4.
 TEST(GltfSkin, WeightsAddUpToOneWhateverTheirType) {
     SkinnedFile f;
     f.setWeights({1, 3, 0, 0, 2, 0, 0, 0, 0, 0, 0, 5});
@@ -144,7 +144,7 @@ TEST(GltfSkin, EightInfluencesAreTwoSets) {
     EXPECT_EQ(p.joint_sets[1].weights[1].w, 0.75f);
 }
 
-// A sum that differs from 1 by no more than rounding to 8 bits gets no note.
+// A sum that differs from 1 only by rounding to 8 bits gets no note.
 TEST(GltfSkin, WeightsThatDoNotAddUpAreNoted) {
     SkinnedFile f;
     f.setWeights({0.25f, 0.75f, 0, 0, 0.25f, 0.744f, 0, 0, 1, 3, 0, 0});
@@ -163,7 +163,8 @@ TEST(GltfSkin, WeightsOfNothingGoToTheFirstJointWithANote) {
     EXPECT_EQ(set.joints[1].x, 1) << "the first that the vertex names";
     EXPECT_EQ(set.weights[2], glm::vec4(0, 1, 0, 0));
     EXPECT_TRUE(mentions(scene.notes, "2 joint weights are negative or not finite: 0 is used"));
-    EXPECT_TRUE(mentions(scene.notes, "without a joint weight: 2 vertices"));
+    EXPECT_TRUE(
+        mentions(scene.notes, "2 vertices without a joint weight: the first joint that each names is used"));
 }
 
 TEST(GltfSkin, SkinsThatCannotBeAreRefusedInOneLine) {
@@ -215,7 +216,7 @@ TEST(GltfSkin, FaultsOfWhatMovesNothingAreNoFaults) {
     EXPECT_TRUE(mentions(f.load().notes, "node 0: has a skin, but its mesh has no JOINTS_0"));
 }
 
-// Two nodes draw one mesh, each with a skin of its own: each is where its own joints are.
+// Two nodes draw one mesh, each with its own skin.
 TEST(GltfSkin, AMeshMayHaveTwoSkins) {
     SkinnedFile f;
     f.json["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
@@ -228,7 +229,7 @@ TEST(GltfSkin, AMeshMayHaveTwoSkins) {
     const Pose pose = poseAt(scene, 0);
     ASSERT_EQ(pose.instances.size(), 2u);
     EXPECT_NE(pose.instances[0].skin, pose.instances[1].skin);
-    // Vertex 2, (0, 1, 0): a quarter of the first joint and three of the second.
+    // Vertex 2, (0, 1, 0): a quarter of the first joint and three quarters of the second.
     const std::vector<glm::dvec3> first = posedPositions(scene, pose, pose.instances[0]),
                                   second = posedPositions(scene, pose, pose.instances[1]);
     EXPECT_NEAR(first.at(2).y, 1 + 0.25 * 5 + 0.75 * 6, 1e-12);
@@ -237,7 +238,7 @@ TEST(GltfSkin, AMeshMayHaveTwoSkins) {
     EXPECT_NEAR(second[2].y, 1, 1e-12);
 }
 
-// As many joints as an index of 16 bits counts, without inverse bind matrices: joint j is j * 1 mm up.
+// As many joints as a 16-bit index can count, without inverse bind matrices: joint j is j * 1 mm up.
 TEST(GltfSkin, SixtyFiveThousandJoints) {
     constexpr std::size_t count = 65535;
     SkinnedFile f;

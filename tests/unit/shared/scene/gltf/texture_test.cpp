@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures that materials read: slots, samplers, transforms, images.
+// Textures of materials: slots, samplers, transforms, images.
 #include "shared/image/limits.h"
 #include "tests/support/gltf_material_builder.h"
 
@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The seven slots: the name of each in a file, and its member in Material.
+// The seven slots: each with its name in a file and its member in Material.
 struct SlotCase {
     const char* name;
     Json (*material)(Json info);
@@ -126,7 +126,7 @@ TEST(GltfTexture, EverySamplerMode) {
         {10497, Wrap::repeat}, {33648, Wrap::mirrored_repeat}, {33071, Wrap::clamp_to_edge}};
     const std::pair<int, bool> magnify[] = {{9728, false}, {9729, true}};
     const std::pair<int, std::array<bool, 3>> minify[] = {
-        // linear, mipmaps, linear between them
+        // linear filter, mipmaps, linear between mip levels
         {9728, {false, false, false}}, {9729, {true, false, false}}, {9984, {false, true, false}},
         {9985, {true, true, false}},   {9986, {false, true, true}},  {9987, {true, true, true}}};
     GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
@@ -201,7 +201,7 @@ TEST(GltfTexture, ImagesInBufferViewsAreChecked) {
     f.json["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
     f.json["textures"] = {{{"source", 0}}};
     f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
-    EXPECT_NE(f.error().find("image 0: is neither"), std::string::npos) << f.error();
+    EXPECT_NE(f.error().find("image 0: is not PNG or JPEG"), std::string::npos) << f.error();
     f.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 30}, {"byteLength", 4000}});
     f.json["images"][0]["bufferView"] = 1;
     EXPECT_NE(f.error().find("bufferView 1: 4000 bytes at offset 30 end past buffer 0 (36 bytes)"),
@@ -219,7 +219,7 @@ TEST(GltfTexture, BasisuAndWebpAreRefusedByNameWhereRequired) {
     }
 }
 
-// Where such an extension is optional, a PNG or JPEG is the fallback; a texture without fallback makes its
+// If such an extension is optional, a PNG or JPEG is the fallback. A texture without a fallback makes its
 // material undrawable.
 TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
     for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
@@ -245,10 +245,10 @@ TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
                          "material 0: emissiveTexture: texture 0 has no PNG or JPEG image: left out"));
 }
 
-// Each image is far below the limit, but all together exceed it.
+// Each image is far below the limit, but together they exceed it.
 TEST(GltfTexture, AllImagesTogetherHaveALimit) {
     GltfFile f = withMaterial(Json::object(), 0);
-    // A JPEG whose header claims 16384 x 16384 pixels of one component, 1 GiB decoded; zeros make the file
+    // A JPEG whose header claims 16384 x 16384 pixels of one component, 1 GiB decoded. Zeros make the file
     // long enough.
     std::vector<std::uint8_t> jpeg{0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 0x40, 0, 0x40, 0,  1, 1,
                                    0x11, 0,    0xff, 0xda, 0, 8,  1, 1,    0, 0,    63, 0};

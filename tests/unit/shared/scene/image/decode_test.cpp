@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of every kind that glTF may use, written by libpng and libjpeg, are decoded to the stored numbers.
+// Images of every type that glTF may use, written by libpng and libjpeg, decode to the stored numbers.
 #include "shared/scene/image/decode.h"
 #include "shared/image/picture_file.h"
 #include "tests/support/errors.h"
@@ -25,7 +25,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// A PNG of 2 x 2 pixels: `rows` as the file stores them, 16 bits big-endian.
+// A PNG of 2 x 2 pixels; `rows` as the file stores them, 16 bits big-endian.
 struct PngBuilder {
     int depth = 8, color = PNG_COLOR_TYPE_RGBA;
     std::vector<Bytes> rows;
@@ -57,7 +57,7 @@ struct PngBuilder {
     }
 };
 
-// A JPEG of 16 x 16 pixels of one colour, of which `components` are stored in `space`.
+// A JPEG of 16 x 16 pixels of one colour, stored in the colour space `space`.
 Bytes jpeg(J_COLOR_SPACE in, J_COLOR_SPACE space, std::vector<unsigned char> color, bool progressive = false,
            bool adobe = true, std::span<const jpeg_scan_info> scans = {}) {
     jpeg_compress_struct c{};
@@ -170,7 +170,7 @@ TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
     expectRgba(build(1, {{0x40}, {0x80}}, true), {1, 2, 3, 7, 40, 50, 60, 8, 40, 50, 60, 8, 1, 2, 3, 7});
 }
 
-// tRNS of grey and colour images makes one value transparent; 16 bit values must match in all bits.
+// tRNS of grey and colour images makes one value transparent; 16-bit values must match in all bits.
 TEST(ImageDecode, OneTransparentColour) {
     const auto transparent = [](int grey, int red, int green, int blue) {
         return [=](png_structp png, png_infop info) {
@@ -222,7 +222,8 @@ TEST(ImageDecode, InterlacedImagesAreWhole) {
     EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12) + 1], 10);
 }
 
-// glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are skipped.
+// glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are
+// skipped.
 TEST(ImageDecode, AncillaryChunksChangeNothing) {
     PngBuilder plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
     const Bytes expected = decodeImage(plain.made()).rgba;
@@ -244,7 +245,7 @@ TEST(ImageDecode, AncillaryChunksChangeNothing) {
 
 // ---- JPEG --------------------------------------------------------------------------------------------
 
-// Images of a single colour, so that only the rounding of the colour transform is lost.
+// Images of a single colour, so that only the colour transform rounds.
 TEST(ImageDecode, JpegsOfEveryColourSpace) {
     for (const bool progressive : {false, true}) {
         expectColor(jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, progressive), 77, 77, 77);
@@ -253,12 +254,12 @@ TEST(ImageDecode, JpegsOfEveryColourSpace) {
         // Adobe's files store inverted inks: cyan leaves 200 of 255, black leaves 128: 200 x 128 / 255.
         expectColor(jpeg(JCS_CMYK, JCS_CMYK, {200, 255, 0, 128}, progressive), 100, 128, 0);
         expectColor(jpeg(JCS_CMYK, JCS_YCCK, {200, 255, 0, 128}, progressive), 100, 128, 0, 2);
-        // Without Adobe's marker the numbers are the inks themselves.
+        // Without Adobe's marker the numbers are the inks.
         expectColor(jpeg(JCS_CMYK, JCS_CMYK, {55, 0, 255, 127}, progressive, false), 100, 128, 0);
     }
 }
 
-// ---- what is refused ---------------------------------------------------------------------------------
+// ---- refused files -----------------------------------------------------------------------------------
 
 TEST(ImageDecode, OtherFilesAreNeither) {
     EXPECT_EQ(failure({}), "is not PNG or JPEG");
@@ -283,14 +284,14 @@ TEST(ImageDecode, OtherFilesAreNeither) {
               "is AVIF; only PNG and JPEG are supported");
     EXPECT_EQ(named("DDS "), "is DDS; only PNG and JPEG are supported");
     for (std::size_t size = 0; size < 12;
-         ++size) {  // truncated signatures are unknown formats, longer ones are still named
+         ++size) {  // truncated signatures are unknown formats, longer files are named
         const std::string_view webp = "RIFF\x40\0\0\0WEBP"sv;
         EXPECT_EQ(failure(Bytes(webp.begin(), webp.begin() + static_cast<std::ptrdiff_t>(size))),
                   "is not PNG or JPEG");
     }
 }
 
-// A file truncated anywhere results in a one-line error, and nothing is printed.
+// A file truncated anywhere gives a one-line error, and nothing is printed.
 TEST(ImageDecode, EveryTruncationIsRefused) {
     const Bytes files[] = {
         PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
@@ -312,7 +313,7 @@ TEST(ImageDecode, EveryTruncationIsRefused) {
               "does not decode: Premature end of JPEG file");
 }
 
-// A file with any byte changed results in a picture of the size in its header, or in a one-line error.
+// A file with any byte changed gives an image of the header's size, or a one-line error.
 TEST(ImageDecode, AnyByteMayBeWrong) {
     const Bytes files[] = {
         PngBuilder{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
@@ -336,7 +337,7 @@ TEST(ImageDecode, AnyByteMayBeWrong) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// Sizes are checked before anything is allocated.
+// Sizes are checked before allocation.
 TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
     const auto sized = [](Bytes file, std::size_t at, std::vector<unsigned char> size) {
         std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
@@ -358,8 +359,8 @@ TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
               "claims 16384 x 16384 pixels, too many for its " + std::to_string(huge.size()) + " bytes");
 }
 
-// A few bytes make a scan that visits all pixels. These scans change nothing and break no rule; in an image
-// of up to a megapixel 4096 of them are accepted.
+// A few bytes make a scan that visits all pixels. These scans change nothing and are valid. An image of up
+// to a megapixel may have 4096 of them.
 TEST(ImageDecode, EndlessScansAreRefused) {
     static const jpeg_scan_info scans[] = {{1, {0}, 0, 0, 0, 0}, {1, {0}, 1, 63, 0, 0}};
     const Bytes file = jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}, false, true, scans);
@@ -374,7 +375,7 @@ TEST(ImageDecode, EndlessScansAreRefused) {
         return many;
     };
     expectColor(withScans(100), 77, 77, 77);
-    EXPECT_EQ(failure(withScans(5000)), "does not decode: it has 4097 scans or more");
+    EXPECT_EQ(failure(withScans(5000)), "does not decode: it has at least 4097 scans");
 }
 
 TEST(ImageDecode, ArithmeticCodingIsNamed) {
@@ -384,7 +385,7 @@ TEST(ImageDecode, ArithmeticCodingIsNamed) {
     EXPECT_EQ(failure(file), "is a JPEG with arithmetic coding, which is not supported");
 }
 
-// ---- as a picture ------------------------------------------------------------------------------------
+// ---- JPEG as an image --------------------------------------------------------------------------------
 
 // Width / height of a pixel is Y over X density, whether these are dots per unknown unit, inch or cm.
 TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
@@ -409,7 +410,7 @@ TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
     }
 }
 
-// One reader: diff compares the bytes that a texture has.
+// One decoder: diff compares the same bytes that a texture has.
 TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
     for (const bool grey : {false, true}) {
         const Bytes file =
@@ -428,7 +429,7 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
                           static_cast<float>(texture.rgba[4 * i + static_cast<std::size_t>(c)]) / 255);
     }
     const Bytes file = jpeg(JCS_RGB, JCS_YCbCr, {1, 2, 3});
-    // As JFIF and ICC have it: a density of 2 by 1, and a profile in two parts.
+    // JFIF and ICC data: a density of 2 by 1, and a profile in two parts.
     Bytes told = file;
     ASSERT_EQ(told.at(3), 0xe0);
     told.at(15) = 2;

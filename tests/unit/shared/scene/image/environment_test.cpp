@@ -18,7 +18,7 @@ namespace {
 const std::filesystem::path environments =
     std::filesystem::path(DIPTYCH_SOURCE_DIR "/../shared") / "assets/environments";
 
-// 4 x 2 pixels; all components are different numbers, which RGBE can hold exactly.
+// 4 x 2 pixels; all components are different numbers that RGBE represents exactly.
 Image numbered() {
     Image image(4, 2, 3);
     for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = 1 + static_cast<float>(i) / 32;
@@ -50,7 +50,7 @@ TEST(Environment, ExrAndRadianceHoldTheSamePixels) {
     }
 }
 
-// The channels without a layer name are the picture, wherever they are in the file.
+// Channels without a layer name are the image, wherever they are in the file.
 TEST(Environment, TheUnnamedLayerIsReadOrTheFirstWithColours) {
     const std::filesystem::path in = folder();
     const Image image = numbered(), other(4, 2, 3, 9), depth(4, 2, 1, 5);
@@ -119,7 +119,7 @@ TEST(Environment, WhatCannotBeOneIsNamed) {
     }
 }
 
-// The expected sizes and maxima come from the pictures' own list.
+// The expected sizes and maxima come from the images' own list.
 TEST(Environment, RealOnes) {
     if (!std::filesystem::exists(environments))
         GTEST_SKIP() << "NO ASSETS at " << environments << ": real files are not tried";
@@ -134,7 +134,7 @@ TEST(Environment, RealOnes) {
         EXPECT_EQ(environment.radiance.height, 512) << name;
         EXPECT_NEAR(*std::ranges::max_element(environment.radiance.data), largest, 0.5) << name;
         EXPECT_GE(*std::ranges::min_element(environment.radiance.data), 0) << name;
-        // DWA undershoots; the sun of the quarry has 153600.
+        // DWA undershoots; the quarry's sun has 153600, beyond half.
         const bool noted = name == std::string("city.exr") || name == std::string("quarry_02_1k.exr");
         EXPECT_EQ(notes.size(), noted ? 1u : 0u) << name;
     }

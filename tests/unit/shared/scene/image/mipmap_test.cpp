@@ -34,7 +34,7 @@ TextureImage deepImage(int width, int height, std::vector<std::uint16_t> codes) 
     return {"", width, height, {}, std::move(codes)};
 }
 
-// The levels of a chain as components of T.
+// Levels of a mip chain as components of T.
 template <class T>
 std::vector<std::vector<T>> levels(const TextureImage& image, bool srgb, Texels texels) {
     const MipChain chain(image, srgb, texels);
@@ -60,7 +60,7 @@ double mean(const std::vector<std::uint8_t>& texels, std::size_t component) {
 
 }  // namespace
 
-// Half of the light of white is linear 0.5: sRGB 1.055 * 0.5^(1/2.4) - 0.055 = 0.73536, times 255 = 187.5 ->
+// Half the light of white is linear 0.5: sRGB 1.055 * 0.5^(1/2.4) - 0.055 = 0.73536, times 255 = 187.5 ->
 // 188. Alpha is never sRGB: (0 + 255 + 255 + 0) / 4 = 127.5 -> 128.
 TEST(Mipmap, CheckerIsAveragedInLinearLight) {
     const TextureImage checker = image(2, 2, [](int x, int y, int) { return (x + y) % 2 ? 255 : 0; });
@@ -104,8 +104,8 @@ TEST(Mipmap, FiveByOneIsWeightedByArea) {
     EXPECT_EQ(chain[2][0], 84);   // 420 / 5, from the unrounded level
 }
 
-// Every texel has the same weight in every level: the mean is preserved, within the half step of rounding
-// each texel.
+// Every texel has the same weight in every level: the mean is preserved, up to each texel's rounding by
+// half a step.
 TEST(Mipmap, OddSizesConserveTheMean) {
     for (const auto& [width, height] : {std::pair{3, 1}, {5, 3}, {7, 7}, {1, 5}, {641, 359}}) {
         const TextureImage source = noiseTexture(width, height);
@@ -115,7 +115,7 @@ TEST(Mipmap, OddSizesConserveTheMean) {
     }
 }
 
-// Every code survives decoding, summation with odd weights, rounding and encoding.
+// Every code survives decoding, summing with odd weights, rounding and encoding.
 TEST(Mipmap, ConstantImagesStayConstant) {
     for (int value = 0; value < 256; ++value)
         for (const bool srgb : {false, true})
@@ -123,7 +123,7 @@ TEST(Mipmap, ConstantImagesStayConstant) {
                 for (const std::uint8_t code : level) ASSERT_EQ(code, value) << srgb;
 }
 
-// Encoding is exact rounding: a pair of codes averages to the code nearest to the mean computed in double.
+// Encoding rounds exactly: a pair of codes averages to the code nearest to the mean computed in double.
 TEST(Mipmap, EncodingRoundsToTheNearestCode) {
     const auto decode = [](double s) {
         return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -135,8 +135,7 @@ TEST(Mipmap, EncodingRoundsToTheNearestCode) {
         for (int b = 0; b < 256; ++b) {
             const auto chain = levels(image(2, 1, [&](int x, int, int) { return x ? b : a; }), true);
             const double exact = 255 * encode((decode(a / 255.0) + decode(b / 255.0)) / 2);
-            // 0.5, plus the effect of float weights and of the gap (1e-7) where the two branches of the
-            // curve meet
+            // 0.5, plus the effect of float weights and of the curve's gap (1e-7) between its two branches
             ASSERT_NEAR(chain[1][0], exact, 0.5 + 1e-3) << a << " " << b;
         }
 }
@@ -152,7 +151,7 @@ TEST(Mipmap, AnyNumberOfThreadsGivesTheSameBits) {
 
 // ---- 16 bits -----------------------------------------------------------------------------------------
 
-// One step of 16 bits apart: 1000 and 1001 average to 1000.5, which rounds up; alpha 0 and 65535 to 32768.
+// One step of 16 bits: 1000 and 1001 average to 1000.5, which rounds up; alpha 0 and 65535 to 32768.
 TEST(Mipmap, SixteenBitsKeepEveryStep) {
     const TextureImage source = deepImage(2, 1, {1000, 1001, 40000, 0, 1001, 1001, 40002, 65535});
     const auto chain = levels<std::uint16_t>(source, false, Texels::linear16);
@@ -161,9 +160,9 @@ TEST(Mipmap, SixteenBitsKeepEveryStep) {
     EXPECT_EQ(chain[1], (std::vector<std::uint16_t>{1001, 1001, 40001, 32768}));
 }
 
-// sRGB codes of 16 bits as linear float32: 655 / 65535 / 12.92 in the straight part, and
-// ((32896 / 65535 + 0.055) / 1.055)^2.4 = 0.215861 for what 128 / 255 is of 8 bits; a step up is 1.42e-5
-// more. The level below is their mean in linear light.
+// 16-bit sRGB codes as linear float32. Linear part: 655 / 65535 / 12.92. Above: ((32896 / 65535 + 0.055) /
+// 1.055)^2.4 = 0.215861, as for 128 / 255 in 8 bits; one step more adds 1.42e-5. The next level is the
+// mean in linear light.
 TEST(Mipmap, SixteenBitsOfSrgbAreDecodedToFloats) {
     const TextureImage source = deepImage(2, 1, {655, 656, 32896, 65535, 655, 656, 32897, 0});
     const auto chain = levels<float>(source, true, Texels::float32);
@@ -177,7 +176,7 @@ TEST(Mipmap, SixteenBitsOfSrgbAreDecodedToFloats) {
     EXPECT_EQ(chain[1][3], 0.5f);
 }
 
-// If a device can only filter floats: linear codes over 65535, and as halves with 11 bits.
+// If a device can only filter floats: linear codes over 65535, and halves with 11 bits.
 TEST(Mipmap, SixteenLinearBitsAsFloatsAndHalves) {
     const TextureImage source = deepImage(1, 1, {1000, 32768, 65535, 0});
     const auto floats = levels<float>(source, false, Texels::float32);
@@ -190,7 +189,7 @@ TEST(Mipmap, EverySixteenBitCodeStays) {
     std::vector<std::uint16_t> codes;
     for (int code = 0; code < 65536; ++code)
         for (int c = 0; c < 4; ++c) codes.push_back(static_cast<std::uint16_t>(code));
-    // 2 x 2 texels of the same code are averaged into one.
+    // 2 x 2 texels with the same code are averaged to one.
     TextureImage source = deepImage(512, 512, {});
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 512; ++x)
@@ -199,16 +198,16 @@ TEST(Mipmap, EverySixteenBitCodeStays) {
     EXPECT_EQ(levels<std::uint16_t>(source, false, Texels::linear16)[1], codes);
 }
 
-// A code c of 8 bits is 257 c of 16: c / 255 without rounding.
+// An 8-bit code c is 257 c in 16 bits: c / 255 without rounding.
 TEST(Mipmap, EightBitsBecomeSixteenExactly) {
     const TextureImage source = image(16, 16, [](int x, int y, int) { return 16 * y + x; });
     const auto codes = levels<std::uint16_t>(source, false, Texels::linear16);
     for (std::size_t code = 0; code < 256; ++code) EXPECT_EQ(codes[0][4 * code], 257 * code);
-    // Of the first four: 0, 1, 16 and 17, whose mean 8.5 is no code of 8 bits.
+    // The mean of 0, 1, 16 and 17 is 8.5, which is not an 8-bit code.
     EXPECT_EQ(codes[1][0], (257 * 34 + 2) / 4);
 }
 
-// sRGB in half floats: decoded to the nearest of them, alpha linear; levels are means of what is unrounded.
+// sRGB as half floats: decoded to the nearest half, alpha linear. Levels are means of unrounded values.
 TEST(Mipmap, EightBitsOfSrgbBecomeTheNearestHalf) {
     const TextureImage source = image(16, 16, [](int x, int y, int) { return 16 * y + x; });
     const auto halves = levels<std::uint16_t>(source, true, Texels::float16);
@@ -232,8 +231,8 @@ TEST(Mipmap, TexelsThatTheImageHasNotAreALogicError) {
     EXPECT_THROW(MipChain(TextureImage{"none", 1, 1, {}}, true, Texels::srgb8), std::logic_error);
 }
 
-// The alpha of each level is the other chain's: as it is where the sizes are the same, and above as a linear
-// filter magnifies its first level, by hand: a texel's quarters lie at 1/4 and 3/4 between two centres.
+// Each level's alpha is the other chain's component: unchanged at the same size. Larger levels magnify its
+// first level with a linear filter; by hand, a texel's quarters are at 1/4 and 3/4 between two centres.
 TEST(Mipmap, AnAlphaIsReplacedByAnotherChainsComponent) {
     const TextureImage large = noiseTexture(8, 4), small = noiseTexture(4, 2);
     for (const bool srgb : {true, false})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights cast shadows.
+// The lights that cast shadows.
 #include "shared/scene/lights/casters.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Casters, AreTheBrightestAndThoseThatAsk) {
     EXPECT_EQ(localCasting(lights, 2).unshadowed, 1u);
     EXPECT_EQ(localCasting(lights, 9).lights, (Places{0, 2, 3, 4}));
     EXPECT_EQ(castingLights(lights, 1), (Places{2, 3, 5})) << "and the sun, in ascending order";
-    // What is seen of a colour counts.
+    // A colour's luminance counts.
     lights[2].color = {0, 0, 1};
     EXPECT_EQ(localCasting(lights, 1).lights, (Places{3, 4}));
 }
@@ -44,7 +44,7 @@ TEST(Casters, GiveLight) {
     EXPECT_TRUE(castingLights({}, 4).empty());
 }
 
-// A cone of 90 degrees fits a face; a wider one meets four more, and a point all six.
+// A cone of 90 degrees fits a face; a wider one meets four more, and a point light all six.
 TEST(Casters, TakeAsManyTilesAsTheirLightMayReach) {
     Light spot = shining(LightKind::spot, 1);
     EXPECT_EQ(shadowTiles(spot), 1) << "glTF's default cone";
@@ -53,7 +53,7 @@ TEST(Casters, TakeAsManyTilesAsTheirLightMayReach) {
     EXPECT_EQ(shadowTiles(shining(LightKind::point, 1)), 6);
 }
 
-// The most intense find room first, and what is too large leaves it to others.
+// The most intense lights get tiles first; a light that does not fit leaves its tiles to others.
 TEST(Casters, AreNoMoreThanTheAtlasHolds) {
     std::vector<Light> lights(60, shining(LightKind::point, 1));
     lights[59].intensity = 2;

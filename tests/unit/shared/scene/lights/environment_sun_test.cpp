@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sun of an environment, painted and real: what is taken out and what stays are the environment.
+// The sun of painted and real environments: sun and residual together are the environment.
 #include "shared/scene/lights/environment_sun.h"
 
 #include "compare/reference/environment.h"
@@ -23,13 +23,13 @@ namespace {
 
 constexpr double halfTurn = std::numbers::pi;
 
-// Of a place in a picture, in pixels, as shared/scene/model/scene.h has it.
+// Direction of a position in the image, in pixels, as defined in shared/scene/model/scene.h.
 glm::dvec3 placeInSky(const Image& image, double x, double y) {
     const double azimuth = 2 * halfTurn * x / image.width - halfTurn, polar = halfTurn * y / image.height;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
-// Means over 4 x 4 places of each pixel.
+// Means over 4 x 4 samples per pixel.
 Environment painted(int width, int height, const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
     Environment sky{"painted", Image(width, height, 3)};
     for (int y = 0; y < height; ++y)
@@ -54,7 +54,7 @@ Environment sunnySky(const glm::dvec3& to_sun, double degrees, const glm::dvec3&
     });
 }
 
-// What the two pictures differ by, at 8 x 8 places of every pixel near which they do.
+// The difference of two images, at 8 x 8 samples of each pixel near a difference.
 struct Difference {
     glm::dvec3 direction, radiance;  // times solid angle
 };
@@ -96,7 +96,8 @@ glm::dvec3 lux(const Light& light) {
     return glm::dvec3(light.color) * double{light.intensity};
 }
 
-// Of flat pixels, W/m^2, on surfaces with these normals, and the sum over all directions last.
+// Irradiance from flat pixels, W/m^2, on surfaces with these normals; the last entry sums over all
+// directions.
 std::vector<glm::dvec3> irradiancesOf(const Environment& sky, const std::vector<glm::dvec3>& normals) {
     const Image& image = sky.radiance;
     std::vector<glm::dvec3> sums(normals.size() + 1, glm::dvec3(0));
@@ -116,10 +117,10 @@ std::vector<glm::dvec3> irradiancesOf(const Environment& sky, const std::vector<
     return sums;
 }
 
-// Removed plus residual irradiance is the original's within 0.1 %: on surfaces that see all of the spot or
-// nothing of it, and as a sum over all directions. A light has one direction for all its colours, each of
-// which has a centre of its own in the picture: component by component it is 0.1 % of what a surface gets
-// that faces it.
+// Sun plus residual have the original's irradiance within 0.1 %: on surfaces that see all of the sun or
+// nothing of it, and summed over all directions. A light has one direction, but each colour has its own
+// centre in the image. So each component may be off by 0.1 % of the irradiance of a surface facing the
+// sun.
 void expectAllIsKept(const Environment& sky, const EnvironmentSun& sun, const std::string& what) {
     ASSERT_TRUE(sun.found) << what << ": " << sun.why;
     const std::vector<Difference> difference = differenceOf(sky, sun.residual);
@@ -169,7 +170,8 @@ TEST(EnvironmentSun, OfAPaintedSkyIsTheDisc) {
         const Environment sky = sunnySky(to_sun, 4, radiance);
         const EnvironmentSun sun = environmentSun(sky);
         expectAllIsKept(sky, sun, what);
-        // As the picture has it, whose pixels are 0.7 degrees: the disc's edge is blurred, more so at a pole.
+        // Power and centre as painted: with pixels of 0.7 degrees the disc's edge is blurred, more so at a
+        // pole.
         glm::dvec3 power(0), mean(0);
         for (const auto& [direction, light] : differenceOf(sky, sunnySky(to_sun, 4, glm::dvec3(0)))) {
             power += light;
@@ -202,7 +204,7 @@ TEST(EnvironmentSun, OfOneTexelIsThatTexel) {
         Environment sunny = sky;
         for (int c = 0; c < 3; ++c) sunny.radiance.at(x, y, c) = 6e4f;
         const EnvironmentSun sun = environmentSun(sunny);
-        // A pole's texel is a sliver of 2e-6 sr: all around it are others as near.
+        // A pole's texel is a sliver of 2e-6 sr: others are as close all around.
         if (y == 0 || y + 1 == height) {
             EXPECT_FALSE(sun.found);
             continue;
@@ -210,7 +212,7 @@ TEST(EnvironmentSun, OfOneTexelIsThatTexel) {
         const std::string what = fmt::format("{} {} of {}", x, y, height);
         expectAllIsKept(sunny, sun, what);
         EXPECT_EQ(sun.residual.radiance.data, sky.radiance.data) << what;
-        // A hundredth of a pixel: away from the horizon the texel's tent is wider below.
+        // A hundredth of a pixel: away from the horizon the texel's tent is wider on one side.
         EXPECT_LT(angleBetween(-sun.light.direction, placeInSky(sky.radiance, x + 0.5, y + 0.5)),
                   1.8 / height);
     }
@@ -239,12 +241,12 @@ TEST(EnvironmentSun, WhatIsNoCompactBrightSpotIsNone) {
         EXPECT_FALSE(sun.found) << what;
         EXPECT_NE(sun.why.find("16 times"), std::string::npos) << what;
     }
-    // Each in a brighter or smaller version is one.
+    // A brighter or smaller version of each is a sun.
     EXPECT_TRUE(environmentSun(lamp([](const auto& d) { return d.z < -0.9995; }, 100)).found);
     EXPECT_TRUE(environmentSun(lamp([](const auto& d) { return d.z < -0.9992; }, 100)).found);
 }
 
-// A glow as wide as that stays, but what rises far above it is taken.
+// A wide glow stays in the residual; only the peak far above it is taken.
 TEST(EnvironmentSun, OfAWideGlowIsItsPeak) {
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(-0.3, 0.7, 0.5));
     const Environment sky = painted(512, 256, [&](const glm::dvec3& d) {
@@ -257,7 +259,7 @@ TEST(EnvironmentSun, OfAWideGlowIsItsPeak) {
     EXPECT_NEAR(glm::degrees(double{sun.light.angle}), glm::degrees(0.02), 0.4);
 }
 
-// Of two the one that gives more light, not the brighter one.
+// The one of two that gives more light, not the one with higher radiance.
 TEST(EnvironmentSun, IsTheOneThatGivesMost) {
     const glm::dvec3 small(0, 0, -1), large(1, 0, 0);
     const Environment sky = painted(512, 256, [&](const glm::dvec3& d) {
@@ -273,7 +275,7 @@ TEST(EnvironmentSun, TurnsWithTheEnvironment) {
     light.direction = {-1, 0, 0};  // from +X
     light.intensity = 3;
     const Light turned = turnedSun(light, 90, 2);
-    // Counter-clockwise seen from above, +X comes to -Z.
+    // Counter-clockwise seen from above, +X moves to -Z.
     EXPECT_LT(glm::length(turned.direction - glm::dvec3(0, 0, 1)), 1e-15);
     EXPECT_EQ(turned.intensity, 6);
     EXPECT_EQ(

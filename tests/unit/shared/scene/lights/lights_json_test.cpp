@@ -122,7 +122,7 @@ TEST(LightsJson, PointsAndSpotsAskForAShadow) {
 
 TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     const std::pair<const char*, glm::dvec3> cases[] = {
-        {R"("axis": [1, 0, 5])", {1, 0, 0}},  // its part along the direction is removed
+        {R"("axis": [1, 0, 5])", {1, 0, 0}},  // the component along the direction is removed
         {R"("axis": [0, -2, 1])", {0, -1, 0}},
         {R"("name": "none")", {1, 0, 0}},
         {R"("direction": [1, 0, 0])", {0, 0, 1}},  // to the right when looking along the direction
@@ -138,7 +138,7 @@ TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     EXPECT_EQ(tube.axis, glm::dvec3(0, 0, 1));
 }
 
-// A key that has no effect for the given type is probably a mistake in the type, so it is an error.
+// A key without effect for the given type is probably a mistake in the type, so it is an error.
 TEST(LightsJson, EveryKeyBelongsToItsTypes) {
     const std::pair<const char*, std::set<std::string>> keys[] = {
         {R"("angle": 0.1)", {"directional"}},

@@ -59,7 +59,7 @@ TEST(Rig, ALightDoesNotDependOnHowManyThereAre) {
         EXPECT_EQ(a.outer_cone, b.outer_cone);
         EXPECT_GT(a.range, b.range);
     }
-    const auto split = makeLights("point:4,point:4", 1, ROOM);  // a kind named twice goes on counting
+    const auto split = makeLights("point:4,point:4", 1, ROOM);  // the sequence continues
     for (std::size_t i = 0; i < split.size(); ++i) EXPECT_EQ(split[i].position, few[i].position);
 }
 
@@ -86,7 +86,7 @@ TEST(Rig, LightsLieInTheBoundsEquallyBright) {
 
 TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
     const auto lights = makeLights("area:300", 3, ROOM), again = makeLights("area:300", 3, ROOM);
-    const float candela = 0.4f * lights[0].range * lights[0].range;  // of white
+    const float candela = 0.4f * lights[0].range * lights[0].range;  // of a white light
     std::array<int, 3> kinds{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Light& light = lights[i];
@@ -116,8 +116,8 @@ TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
 }
 
 TEST(Rig, SixPointLightsReachTheMiddle) {
-    // The mean count over points half the box wide around the middle. Ranges there stay inside this cube, so
-    // that the expectation is exactly 6; a low-discrepancy sequence of 512 deviates by a few per cent at
+    // Mean number of lights over points in the middle half of the box. Ranges there stay inside this cube,
+    // so the expectation is exactly 6. A low-discrepancy sequence of 512 deviates by a few per cent at
     // most.
     const Bounds cube{{0, 0, 0}, {10, 10, 10}};
     const auto lights = makeLights("point:512", 5, cube);
@@ -173,8 +173,8 @@ TEST(Rig, FilesAreRead) {
     EXPECT_NE(rigFault("/nonexistent/lights.json").find("/nonexistent/lights.json"), std::string::npos);
 }
 
-// Of --scene-lights off: neither its own lights nor the sun that a scene without any gets; those of --lights
-// shine.
+// --scene-lights off removes the scene's own lights and the default sun of a scene without lights; those
+// of --lights stay.
 TEST(Rig, TheScenesOwnLightsCanBeSwitchedOff) {
     for (const char* name : {"builtin:points", "builtin:normals"}) {
         const Scene scene = loadScene(name);

@@ -15,7 +15,7 @@ using namespace diptych;
 
 namespace {
 
-// A rounding of a unit vector's components to float, plus the sums before it.
+// Rounding of a unit vector's components to float, plus the sums before it.
 constexpr float slack = 1e-6f;
 
 Primitive quad(const std::array<glm::vec2, 4>& uv) {
@@ -42,7 +42,7 @@ void expectUnitFrames(const Primitive& p) {
     }
 }
 
-// A closed sphere without UV seams: u and v are positions, so that no vertex is split.
+// A closed sphere without UV seams: u and v are functions of position, so no vertex is split.
 Primitive ball() {
     constexpr int rings = 8, sectors = 12;
     constexpr double pi = 3.14159265358979323846;
@@ -73,8 +73,8 @@ Primitive ball() {
 
 }  // namespace
 
-// glTF's v grows downwards: v = 0 is the top of the picture. Its right is +X, its top +Y, so that with
-// normal +Z the bitangent cross(n, t) * w = +Y asks for w = +1.
+// glTF's v grows downwards: v = 0 is the image's top. Right is +X, top is +Y. With normal +Z, the
+// bitangent cross(n, t) * w = +Y requires w = +1.
 TEST(Tangents, UprightPictureHasTangentToTheRightAndPositiveSign) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     makeTangents(p, {.texcoord = 0});
@@ -88,14 +88,14 @@ TEST(Tangents, PictureUpsideDownHasNegativeSign) {
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, -1);
 }
 
-// The picture rotated by 90 degrees: its right is world +Y, its top world -X.
+// The image rotated by 90 degrees: its right is world +Y, its top world -X.
 TEST(Tangents, RotatedPictureRotatesTangent) {
     Primitive p = quad({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
     makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
 }
 
-// A map's own transform turns or mirrors its directions on the surface (KHR_texture_transform).
+// A map's own transform rotates or mirrors its directions on the surface (KHR_texture_transform).
 TEST(Tangents, FollowTheTransformOfTheirMap) {
     const auto expect = [](const glm::dvec3& u, const glm::dvec3& v, const glm::vec3& direction, float sign) {
         Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
@@ -106,12 +106,13 @@ TEST(Tangents, FollowTheTransformOfTheirMap) {
     expect({3, 0, 0.25}, {0, 0.5, 7}, {1, 0, 0}, 1);
     expect({-1, 0, 1}, {0, 1, 0}, {-1, 0, 0}, -1);
     expect({1, 0, 0}, {0, -1, 1}, {1, 0, 0}, -1);
-    // Coordinates turned by an angle (row u: cos, sin): along the picture's right u' rises and v' rests.
+    // Coordinates rotated by an angle (row u: cos, sin): along the image's right u' grows and v' is
+    // constant.
     for (const double angle : {0.3, 1.5707963267948966, 2.5, -2.0}) {
         const double c = std::cos(angle), s = std::sin(angle);
         expect({c, s, 0}, {-s, c, 0}, {c, -s, 0}, 1);
     }
-    // Scales of its axes that differ shear the directions: u' = u + v, v' = v.
+    // Sheared coordinates: u' = u + v, v' = v; then u' = u, v' = u + v.
     const double h = std::sqrt(0.5);
     expect({1, 1, 0}, {0, 1, 0}, {1, 0, 0}, 1);
     expect({1, 0, 0}, {1, 1, 0}, {h, h, 0}, 1);
@@ -124,8 +125,8 @@ TEST(Tangents, SecondUvSetIsReadWhenAskedFor) {
     for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
 }
 
-// Two quads that share the edge x = 0 and mirror their picture there: u = |x|. The two vertices of that
-// edge have one position, normal and UV, but two orientations: each becomes two vertices.
+// Two quads share the edge x = 0 and mirror their image there: u = |x|. The edge's two vertices have one
+// position, normal and UV, but two orientations: each becomes two vertices.
 TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
     Primitive p;
     for (const float x : {-1.0f, 0.0f, 1.0f})
@@ -151,8 +152,8 @@ TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
     }
 }
 
-// Vertices that are separate in the list but equal in every respect are welded: the quad made of two
-// separate triangles gives the same result as one sheet, also where the two derivatives differ.
+// Vertices that are separate in the list but equal in every respect are welded. A quad of two separate
+// triangles gives the same result as one sheet, even where the two derivatives differ.
 TEST(Tangents, EqualVerticesAreWelded) {
     Primitive sheet = quad({{{0, 1}, {1, 1}, {0.7f, 0.2f}, {0, 0}}}), loose = sheet;
     loose.positions.clear(), loose.normals.clear(), loose.texcoords[0].clear(), loose.indices.clear();
@@ -170,8 +171,8 @@ TEST(Tangents, EqualVerticesAreWelded) {
 }
 
 // Derivatives by hand with t = 1 - v. Triangle (0, 1, 2): s, t edges (1, 0) and (1, 1); dP/ds = (2, 0, 0).
-// Triangle (0, 2, 3) has UVs sheared: edges (1, 1) and (1, 2); dP/ds = 2 d1 - 1 d2 = (4, 4) - (0, 2) = (4, 2,
-// 0). Both meet vertex 0 with 45 degrees: the mean direction is the bisector of the two.
+// Triangle (0, 2, 3) has sheared UVs: edges (1, 1) and (1, 2); dP/ds = 2 d1 - 1 d2 = (4, 4) - (0, 2) = (4,
+// 2, 0). Both meet vertex 0 with 45 degrees, so the mean direction bisects the two.
 TEST(Tangents, GroupsAreWeightedByAngle) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {1, -1}}});
     makeTangents(p, {.texcoord = 0});
@@ -183,7 +184,7 @@ TEST(Tangents, GroupsAreWeightedByAngle) {
     expectTangent(p.tangents[2], glm::normalize(first + second), 1);
 }
 
-// The tangent lies in the plane of the vertex normal, not of the triangle: +X projected there.
+// The tangent is in the plane of the vertex normal, not of the triangle: +X projected onto it.
 TEST(Tangents, TangentIsProjectedIntoTheNormalsPlane) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     p.normals.assign(4, glm::normalize(glm::vec3(1, 0, 1)));
@@ -272,7 +273,7 @@ TEST(Tangents, SmoothClosedMeshDoesNotDependOnTriangleOrder) {
     expectUnitFrames(straight);
     ASSERT_EQ(straight.positions.size(), shuffled.positions.size());
 
-    // By position and sign: which copy of a split vertex comes first does depend on order.
+    // By position and sign: the order decides which copy of a split vertex comes first.
     const auto key = [](const Primitive& p, std::uint32_t v) {
         const glm::vec3& q = p.positions[v];
         return std::array{q.x, q.y, q.z, p.tangents[v].w};

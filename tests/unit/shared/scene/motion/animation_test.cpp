@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keyframe interpolation against values computed by hand, and the resulting poses of nodes, lights and
-// cameras.
+// Keyframe interpolation, compared with values computed by hand, and the resulting poses of nodes, lights
+// and cameras.
 #include "shared/scene/motion/animation.h"
 
 #include "shared/scene/motion/bounds.h"
@@ -24,7 +24,7 @@ Keyframes keys(Interpolation interpolation, std::vector<float> times, std::vecto
     return {interpolation, std::move(times), std::move(values), width};
 }
 
-// A rotation about +Z as x, y, z, w.
+// A rotation around +Z as x, y, z, w.
 std::vector<float> turn(double degrees) {
     const double half = degrees * degree / 2;
     return {0, 0, static_cast<float>(std::sin(half)), static_cast<float>(std::cos(half))};
@@ -41,7 +41,7 @@ std::vector<T> appended(std::vector<T> a, const std::vector<T>& b) {
     return a;
 }
 
-// Degrees; so small that sine and cosine of the half angle are just representable in float32.
+// Degrees. Sine and cosine of the half angle are rounded to float32.
 constexpr double floatTurn = 2e-5;
 
 // ---- between keys ------------------------------------------------------------------------------------
@@ -66,7 +66,8 @@ TEST(Animation, LinearBetweenKeysAndClampedBeyond) {
     EXPECT_EQ(sampled(keys(Interpolation::linear, {2}, {7}, 1), weights, 1), (Values{7})) << "one key";
 }
 
-// Before the first key, at one key and long after the last the value is held, whatever lies between keys.
+// Before the first key, at a single key and long after the last, the value is constant, with either
+// interpolation.
 TEST(Animation, OneKeyAndTimesFarAway) {
     using Values = std::vector<double>;
     for (const auto interpolation : {Interpolation::step, Interpolation::linear}) {
@@ -81,7 +82,7 @@ TEST(Animation, OneKeyAndTimesFarAway) {
     for (const double t : {0.0, 2.0, 1e6}) EXPECT_EQ(sampled(cubic, weights, t), (Values{7})) << t;
 }
 
-// Keys at one time are a step: up to it as the first of them, from it on as the last.
+// Several keys at one time are a step: the first counts before it, the last from it on.
 TEST(Animation, KeysAtOneTimeAreAStep) {
     using Values = std::vector<double>;
     const Keyframes k = keys(Interpolation::linear, {0, 1, 1, 1, 2}, {0, 4, 50, 8, 10}, 1);
@@ -100,7 +101,7 @@ TEST(Animation, KeysAtOneTimeAreAStep) {
     EXPECT_EQ(sampled(cubic, weights, 1.5), (Values{9}));
 }
 
-// Interpolating the quaternions linearly and normalising would give 26.6 degrees after a third of 0 to 90.
+// Linear interpolation and normalization of quaternions would give 26.6 degrees after a third of 0 to 90.
 TEST(Animation, RotationsTurnEvenly) {
     const Keyframes k = keys(Interpolation::linear, {0, 3}, appended(turn(0), turn(90)), 4);
     for (const double t : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0})
@@ -111,7 +112,7 @@ TEST(Animation, RotationsTurnEvenly) {
     EXPECT_NEAR(degreesAboutZ(sampled(none, rotation, 0.5)), 40, floatTurn);
 }
 
-// -q is the same rotation as q: from 350 to 370 degrees is a rotation by 20, whichever sign the file has.
+// -q is the same rotation as q: 350 to 370 degrees is a rotation by 20, whichever sign the file has.
 TEST(Animation, RotationsTakeTheShorterWay) {
     for (const double to : {10.0, 370.0}) {
         const Keyframes k = keys(Interpolation::linear, {0, 1}, appended(turn(-10), turn(to)), 4);
@@ -119,8 +120,8 @@ TEST(Animation, RotationsTakeTheShorterWay) {
     }
 }
 
-// (2u^3-3u^2+1) v + d(u^3-2u^2+u) out + (3u^2-2u^3) w + d(u^3-u^2) in at u = 1/4, with an interval d of 2 s:
-// 0.84375 x 1 + 2 x 0.140625 x 3 + 0.15625 x 2 - 2 x 0.046875 x 5.
+// (2u^3-3u^2+1) v + d(u^3-2u^2+u) out + (3u^2-2u^3) w + d(u^3-u^2) in at u = 1/4, with an interval d of 2
+// s: 0.84375 x 1 + 2 x 0.140625 x 3 + 0.15625 x 2 - 2 x 0.046875 x 5.
 TEST(Animation, CubicSplinesScaleTheirTangentsByTheInterval) {
     const Keyframes k = keys(Interpolation::cubic_spline, {1, 3}, {99, 1, 3, 5, 2, 99}, 1);
     EXPECT_EQ(sampled(k, weights, 1.5), (std::vector<double>{1.53125}));
@@ -128,7 +129,7 @@ TEST(Animation, CubicSplinesScaleTheirTangentsByTheInterval) {
     EXPECT_EQ(sampled(k, weights, 1), (std::vector<double>{1}));
     EXPECT_EQ(sampled(k, weights, 3), (std::vector<double>{2}));
     EXPECT_EQ(sampled(k, weights, 4), (std::vector<double>{2}));
-    // With two components: a key's tangents come before and after all of its values.
+    // Two components: a key's tangents come before and after all its values.
     const Keyframes two =
         keys(Interpolation::cubic_spline, {0, 1}, {0, 0, 1, 10, 8, 0, 0, 8, 1, 10, 0, 0}, 2);
     EXPECT_EQ(sampled(two, weights, 0.5), (std::vector<double>{2, 9})) << "1 + 8/8 and 10 - 8/8";
@@ -176,7 +177,7 @@ void expectNear(const glm::dvec3& got, const glm::dvec3& expected, double tolera
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], tolerance) << what << " component " << c;
 }
 
-// Parts without a channel stay: the parent's translation, the child's own scale of 2. Children move with
+// Parts without a channel stay: the parent's translation, the child's scale of 2. Children move with
 // parents.
 TEST(Animation, NodesMoveWithTheirParents) {
     MovedFile f;
@@ -191,7 +192,7 @@ TEST(Animation, NodesMoveWithTheirParents) {
     EXPECT_EQ(placeOf(scene, 7, {0, 1, 0}), placeOf(scene, 1, {0, 1, 0})) << "the last key stays";
 }
 
-// The node's transform at rest differs: a picture at 0 s shows the first key.
+// The node's rest transform differs: an image at 0 s shows the first key.
 TEST(Animation, ItBeginsWithTheFirstKey) {
     MovedFile f;
     f.channel(0, "translation", {0, 0, 5, 0, 0, 9}, "VEC3", 3);
@@ -245,7 +246,7 @@ TEST(Animation, OneIsChosenByIndexOrName) {
     EXPECT_EQ(error(GltfFile::triangle().load(), "0"), "--animation \"0\": the scene has no animation");
 }
 
-// A camera that stands around the scene is placed by what plays, at 0 s.
+// The default camera is placed for the bounds of the playing animation at 0 s.
 TEST(Animation, BoundsAtStartAreOfWhatPlays) {
     MovedFile f;
     f.channel(0, "translation", {0, 0, 0, 8, 0, 0}, "VEC3", 3, 0);
@@ -265,7 +266,7 @@ TEST(Animation, LightsAndCamerasMove) {
                           {"camera", 0},
                           {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
     f.channel(0, "translation", {0, 10, 0, 0, 20, 0}, "VEC3", 3);
-    // A rotation by 90 degrees about +X takes -Z to +Y.
+    // A rotation by 90 degrees around +X takes -Z to +Y.
     const float half = static_cast<float>(std::sqrt(0.5));
     f.channel(1, "rotation", {0, 0, 0, 1, half, 0, 0, half}, "VEC4", 4);
     const Scene scene = f.load();
@@ -278,7 +279,7 @@ TEST(Animation, LightsAndCamerasMove) {
     expectNear(-glm::dvec3(end.cameras[0].world_from_camera[2]), {0, 1, 0}, 1e-7, "the camera");
 }
 
-// An object that an animation moves beyond maxCoordinate is not drawn at that time, but is again later.
+// An object animated beyond maxCoordinate is not drawn at that time, but is again later.
 TEST(Animation, WhatIsMovedBeyondReachIsNotInThePose) {
     MovedFile f;
     f.channel(0, "scale", {1, 1, 1, 1e18f, 1e18f, 1e18f}, "VEC3", 3);

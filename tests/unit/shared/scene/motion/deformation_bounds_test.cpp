@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes of posed vertices, against the vertices posed one by one.
+// Bounding boxes of deformed vertices, compared with vertices deformed one by one.
 #include "shared/scene/motion/deformation_bounds.h"
 
 #include "shared/scene/load.h"
@@ -31,8 +31,8 @@ struct PoseBuilder {
         return std::uniform_real_distribution<double>(low, high)(random);
     }
     glm::dvec3 vector() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-    // Every joint is turned by up to a right angle about any axis; one of each skin is stretched 4:1 along
-    // any of its axes; weights of targets are -1 to 2.
+    // Every joint is rotated by up to 90 degrees around any axis. One joint per skin is stretched 4:1
+    // along any of its axes. Target weights are -1 to 2.
     Scene posed(const Scene& rest) {
         Scene scene = rest;
         scene.animations.clear();
@@ -68,7 +68,7 @@ struct Ratios {
     }
 };
 
-// Adds the ratio of the box's diagonal to that of the posed vertices, for each deformed instance.
+// Adds the ratio of the box's diagonal to that of the deformed vertices, for each deformed instance.
 void check(const Scene& scene, Ratios& ratios, const std::string& what) {
     const Pose pose = poseAt(scene, 0);
     for (const Instance& instance : pose.instances) {
@@ -79,7 +79,7 @@ void check(const Scene& scene, Ratios& ratios, const std::string& what) {
             min = glm::min(min, p);
             max = glm::max(max, p);
         }
-        const double size = glm::length(max - min), near = 1e-5 * size;  // what float32 posing may be off
+        const double size = glm::length(max - min), near = 1e-5 * size;  // float32 error
         for (int c = 0; c < 3; ++c) {
             ASSERT_GE(min[c] - near, box.origin[c] + box.min[c]) << what << " axis " << c;
             ASSERT_LE(max[c] + near, box.origin[c] + box.max[c]) << what << " axis " << c;
@@ -96,8 +96,8 @@ Ratios ofRandomPoses(const Scene& scene, const std::string& what) {
     return ratios;
 }
 
-// A figure of several limbs of that many joints each, as a star of tubes, with weights that blend over a
-// fifth of a bone; every vertex has a target of waves and one of growth.
+// A star of tubes with this number of limbs and joints per limb; weights blend over a fifth of a bone.
+// Every vertex has a target of waves and one of growth.
 Scene star(int limbs, int jointsOfALimb, int vertices) {
     Scene scene;
     scene.materials.resize(1);
@@ -190,7 +190,8 @@ TEST(DeformationBounds, RandomPosesOfRealScenesToo) {
     if (!any) GTEST_SKIP() << "there are no scenes in " << folder;
 }
 
-// 64 joints and a million vertices: the boxes of a pose cost a small part of posing, whatever the vertices.
+// 64 joints and a million vertices: the boxes of a pose cost a small fraction of deforming, for any number
+// of vertices.
 TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
     const auto millisecondsOf = [](const Scene& scene) {
         const Pose pose = poseAt(scene, 0);
@@ -221,7 +222,7 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
         prepared, millisecondsOf(large), clusters, millisecondsOf(small));
 }
 
-// Without it, every pose would make the clusters anew.
+// Without prepared bounds, every pose would rebuild the clusters.
 TEST(DeformationBounds, OfWhatATurnedMapPosesArePrepared) {
     const Scene scene = loadScene("builtin:tangents");
     for (const Instance& instance : poseAt(scene, 1).instances) {
@@ -230,7 +231,7 @@ TEST(DeformationBounds, OfWhatATurnedMapPosesArePrepared) {
     }
 }
 
-// What has not been prepared is bounded alike, and what has changed is bounded as it is now.
+// Unprepared primitives get the same bounds, and changed ones get up-to-date bounds.
 TEST(DeformationBounds, OfAPrimitiveThatWasNotPrepared) {
     Scene scene = star(2, 3, 200), other = scene;
     other.meshes[0].primitives[0].deformation_bounds = {};
@@ -242,7 +243,7 @@ TEST(DeformationBounds, OfAPrimitiveThatWasNotPrepared) {
     EXPECT_GT(c.max.x - c.min.x, 2 * (a.max.x - a.min.x));
 }
 
-// Few vertices are clusters of their own, and their box is theirs but for what float32 may be off.
+// A few vertices are single clusters: their box is exact except for float32 rounding.
 TEST(DeformationBounds, OfFewVerticesAreExact) {
     const Scene scene = star(1, 4, 60);
     ASSERT_LT(scene.meshes[0].primitives[0].positions.size(), 64u);
@@ -250,7 +251,7 @@ TEST(DeformationBounds, OfFewVerticesAreExact) {
     EXPECT_LE(ratios.at(1), 1.0001);
 }
 
-// Matrices that are not finite, and places out of reach: the box is finite and holds what is drawn.
+// Infinite matrices and positions beyond maxCoordinate: the box is finite and contains all drawn vertices.
 TEST(DeformationBounds, OfWhatIsOutOfReachAreFinite) {
     Scene scene = star(1, 2, 60);
     scene.nodes[2].parent_from_node = glm::translate(glm::dmat4(1), glm::dvec3(3e18, 0, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tangents of morphed surfaces, against MikkTSpace run afresh on a morphed copy and closed forms.
+// Tangents of morphed surfaces, compared with MikkTSpace on a morphed copy and with closed forms.
 #include "shared/scene/motion/morphed_tangents.h"
 
 #include "shared/scene/model/tangents.h"
@@ -38,7 +38,7 @@ PosedVertices posedOf(const Scene& scene) {
     return posedVertices(scene, pose, pose.instances.at(0));
 }
 
-// A grid of n x n cells over the unit square of z = 0, uv upright.
+// A grid of n x n cells over the unit square in z = 0, with upright UVs.
 Primitive sheet(int n) {
     Primitive p;
     for (int y = 0; y <= n; ++y)
@@ -57,8 +57,8 @@ Primitive sheet(int n) {
     return p;
 }
 
-// A sphere of rings and sectors whose picture goes once around, mirrored on the other half, so that vertices
-// at both seams belong to two groups of different handedness; poles have degenerate triangles.
+// A sphere of rings and sectors. Its image goes once around and is mirrored on the other half, so vertices
+// at both seams belong to two groups of different handedness. The poles have degenerate triangles.
 Primitive globe() {
     constexpr int rings = 6, sectors = 10;
     Primitive p;
@@ -83,8 +83,7 @@ Primitive globe() {
 
 enum Moves : unsigned { positions = 1, normals = 2, texcoords = 4 };
 
-// Adds a target with deltas that are the same where position and normal are the same, so that the surface
-// stays closed.
+// Adds a target whose deltas are equal where position and normal are equal, so the surface stays closed.
 void addTarget(Primitive& p, unsigned moves, int seed) {
     MorphTarget target;
     const auto wave = [&](const glm::vec3& at, double shift) {
@@ -100,7 +99,7 @@ void addTarget(Primitive& p, unsigned moves, int seed) {
     p.targets.push_back(std::move(target));
 }
 
-// The primitive at rest in that pose, in float32.
+// The primitive baked in that pose, in float32.
 Primitive morphedCopy(Primitive p, const std::vector<float>& amounts) {
     for (std::size_t t = 0; t < p.targets.size(); ++t)
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
@@ -114,7 +113,7 @@ Primitive morphedCopy(Primitive p, const std::vector<float>& amounts) {
     return p;
 }
 
-// Of every corner of every triangle that has an area.
+// Compares every corner of every triangle with an area.
 void expectAsMadeAfresh(const Primitive& primitive, const TextureSlot& map,
                         const std::vector<float>& amounts) {
     Primitive morphable = primitive, afresh = morphedCopy(primitive, amounts);
@@ -130,7 +129,7 @@ void expectAsMadeAfresh(const Primitive& primitive, const TextureSlot& map,
         if (glm::length(glm::cross(q[t[1]] - q[t[0]], q[t[2]] - q[t[0]])) < 1e-4f) continue;
         const glm::vec4& expected = afresh.tangents[afresh.indices[i]];
         const std::uint32_t vertex = morphable.indices[i];
-        // Edges of 0.3 m of positions, and 0.1 of texture coordinates, each rounded to float32.
+        // Edges of 0.3 m in position and 0.1 in texture coordinates, each rounded to float32.
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(v.tangents[vertex][c], expected[c], 1e-5) << "corner " << i;
         ASSERT_EQ(morphable.tangents[vertex].w, expected.w) << "corner " << i;
         ++compared;
@@ -157,7 +156,7 @@ TEST(MorphedTangents, AreThoseMadeAfreshOfAMorphedCopy) {
             }
 }
 
-// The mean at a vertex depends on which triangles share it: a flat primitive's triangles share none.
+// A vertex's mean tangent depends on the triangles that share it: a flat primitive's triangles share none.
 TEST(MorphedTangents, OfAFlatPrimitiveAreItsTrianglesOwn) {
     Primitive p = sheet(3);
     addTarget(p, positions | texcoords, 0);
@@ -175,7 +174,8 @@ TEST(MorphedTangents, OfAFlatPrimitiveAreItsTrianglesOwn) {
     }
 }
 
-// A target that shears y by half of x makes dP/du (1, 1/2, 0); one that turns the picture by a quarter, -Y.
+// A target that shears y by half of x makes dP/du (1, 1/2, 0); one that rotates the image by 90 degrees
+// makes it -Y.
 TEST(MorphedTangents, FollowShearAndSlideInClosedForm) {
     Primitive p = sheet(2);
     MorphTarget shear, turn;
@@ -193,7 +193,7 @@ TEST(MorphedTangents, FollowShearAndSlideInClosedForm) {
         EXPECT_LT(glm::length(t - glm::dvec3(1, 0, 0)), 1e-7) << "at rest";
 }
 
-// Made before the joints move the surface, then moved with it.
+// Computed before the joints move the surface, then moved with it.
 TEST(MorphedTangents, ComeBeforeJoints) {
     Primitive p = sheet(2);
     MorphTarget shear;
@@ -211,7 +211,7 @@ TEST(MorphedTangents, ComeBeforeJoints) {
         EXPECT_LT(glm::length(t - glm::normalize(glm::dvec3(1, 4, 0))), 1e-7);
 }
 
-// A part that is one point at rest has tangents once it is there.
+// A part that is a single point at rest has tangents once it unfolds.
 TEST(MorphedTangents, OfWhatUnfoldsAreMade) {
     Primitive p = sheet(2);
     MorphTarget unfold;
@@ -226,7 +226,7 @@ TEST(MorphedTangents, OfWhatUnfoldsAreMade) {
         EXPECT_LT(glm::length(t - glm::dvec3(0, 0, -1)), 1e-7);
 }
 
-// Two halves that coincide along a line at rest and part: no tangent is the mean of both.
+// Two halves that coincide along a line at rest and then separate: no tangent is the mean of both.
 TEST(MorphedTangents, WhatPartsHasTangentsOfItsOwn) {
     Primitive p = sheet(2), other = sheet(2);
     const auto count = static_cast<std::uint32_t>(p.positions.size());
@@ -250,7 +250,7 @@ TEST(MorphedTangents, WhatPartsHasTangentsOfItsOwn) {
     }
 }
 
-// Two triangles that share one vertex and no edge: at rest it has one tangent, in the pose one of each.
+// Two triangles that share one vertex and no edge: at rest it has one tangent, in the pose one for each.
 TEST(MorphedTangents, AVertexOfTwoGroupsIsSplit) {
     Primitive p;
     p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices moved by joints and morph targets, against values computed by hand.
+// Vertices deformed by joints and morph targets, compared with values computed by hand.
 #include "shared/scene/motion/posed.h"
 
 #include "shared/scene/motion/bounds.h"
@@ -29,7 +29,7 @@ glm::dmat4 turned(double angle, const glm::dvec3& about) {
     return glm::rotate(glm::dmat4(1), angle, about);
 }
 
-// One triangle in z = 0 that faces +Z on node 0; nodes 1 and 2 are the joints of skin 0.
+// One triangle in z = 0 that faces +Z, on node 0. Nodes 1 and 2 are the joints of skin 0.
 Scene triangle() {
     Scene scene;
     scene.materials.resize(1);
@@ -43,7 +43,7 @@ Primitive& only(Scene& scene) {
     return scene.meshes[0].primitives[0];
 }
 
-// Vertex 0 follows the first joint, vertex 1 both by half, vertex 2 the second.
+// Vertex 0 follows the first joint, vertex 1 both joints by half, vertex 2 the second.
 Scene skinned(const glm::dmat4& first, const glm::dmat4& second) {
     Scene scene = triangle();
     only(scene).joint_sets = {
@@ -122,7 +122,7 @@ TEST(Posed, TheSecondSetOfJointsCountsToo) {
     for (const glm::dvec3& p : posed(scene).positions) EXPECT_EQ(p.z, 4) << "two quarters of 8";
 }
 
-// float32 weights of a third add up to 1 + 3e-8, which would be an error of 30 m at a million kilometres.
+// float32 weights of 1/3 add up to 1 + 3e-8, which would be an error of 30 m at a million kilometres.
 TEST(Posed, WeightsThatRoundDoNotMove) {
     Scene scene = skinned(moved({1e9, 0, 0}), moved({1e9, 0, 0}));
     const float third = 1.0f / 3;
@@ -131,8 +131,7 @@ TEST(Posed, WeightsThatRoundDoNotMove) {
     expectNear(posed(scene).positions[2], {1e9, 1, 0}, "as both joints have it", 1e-6);
 }
 
-// Scaled to half along x: the normal of the plane x + z = 0 is transformed by the inverse transpose to (2,
-// 0, 1).
+// Scaled by half along x: the inverse transpose transforms the normal of the plane x + z = 0 to (2, 0, 1).
 TEST(Posed, NormalsMoveByTheInverseTranspose) {
     Scene scene = skinned(glm::scale(glm::dmat4(1), {0.5, 1, 1}), glm::dmat4(1));
     only(scene).normals.assign(3, glm::normalize(glm::vec3(1, 0, 1)));
@@ -143,10 +142,11 @@ TEST(Posed, NormalsMoveByTheInverseTranspose) {
     expectNear(v.normals[2], glm::normalize(glm::dvec3(1, 0, 1)), "not", 1e-7);
 }
 
-// Vertex 1 follows both joints by half, by hand. At rest and at half the length along x: inverse transposes
-// of 1 and (2, 1, 1), whose mean takes (1, 0, 1) to (1.5, 0, 1); the mean of the matrices is (0.75, 1, 1),
-// whose inverse takes it to (4/3, 0, 1). At rest and twice as large, turned from +Z to +X: half the inverse
-// of the latter counts, which takes +Z to (0.5, 0, 1); cofactors would be (4, 0, 1).
+// Vertex 1 follows both joints by half; values by hand. First case: joints at rest and scaled by half
+// along x. The mean of the inverse transposes 1 and (2, 1, 1) takes (1, 0, 1) to (1.5, 0, 1). The mean of
+// the matrices is (0.75, 1, 1), and its inverse takes it to (4/3, 0, 1). Second case: joints at rest and
+// twice as large, rotated from +Z to +X. Half the latter's inverse takes +Z to (0.5, 0, 1); cofactors
+// would give (4, 0, 1).
 TEST(Posed, ANormalIsTheMeanOfWhatEachJointMakesOfIt) {
     const glm::dmat4 squashed = glm::scale(glm::dmat4(1), {0.5, 1, 1}),
                      larger = turned(quarter, Y) * glm::scale(glm::dmat4(1), glm::dvec3(2));
@@ -166,7 +166,7 @@ TEST(Posed, ANormalIsTheMeanOfWhatEachJointMakesOfIt) {
         expectNear(normals(squashed, slope, false)[one], normals(squashed, slope, true)[one], "one joint");
         expectNear(normals(larger, Z, false)[one], normals(larger, Z, true)[one], "one joint");
     }
-    // Mirrored as a whole, both stay on the front's side.
+    // Mirrored as a whole, both stay on the front side.
     const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {1, 1, -1});
     for (const bool blended : {false, true}) {
         Scene scene = skinned(mirror, mirror * squashed);
@@ -176,7 +176,7 @@ TEST(Posed, ANormalIsTheMeanOfWhatEachJointMakesOfIt) {
     }
 }
 
-// A joint of scale 0 has no normal to add, and one that flattens has the last word.
+// A joint with scale 0 contributes no normal; a joint that flattens determines it.
 TEST(Posed, JointsWithoutAnInverseLeaveNoNaN) {
     const glm::vec3 slope = glm::normalize(glm::vec3(1, 0, 1));
     for (const auto& [factors, expected] :
@@ -187,7 +187,7 @@ TEST(Posed, JointsWithoutAnInverseLeaveNoNaN) {
     }
 }
 
-// Mirrored by its joints: the triangle's orientation is reversed, and its front is still on the same side.
+// Mirrored by its joints: the triangle's winding is reversed, and its front stays on the same side.
 TEST(Posed, MirroredJointsKeepTheFront) {
     const glm::dmat4 mirror = glm::scale(glm::dmat4(1), {-1, 1, 1});
     Scene scene = skinned(mirror, mirror);
@@ -199,7 +199,7 @@ TEST(Posed, MirroredJointsKeepTheFront) {
     }
 }
 
-// A joint that moves little of the mesh says nothing about its front, wherever it stands in the list.
+// A joint that moves little of the mesh does not affect its front, wherever it is in the list.
 TEST(Posed, AMirroredJointOfFewVerticesLeavesTheFront) {
     Scene scene = skinned(glm::scale(glm::dmat4(1), {-1, 1, 1}), glm::dmat4(1));
     only(scene).joint_sets[0].weights.assign(3, {0, 1, 0, 0});
@@ -269,7 +269,8 @@ TEST(Posed, ANodesWeightsComeBeforeItsMeshsAndAnAnimationsBeforeBoth) {
     EXPECT_EQ(heightAt(0.75), 6);
 }
 
-// The target moves the vertex to (1, 0, 0), the joint turns it to +Y: after the joint it would stay on +X.
+// The target moves the vertex to (1, 0, 0), then the joint rotates it to +Y. In the other order it would
+// stay on +X.
 TEST(Posed, TargetsComeBeforeJoints) {
     Scene scene = skinned(turned(quarter, Z), glm::dmat4(1));
     only(scene).targets = {{{{2, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {}, {}}};
@@ -288,7 +289,7 @@ TEST(Posed, AFlatTrianglesNormalFollowsIt) {
         expectNear(n, glm::normalize(glm::dvec3(0, -1, 1)), "flat");
 }
 
-// ---- what moves nothing, and what is out of reach ----------------------------------------------------
+// ---- undeformed primitives, and limits ---------------------------------------------------------------
 
 TEST(Posed, WithoutJointsAndTargetsItIsTheNodesTransform) {
     Scene scene = triangle();
@@ -313,7 +314,7 @@ TEST(Posed, BoundsAreThoseOfWhatIsPosed) {
     EXPECT_EQ(bounds.max, glm::dvec3(1, 0, 1e18)) << "the vertex between them is at its edge";
 }
 
-// The default view does not follow what moves, nor do lights that are placed around the scene.
+// The default view does not follow motion; neither do lights placed around the scene.
 TEST(Posed, TheDefaultViewIsThatOfTheStart) {
     Scene scene = triangle();
     scene.nodes[0].transform = 0;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Interpolants from a surface's vertex shader to its fragment shaders. lavapipe sets up every declared
+// input of every triangle (48 bytes and 5 to 10 ns each), even if a variant does not read it.
+// Specialization therefore removes inputs that the variant does not read (shared/vulkan/specialize.h).
+// Under MSAA, shaded_normal and the others are interpolated at the shaded sample location, so that no
+// input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
+// locations of neighbouring pixels are not one pixel apart.
+#ifndef INPUTS_GLSL
+#define INPUTS_GLSL
+
+#include "shaders/lib/surface/surface.glsl"
+
+#ifdef STAGE_vert
+#define INPUT(at) layout(location = at) out
+#else
+#include "shaders/lib/geometry/reversed_depth.glsl"
+#include "shaders/lib/samples/samples.glsl"
+#define INPUT(at) layout(location = at) in
+#endif
+
+INPUT(0) vec3 v_normal;
+INPUT(1) vec2 v_texcoord;
+INPUT(2) vec4 v_tangent;
+INPUT(3) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal
+INPUT(4) vec4 v_color;
+INPUT(5) vec3 v_irradiance;         // of vertex lights, W/m^2
+INPUT(6) vec3 v_irradiance_behind;  // the same on the back of a double-sided material
+INPUT(7) vec2 v_slot_texcoords[SLOT_COUNT];
+#undef INPUT
+
+#ifdef STAGE_frag
+// Offset of the shaded location from the pixel's centre, pixels.
+vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
+// Inputs at the shaded location, and at the pixel's centre for differences between pixels. Under MSAA
+// every read gives an offset: in Mesa 22.3 a plain read after a read at an offset returns the value at
+// that offset.
+#define SHADED(name) (multisampled() ? interpolateAtOffset(name, shadedOffset()) : name)
+#define MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
+#define shaded_normal SHADED(v_normal)
+#define middle_normal MIDDLE(v_normal)
+#define shaded_texcoord SHADED(v_texcoord)
+#define middle_texcoord MIDDLE(v_texcoord)
+#define shaded_tangent SHADED(v_tangent)
+#define middle_tangent MIDDLE(v_tangent)
+#define shaded_color SHADED(v_color)
+#define middle_color MIDDLE(v_color)
+#define shaded_irradiance SHADED(v_irradiance)
+#define shaded_irradiance_behind SHADED(v_irradiance_behind)
+
+// Shaded location in pixels, like gl_FragCoord.xy. gl_FragCoord is at the pixel's centre, or at the sample
+// if each sample has its own fragment.
+vec2 shadedPixel() {
+    return multisampled() ? floor(gl_FragCoord.xy) + placeOf(uint(gl_SampleMaskIn[0])) : gl_FragCoord.xy;
+}
+// Reversed depth at the pixel's centre.
+float middleDepth() { return reversedDepth(gl_FragCoord.z); }
+// Reversed depth at the shaded location; depth is linear over a triangle.
+float fragmentDepth() {
+    if (!multisampled()) return middleDepth();
+    vec2 from = shadedPixel() - gl_FragCoord.xy;
+    float z = gl_FragCoord.z + from.x * dFdxFine(gl_FragCoord.z) + from.y * dFdyFine(gl_FragCoord.z);
+    return clamp(z, 0.0, 1.0);
+}
+#endif
+
+#endif

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Rectangles, discs and tubes of constant radiance (shared/contract/area_light.h). feature_area_lights
+// selects linearly transformed cosines or one representative point (area_point.glsl). Area lights cast no
+// shadows.
+#ifndef AREA_GLSL
+#define AREA_GLSL
+
+#include "shaders/lib/lights/area_point.glsl"
+#include "shaders/lib/shading/brdf.glsl"
+#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/lights/ltc_tube.glsl"
+
+bool areaPoints() { return (feature_area_lights & AREA_POINTS) != 0; }
+
+// Values shared by all area lights of a pixel.
+struct AreaView {
+    Brdf brdf;
+    vec3 n, v;          // unit, world axes
+    mat3 surface;       // from world axes to the frame of shared/contract/ltc.h
+    Ltc ltc;            // of the specular lobe
+    float tilt;         // of its cosine
+    vec3 sky;           // specular reflection of uniform radiance 1
+};
+
+// One entry of the table (shared/contract/ltc.h, shared/light/ltc.h).
+struct LtcCell {
+    vec4 even, layer;  // in_plane, across, unsheared, tilt
+    float magnitude, fresnel;
+};
+
+// A light as seen from the surface point.
+struct AreaIncident {
+    vec3 centre;    // relative to the surface, world axes, m
+    vec3 radiance;  // W/(sr m^2); exactly 0 beyond its range and from behind
+    float side;     // 1: emits along `direction`; -1: against it
+};
+
+// F0's fraction of the lobe's reflection.
+float evenShare(LtcCell cell, float f0, float f90) {
+    float even = f0 * cell.magnitude, all = even + max(f90 - f0, 0.0) * cell.fresnel;
+    return even / max(all, 1e-30);
+}
+
+AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
+    AreaView a;
+    a.brdf = brdf;
+    a.n = n;
+    a.v = v;
+    vec3 across = v - n * dot(n, v);
+    float sine = lengthOf(across);
+    vec3 other = abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 x = sine > 1e-6 ? across / -sine : normalized(crossProduct(n, other));
+    a.surface = transpose(mat3(x, crossProduct(n, x), n));
+    float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
+    float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
+    float least = evenShare(cell, LTC_LAYER_F0, 1.0);
+    float even = evenShare(cell, dot(brdf.f0, vec3(1.0 / 3.0)), dot(brdf.f90, vec3(1.0 / 3.0)));
+    float towards_even = clamp((even - least) / max(1.0 - least, 1e-6), 0.0, 1.0);
+    vec4 lobe = cell.layer + (cell.even - cell.layer) * towards_even;
+    a.ltc.inverse_a = m2 / (lobe.x * 2.0 * brdf.alpha);
+    a.ltc.inverse_c = 1.0 / (lobe.y * 2.0 * brdf.alpha);
+    a.ltc.b = (1.0 - lobe.z) * sqrt(sin2 / m2);
+    a.tilt = lobe.w;
+    a.sky = brdf.f0 * cell.magnitude + (brdf.f90 - brdf.f0) * cell.fresnel;
+    return a;
+}
+
+layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
+
+// Looks up the table entry of a surface and makes its AreaView.
+AreaView areaView(Brdf brdf, Surface s, vec3 v) {
+    LtcCell cell = LtcCell(vec4(1.0), vec4(1.0), 1.0, 0.0);
+    if (!areaPoints()) {
+        float roughness = sqrt(brdf.alpha);
+        vec2 at = vec2((roughness - MIN_PERCEPTUAL_ROUGHNESS) / (1.0 - MIN_PERCEPTUAL_ROUGHNESS),
+                       1.0 - sqrt(min(brdf.n_dot_v, 1.0)));
+        vec2 texel = 1.0 / vec2(LTC_CELLS, LTC_BLOCKS * LTC_CELLS);
+        at = (at * float(LTC_CELLS - 1) + 0.5) * texel;
+        vec2 block = vec2(0.0, 1.0 / float(LTC_BLOCKS));
+        cell.even = textureLod(ltc_table, at, 0.0);
+        cell.layer = textureLod(ltc_table, at + block, 0.0);
+        vec2 albedo = textureLod(ltc_table, at + 2.0 * block, 0.0).xy;
+        cell.magnitude = albedo.x, cell.fresnel = albedo.y;
+    }
+    return areaViewOf(brdf, s.normal, v, cell);
+}
+
+AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool flat_light) {
+    AreaIncident i;
+    i.centre = light.position - position;
+    float d2 = max(dot(i.centre, i.centre), MIN_LIGHT_DISTANCE_SQUARED);
+    float window = rangeWindow(light, d2);
+    float front = -dot(i.centre, shape.direction);
+    i.side = front < 0.0 ? -1.0 : 1.0;
+    bool shines = !flat_light || front > 0.0 || (front < 0.0 && shape.two_sided != 0.0);
+    i.radiance = shines ? light.intensity * window : vec3(0.0);
+    return i;
+}
+
+// Largest reflection of a small light, as a multiple of `sky`. The fit is poor where the light's mean
+// direction is far from the centre of the lobe.
+const float LTC_MOST_GAIN = 4.0;
+
+// Adds one light. `plain`, `lobe`: its form factors (ltc.glsl) under the cosine and under the specular
+// lobe. A small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted
+// density there. A light that fills the lobe reflects the table's albedo. The fourth root of the covered
+// share blends the two; it fits the lights of tests/probe/area_error_test.cpp best.
+void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
+    mat3 world = transpose(a.surface);
+    float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
+    vec3 base = reachingBase(a.brdf, weight);
+    float share = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
+    vec3 u = unitOrZero(lobe), l = fromCosine(a.ltc, u);
+    // Per steradian: a direction's solid angle shrinks by the cube of the length of its image.
+    float density = (u.z + a.tilt * u.x) * INVERSE_PI * a.ltc.inverse_a * a.ltc.inverse_c;
+    float stretch = lengthOf(l);
+    density *= stretch * stretch * stretch;
+    l = unitOrZero(l);
+    float n_dot_l = max(l.z, 0.0);
+    vec3 s = world * l + a.v;
+    float s2 = dot(s, s);
+    vec3 there = (a.brdf.f0 + (a.brdf.f90 - a.brdf.f0) * schlickWeight(0.5 * sqrt(s2))) *
+                 (specularLobe(a.brdf, a.n, s, s2, n_dot_l) * n_dot_l / max(density, 1e-20));
+    there = min(there, LTC_MOST_GAIN * a.sky);
+    vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(share))) * share, a.sky);
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
+    vec3 from_lobe = reflected * radiance;
+    if (feature_multiscatter == MULTISCATTER_FDEZ)
+        from_lobe += a.brdf.between * (PI * max(plain.z, 0.0)) * radiance;
+    if (lit) diffuse += from_base, specular += from_lobe;
+}
+
+// Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
+// near a huge light and far from a tiny one.
+float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
+
+void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, true);
+    if (areaPoints()) {
+        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
+         y = a.surface * (shape.y * (-i.side * unit));
+    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance,
+               diffuse, specular);
+}
+
+void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, true);
+    if (areaPoints()) {
+        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
+         y = a.surface * (shape.y * unit);
+    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, diffuse,
+               specular);
+}
+
+void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
+             inout vec3 specular) {
+    AreaIncident i = fromAreaLight(light, shape, position, false);
+    float along = dot(i.centre, shape.direction);
+    bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&
+                  abs(along) <= lengthOf(shape.x);
+    if (within) i.radiance = vec3(0.0);  // a tube emits outwards only
+    if (areaPoints()) {
+        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
+                     i.radiance, diffuse, specular);
+        return;
+    }
+    float unit = unitOf(i, shape);
+    Ltc plain = Ltc(1.0, 1.0, 0.0);
+    Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, lengthOf(shape.x) * unit,
+                    shape.radius * unit);
+    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, diffuse, specular);
+}
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Light that earlier light batches reflected at the pixel, W/(sr m^2). The fourth components contain
+// Radiance's local_seen (diffuse) and local_light (specular).
+#ifndef PARTIAL_SUMS_GLSL
+#define PARTIAL_SUMS_GLSL
+
+#include "shaders/lib/surface/pixel.glsl"
+
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform sampler2D partial_diffuse;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform sampler2D partial_specular;
+
+vec4 partialDiffuse() { return texelFetch(partial_diffuse, pixelHere(), 0); }
+vec4 partialSpecular() { return texelFetch(partial_specular, pixelHere(), 0); }
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Whether two samples of a pixel may be shaded as one although their triangles differ. On a fine mesh,
+// each triangle covers part of a pixel and looks like its neighbours. Normals are compared relative to the
+// lobe's width: a highlight of roughness r is r^2 wide.
+#ifndef SIMILAR_GLSL
+#define SIMILAR_GLSL
+
+#include "shaders/lib/surface/gbuffer_read.glsl"
+
+// Largest difference of colours, fractions and roughness; of radiance, relative to the larger one. A
+// quarter of an 8-bit level, because a dark surface may be brightly lit.
+const float SIMILAR_ATTRIBUTE = 0.25 / 255.0;
+// Sine of the angle between normals, relative to the squared roughness.
+const float SIMILAR_NORMAL = 0.001;
+// Distance of either position from the plane of the other, relative to the distance between them.
+const float SIMILAR_PLANE = 0.01;
+// Distance between the positions, relative to that on a surface facing the viewer. At grazing angles a
+// pixel spans much of a surface, and light on it changes.
+const float SIMILAR_SPAN = 1.5;
+
+bool within(vec3 a, vec3 b, float most) {
+    vec3 d = abs(a - b);
+    return max(d.x, max(d.y, d.z)) <= most;
+}
+
+bool alikeRadiance(vec3 a, vec3 b) {
+    return within(a, b, SIMILAR_ATTRIBUTE * max(max(a.x, max(a.y, a.z)), max(b.x, max(b.y, b.z))));
+}
+
+// a, b: texels of two samples of pixel p.
+bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
+    uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
+    Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));
+    vec3 facing = positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(at)) - s.position;
+    Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(bt)));
+    vec3 between = t.position - s.position, turned = s.normal - t.normal;
+    float rough = min(s.roughness, t.roughness);
+    float turn = SIMILAR_NORMAL * rough * rough;
+    float off = max(abs(dot(between, s.normal)), abs(dot(between, t.normal)));
+    bool near = off * off <= SIMILAR_PLANE * SIMILAR_PLANE * dot(between, between) &&
+                dot(between, between) <= SIMILAR_SPAN * SIMILAR_SPAN * dot(facing, facing);
+    return s.material_id == t.material_id && s.lightmapped == t.lightmapped && near &&
+           dot(turned, turned) <= turn * turn && within(s.albedo, t.albedo, SIMILAR_ATTRIBUTE) &&
+           within(vec3(s.roughness, s.metallic, s.occlusion), vec3(t.roughness, t.metallic, t.occlusion),
+                  SIMILAR_ATTRIBUTE) &&
+           within(s.dielectric_f0, t.dielectric_f0, SIMILAR_ATTRIBUTE) &&
+           abs(s.dielectric_f90 - t.dielectric_f90) <= SIMILAR_ATTRIBUTE &&
+           alikeRadiance(s.emission, t.emission) && alikeRadiance(s.lightmap, t.lightmap);
+}
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Uniform ambient light: the BRDF integrated over the hemisphere, from the table of
+// shared/contract/albedo.h or from a fit.
+#ifndef AMBIENT_GLSL
+#define AMBIENT_GLSL
+
+#include "shaders/lib/shading/brdf.glsl"
+#include "shared/contract/albedo.h"
+
+// Each texel stores a table sample and the next one.
+layout(set = SET_FRAME, binding = BINDING_ALBEDO) uniform samplerBuffer albedo_pairs;
+
+// Cubic Lagrange weights for samples at 0, 1, 2 and 3.
+vec4 cubicWeights(float t) {
+    float a = t, b = t - 1.0, c = t - 2.0, d = t - 3.0;
+    vec4 w = vec4(b * c * d / -6.0, a * c * d * 0.5, a * b * d * -0.5, a * b * c / 6.0);
+    return w;
+}
+
+// Index of the first of the four samples around x in [0, 1]. `t` is the position of x from there, in
+// samples.
+uint cubicFirst(float x, uint count, out float t) {
+    float place = clamp(x, 0.0, 1.0) * float(count - 1u);
+    uint first = uint(clamp(int(place) - 1, 0, int(count) - 4));
+    t = place - float(first);
+    return first;
+}
+
+vec2 cubicRow(uint first, vec4 w) {
+    vec4 lower = texelFetch(albedo_pairs, int(first)), upper = texelFetch(albedo_pairs, int(first) + 2);
+    vec2 sum = lower.xy * w.x + lower.zw * w.y + upper.xy * w.z + upper.zw * w.w;
+    return sum;
+}
+
+vec2 tabledAlbedo(float alpha, float n_dot_v) {
+    float k = 2.0 * alpha, least = sqrt(MIN_PERCEPTUAL_ROUGHNESS);
+    float x = ALBEDO_BLEND * sqrt(n_dot_v * (1.0 + k) / (n_dot_v + k)) + (1.0 - ALBEDO_BLEND) * sqrt(n_dot_v);
+    float y = (sqrt(sqrt(alpha)) - least) / (1.0 - least);
+    float tx, ty;
+    uint column = cubicFirst(x, ALBEDO_TABLE_WIDTH, tx), row = cubicFirst(y, ALBEDO_TABLE_HEIGHT, ty);
+    vec4 across = cubicWeights(tx), down = cubicWeights(ty);
+    uint first = row * ALBEDO_TABLE_WIDTH + column;
+    vec2 sum = cubicRow(first, across) * down.x +
+               cubicRow(first + ALBEDO_TABLE_WIDTH, across) * down.y +
+               cubicRow(first + 2u * ALBEDO_TABLE_WIDTH, across) * down.z +
+               cubicRow(first + 3u * ALBEDO_TABLE_WIDTH, across) * down.w;
+    return sum;
+}
+
+// Karis 2014, "Physically Based Shading on Mobile", after Lazarov 2013, "Getting More Physical in Call of
+// Duty: Black Ops II". Negative values are clamped to 0.
+vec2 fittedAlbedo(float alpha, float n_dot_v) {
+    float roughness = sqrt(alpha), gloss = 1.0 - roughness;
+    float edge = min(gloss * gloss, exp2(-9.28 * n_dot_v)) * gloss + (0.0425 - 0.0275 * roughness);
+    float x = -1.04 * edge + (1.04 - 0.572 * roughness), y = 1.04 * edge + (-0.04 + 0.022 * roughness);
+    return vec2(max(x, 0.0), max(y, 0.0));
+}
+
+// The directional albedo of the specular lobe is f0 * x + f90 * y. The table's error is at most 6e-5. The
+// fit's error is at most 0.082 at F0 = 0.04, 0.31 at F = 1, and 0.54 below n.v = 0.1.
+vec2 specularAlbedo(float alpha, float n_dot_v) {
+    float mu = min(n_dot_v, 1.0);
+    if (on(feature_fitted_albedo)) return fittedAlbedo(alpha, mu);
+    return tabledAlbedo(alpha, mu);
+}
+
+// Cosine-weighted mean of schlickWeight() over the hemisphere: the light that the diffuse base loses.
+// Polynomial for n.v in [0, 1], within 5e-6 of the integral.
+float meanSchlickWeight(float n_dot_v) {
+    float mu = min(n_dot_v, 1.0);
+    float mean = 0.0281597 + mu * (-0.079749 + mu * (0.0859503 + mu * (-0.0428453 + mu * 0.00856196)));
+    return mean;
+}
+
+// Fraction of ambient light that passes the layer above the base.
+vec3 baseShare(Brdf b) { return reachingBase(b, meanSchlickWeight(b.n_dot_v)); }
+
+// Fraction of ambient light that the specular lobe reflects to the viewer.
+vec3 lobeShare(Brdf b) {
+    vec2 lobe = b.albedo;
+    if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
+    vec3 share = b.f0 * lobe.x + b.f90 * lobe.y;
+    return share;
+}
+
+// Radiance reflected to the viewer, W/(sr m^2), without occlusion. `ambient`: uniform radiance.
+// `lightmap`: irradiance over pi, reflected by the base only.
+vec3 reflectedAmbient(Brdf b, vec3 ambient, vec3 lightmap) {
+    vec3 radiance = vec3(0.0);
+    if (on(feature_ambient)) {
+        vec3 reflected = lobeShare(b);
+        if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += b.between * PI;
+        radiance = reflected * ambient;
+    }
+    radiance += b.diffuse * PI * baseShare(b) * (ambient + lightmap);
+    return radiance;
+}
+
+#endif

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0's metallic-roughness BRDF (appendix B) with KHR_materials_specular and _ior. `metallic` mixes a
+// dielectric (a Lambertian base under a specular layer) and a metal. All passes share this copy.
+#ifndef BRDF_GLSL
+#define BRDF_GLSL
+
+#include "shaders/lib/surface/surface.glsl"
+
+#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
+
+// Values that do not depend on the light.
+struct Brdf {
+    vec3 diffuse;    // (1 - metallic) albedo / pi, 1/sr
+    vec3 f0;         // of the mix
+    vec3 f90;
+    vec3 base_f0;    // of the dielectric's layer; the base loses what it reflects (lostBelow)
+    vec3 base_f90;
+    vec3 between;    // multiple scattering as a Lambertian lobe (multiscatter.glsl), 1/sr
+    vec2 albedo;     // specularAlbedo(); only with feature_multiscatter
+    float alpha;     // GGX width, roughness^2
+    float alpha2;
+    float n_dot_v;
+    float smith_v;   // sqrt((n.v)^2 (1 - alpha^2) + alpha^2)
+};
+
+// Light that a base loses to a layer that reflects `layer`: each component, or the largest.
+vec3 lostBelow(vec3 layer) {
+    if (on(feature_base_by_component)) return layer;
+    return vec3(max(layer.r, max(layer.g, layer.b)));
+}
+
+Brdf makeBrdf(Surface s, vec3 v) {
+    Brdf b;
+    b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
+    if (on(feature_transmission)) b.diffuse *= 1.0 - s.transmission;
+    b.f0 = specularF0(s);
+    b.f90 = vec3(blend(s.dielectric_f90, 1.0, s.metallic));
+    b.base_f0 = lostBelow(s.dielectric_f0);
+    b.base_f90 = vec3(s.dielectric_f90);
+    b.between = vec3(0.0);
+    b.albedo = vec2(0.0);
+    float roughness = max(s.roughness, MIN_PERCEPTUAL_ROUGHNESS);
+    b.alpha = roughness * roughness;
+    b.alpha2 = b.alpha * b.alpha;
+    b.n_dot_v = max(dot(s.normal, v), MIN_N_DOT_V);
+    b.smith_v = sqrt(b.n_dot_v * b.n_dot_v * (1.0 - b.alpha2) + b.alpha2);
+    return b;
+}
+
+// Denominator of GGX for a half vector `s` of any length: |s|^2 ((n.h)^2 (alpha^2 - 1) + 1). That form
+// cancels near the highlight, so Lagrange's identity replaces 1 - (n.h)^2 by |n x h|^2. At roughness 0.1,
+// the first form errs by over 1e-4 on 40 % of near-highlight samples, this one on none.
+// D = (alpha |s|^2 / denominator)^2 / pi, 1/sr.
+float ggxDenominator(float alpha2, vec3 n, vec3 s) {
+    vec3 n_cross_s = crossProduct(n, s);
+    float n_dot_s = dot(n, s);
+    float q = dot(n_cross_s, n_cross_s) + n_dot_s * n_dot_s * alpha2;
+    return q;
+}
+
+// D G / (4 (n.l) (n.v)), 1/sr, in one division. GGX: Walter et al. 2007, "Microfacet Models for Refraction
+// through Rough Surfaces". Height-correlated Smith masking and shadowing: Heitz 2014, "Understanding the
+// Masking-Shadowing Function in Microfacet-Based BRDFs"; 0.5 / (lambda_v + lambda_l). `s` is l + v.
+// Down-facing microfacets are excluded: a normal map that turns away from the viewer would mirror lights
+// behind the surface. If light and viewer are opposite, s is only rounding error and the result is 0.
+float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
+    float q = ggxDenominator(b.alpha2, n, s);
+    float lambda = n_dot_l * b.smith_v + b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
+    float a = b.alpha * s2;
+    // At the smallest alpha, 0.002, q^2 lambda is above 1e-34 if s2 is above 1e-8.
+    // The floor only avoids 0 / 0.
+    float lobe = a * a * (0.5 * INVERSE_PI) / max(q * q * lambda, 1e-37);
+    return dot(n, s) > 0.0 && s2 > 1e-12 ? lobe : 0.0;
+}
+
+// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering": the weight of f90.
+float schlickWeight(float v_dot_h) {
+    float x = clamp(1.0 - v_dot_h, 0.0, 1.0);
+    float x2 = x * x;
+    return x2 * x2 * x;
+}
+
+// Fraction of light that reaches the base; `weight` is the weight of f90.
+vec3 reachingBase(Brdf b, float weight) {
+    vec3 share = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
+    return share;
+}
+
+// Reflection of light from one direction.
+struct Reflected {
+    float n_dot_l;  // 0 to 1
+    vec3 base;      // 1/sr
+    vec3 lobe;      // 1/sr
+};
+
+// The specular lobe in 16-bit floats (optional in Vulkan), as in mobile renderers. Light and its sums stay
+// in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 / pi for a unit half vector, so that no small
+// value is squared. D is clamped to the range of 16 bits, the visibility term where it would be infinite.
+float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
+    f16vec3 n_cross_h = n.yzx * h.zxy - n.zxy * h.yzx;
+    float16_t alpha = float16_t(b.alpha), alpha2 = float16_t(b.alpha2), n_dot_v = float16_t(b.n_dot_v);
+    float16_t a = dot(n, h) * alpha;
+    float16_t k = alpha / max(dot(n_cross_h, n_cross_h) + a * a, float16_t(6e-8));
+    k = min(k, float16_t(450.0));  // 65504 pi is 453.6^2
+    float16_t lambda = n_dot_l * float16_t(b.smith_v) +
+                       n_dot_v * sqrt(n_dot_l * n_dot_l * (float16_t(1.0) - alpha2) + alpha2);
+    float16_t visibility = float16_t(0.5) / max(lambda, float16_t(1e-5));
+    // In this order: k^2 alone may exceed 65504.
+    float lobe = float(k * float16_t(INVERSE_PI) * k) * float(visibility);
+    return dot(n, h) > float16_t(0.0) ? lobe : 0.0;
+}
+
+Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) {
+    f16vec3 n = f16vec3(normal), v = f16vec3(view_vector), l = f16vec3(to_light);
+    float16_t n_dot_l = clamp(dot(n, l), float16_t(0.0), float16_t(1.0));
+    f16vec3 s = l + v;
+    f16vec3 h = s * inversesqrt(max(dot(s, s), float16_t(1e-6)));
+    float16_t x = clamp(float16_t(1.0) - dot(v, h), float16_t(0.0), float16_t(1.0));
+    float16_t x2 = x * x, weight = x2 * x2 * x;
+    f16vec3 f0 = f16vec3(b.f0), fresnel = f0 + (f16vec3(b.f90) - f0) * weight;
+    f16vec3 base_f0 = f16vec3(b.base_f0);
+    f16vec3 base = f16vec3(1.0) - (base_f0 + (f16vec3(b.base_f90) - base_f0) * weight);
+    return Reflected(float(n_dot_l), vec3(f16vec3(b.diffuse) * base),
+                     vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
+}
+
+// l: unit vector to the light.
+Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
+    float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
+    vec3 s = l + v;
+    float s2 = dot(s, s);
+    float weight = schlickWeight(0.5 * sqrt(s2));  // v.h = |l + v| / 2
+    vec3 fresnel = b.f0 + (b.f90 - b.f0) * weight;
+    vec3 base = reachingBase(b, weight);
+    float lobe = specularLobe(b, n, s, s2, n_dot_l);
+    return Reflected(n_dot_l, b.diffuse * base, fresnel * lobe);
+}
+
+// Adds the light that arrives from the unit vector `l` and leaves to `v`. `irradiance`: W/m^2,
+// perpendicular to `l`.
+void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
+    Reflected reflected;
+    if (on(feature_half_shading))
+        reflected = reflectedInHalf(b, n, v, l);
+    else
+        reflected = reflectedLight(b, n, v, l);
+    vec3 received = irradiance * reflected.n_dot_l;
+    vec3 from_lobe = reflected.lobe * received;
+    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;
+    diffuse += reflected.base * received;
+    specular += from_lobe;
+}
+
+#endif

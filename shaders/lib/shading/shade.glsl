@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Shades one surface by one sum over lights, for every path.
+#ifndef SHADE_GLSL
+#define SHADE_GLSL
+
+#include "shaders/lib/shading/ambient.glsl"
+#include "shaders/lib/lights/area.glsl"
+#include "shaders/lib/shading/brdf.glsl"
+#include "shaders/lib/environment/environment.glsl"
+#include "shaders/lib/shading/multiscatter.glsl"
+#include "shaders/lib/lights/partial_sums.glsl"
+#include "shaders/lib/lights/light_lists.glsl"
+#include "shaders/lib/environment/haze.glsl"
+#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/shadows/local_shadow.glsl"
+#include "shaders/lib/math/loop.glsl"
+#include "shaders/lib/lights/object_lights.glsl"
+#include "shaders/lib/geometry/position.glsl"
+#include "shaders/lib/shading/radiance.glsl"
+#include "shaders/lib/shadows/shadow.glsl"
+#include "shaders/lib/surface/surface.glsl"
+
+// Values of a pixel that every light uses.
+struct Shading {
+    Surface surface;
+    vec3 v;
+    Brdf brdf;
+};
+
+void addIncident(Shading shading, Incident light, inout Radiance radiance) {
+    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance,
+             radiance.diffuse, radiance.specular);
+}
+
+void addPoint(Shading shading, uint i, inout Radiance radiance) {
+    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), radiance);
+}
+
+void addSpot(Shading shading, uint i, inout Radiance radiance) {
+    addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
+                radiance);
+}
+
+void addCasting(Shading shading, Incident light, uint place, vec3 position, inout Radiance radiance) {
+    float seen = visibilityOf(shading.surface, place, position);
+    float light_here = dot(light.irradiance, vec3(0.2126, 0.7152, 0.0722));
+    radiance.local_light += light_here;
+    radiance.local_seen += light_here * seen;
+    light.irradiance *= seen;
+    addIncident(shading, light, radiance);
+}
+
+void addCastingPoint(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+    Light light = withShare(lightAt(i));
+    Incident incident = fromPointLight(light, shading.surface.position);
+    addCasting(shading, incident, i - view.directional_light_count, light.position, radiance);
+}
+
+void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+    Light light = withShare(lightAt(i));
+    Incident incident = fromSpotLight(light, spotConeAt(i), shading.surface.position);
+    addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
+}
+
+// Adds the shadow-casting lights of one type in packets [x, y): the first ones, with indices below `end`.
+// Leaves the packets that contain others.
+#define ADD_CASTERS(add, packets, end)                       \
+    {                                                       \
+        CasterWalk walk = casterWalk(packets, end);         \
+        while (walk.more) {                                 \
+            add(shading, walk.light, casters, radiance);    \
+            step(walk);                                     \
+            if (!walk.more) break;                          \
+        }                                                   \
+        packets.x = walk.place / feature_list_width;        \
+    }
+
+// Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
+// those with indices below `end`.
+#define ADD_PACKETS(add, packets, casting, end)    \
+    {                                             \
+        uvec2 range = packets;                    \
+        EACH(range) {                             \
+            uvec4 i = lightsOfPacket(range.x);     \
+            if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light); \
+            add(shading, i.x, radiance);          \
+            if (feature_list_width == 4) {        \
+                add(shading, i.y, radiance);      \
+                add(shading, i.z, radiance);      \
+                add(shading, i.w, radiance);      \
+            }                                     \
+            NEXT(range);                          \
+        }                                         \
+    }
+
+// Continues with the area lights of one shape, with indices below `end`. One loop per shape, because a
+// loop body costs all the code in it, executed or not.
+#define ADD_AREA(add, end)                                                                              \
+    while (walk.more && walk.number < end) {                                                            \
+        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, \
+            radiance.specular);                                                                         \
+        step(walk);                                                                                     \
+    }
+
+// Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
+// lies in front of the sum and only lit() applies it.
+Radiance shade(Surface s, PixelLights lights) {
+    Radiance radiance = noRadiance();
+    bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
+    // First, while few values are live: a shadow map's filter needs more registers than anything after it.
+    // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
+    if (has_suns) radiance.sun_visibility = sunVisibility(s);
+    vec3 v = viewVector(s.position);
+    Brdf brdf = makeBrdf(s, v);
+    if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
+    Shading shading = Shading(s, v, brdf);
+    radiance.emission = s.emission;
+    if (feature_light_batch == BATCH_LATER) {
+        vec4 diffuse = partialDiffuse(), specular = partialSpecular();
+        radiance.diffuse = diffuse.rgb;
+        radiance.specular = specular.rgb;
+        radiance.local_seen = diffuse.a;
+        radiance.local_light = specular.a;
+    }
+    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
+        // The base reflects the draw's lights that are not shaded per pixel.
+        vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
+        radiance.diffuse = reflected;
+    }
+    if (on(feature_environment)) {
+        vec3 from_base, from_lobe;
+        reflectEnvironment(s, shading.brdf, v, from_base, from_lobe);
+        radiance.environment = from_base + from_lobe;
+        if (feature_light_batch != BATCH_LATER) {
+            radiance.diffuse += from_base;
+            radiance.specular += from_lobe;
+        }
+    }
+    if (has_suns) {
+        uvec2 range = directionalPackets();
+        EACH(range) {
+            Incident light = fromDirectionalLight(directionalAt(range.x));
+            if (on(feature_shadows) && directionalOf(range.x) == castingLight())
+                light.irradiance *= radiance.sun_visibility;
+            addIncident(shading, light, radiance);
+            NEXT(range);
+        }
+    }
+    LocalCasters casters = LocalCasters(0u, 0u, 0u, 0u);
+    if (on(feature_local_shadows)) casters = localCasters();
+    if (on(feature_point_lights)) {
+        uvec2 packets = walked(lights, lights.packets.begin, lights.packets.point_end);
+        if (on(feature_local_shadows & LOCAL_SHADOWS_POINTS))
+            ADD_CASTERS(addCastingPoint, packets, casters.point_end)
+        ADD_PACKETS(addPoint, packets, LOCAL_SHADOWS_POINTS, casters.point_end)
+    }
+    if (on(feature_spot_lights)) {
+        uvec2 packets = walked(lights, lights.packets.point_end, lights.packets.spot_end);
+        if (on(feature_local_shadows & LOCAL_SHADOWS_SPOTS))
+            ADD_CASTERS(addCastingSpot, packets, casters.spot_end)
+        ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
+    }
+    if (on(feature_area_lights)) {
+        AreaView area = areaView(shading.brdf, s, v);
+        AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
+        if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
+        if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
+        if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
+    }
+    if (on(feature_ambient) || on(feature_lightmap))
+        radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+    if (on(feature_haze)) {
+        Hazed hazed = hazeTo(s.position);
+        radiance.transmittance = hazed.transmittance;
+        radiance.haze = hazed.scattered;
+    }
+    return radiance;
+}
+
+#endif

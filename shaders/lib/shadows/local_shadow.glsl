@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Visibility of point and spot lights from the shadow atlas, read by local_face.glsl. A list's
+// shadow-casting lights are evaluated first, one by one, so that the others cost no more than without
+// shadows.
+#ifndef LOCAL_SHADOW_GLSL
+#define LOCAL_SHADOW_GLSL
+
+#include "shaders/lib/lights/light_lists.glsl"
+#include "shaders/lib/shadows/local_face.glsl"
+
+layout(set = SET_FRAME, binding = BINDING_LOCAL_SHADOW_LIGHTS) uniform samplerBuffer local_shadow_texels;
+layout(set = SET_FRAME, binding = BINDING_LOCAL_SHADOW_MAP) uniform sampler2DArray local_shadow_map;
+
+LocalCasters localCasters() {
+    vec4 a = texelFetch(local_shadow_texels, 0);
+    return LOCAL_CASTERS_OF_TEXEL(a);
+}
+
+LocalShadow localShadowAt(uint place) {
+    int first = int(1u + LOCAL_SHADOW_TEXELS * place);
+    vec4 a = texelFetch(local_shadow_texels, first), b = texelFetch(local_shadow_texels, first + 1),
+         c = texelFetch(local_shadow_texels, first + 2);
+    return LOCAL_SHADOW_OF_TEXELS(a, b, c);
+}
+
+LocalFace localFaceAt(uint place, uint face) {
+    vec4 a = texelFetch(local_shadow_texels, int(1u + LOCAL_SHADOW_TEXELS * place + 3u + face));
+    return LOCAL_FACE_OF_TEXEL(a);
+}
+
+// Visibility, 0 to 1, of the light at index `place` of LocalShadow[], at `light_position`. 0 if the
+// triangle faces away from it.
+float visibilityOf(Surface s, uint place, vec3 light_position) {
+    LocalShadow light = localShadowAt(place);
+    vec3 from_light = s.position - light_position;
+    vec3 p = inLight(light, from_light);
+    uint number = faceOf(p);
+    LocalFace face = localFaceAt(place, number);
+    float rounding = LOCAL_ROUNDING * (lengthOf(from_light) + lengthOf(s.position));
+    vec3 n = onFace(inLight(light, s.geometric_normal), number);
+    Receiver r = localReceiver(onFace(p, number), n, rounding, light, face);
+    float visibility = face.texels > 0.0 ? filtered(local_shadow_map, r, vec2(0.0), 0u) : 1.0;
+    return dot(s.geometric_normal, from_light) < 0.0 ? visibility : 0.0;
+}
+
+// Iterates one by one over the shadow-casting lights of a segment of a list: the first ones, with indices
+// below `light_end`. Evaluating a packet's other lights as well would be too expensive.
+struct CasterWalk {
+    uint place, end;  // positions in the list: packets times list_width
+    uint light;
+    uint light_end;
+    bool more;
+};
+void look(inout CasterWalk walk) {
+    uint place = min(walk.place, max(walk.end, 1u) - 1u);
+    walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
+    walk.more = walk.place < walk.end && walk.light < walk.light_end;
+}
+CasterWalk casterWalk(uvec2 packets, uint light_end) {
+    CasterWalk walk = CasterWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u,
+                                 light_end, false);
+    look(walk);
+    return walk;
+}
+void step(inout CasterWalk walk) {
+    ++walk.place;
+    look(walk);
+}
+
+// A packet without its shadow-casting lights.
+uvec4 withoutCasters(uvec4 lights, uint light_end, uint null_light) {
+    return uvec4(lights.x < light_end ? null_light : lights.x, lights.y < light_end ? null_light : lights.y,
+                 lights.z < light_end ? null_light : lights.z, lights.w < light_end ? null_light : lights.w);
+}
+
+#endif

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Makes a Surface from the material's factors and textures, for forward+ and for the G-buffer pass.
+// Everything that needs screen-space derivatives (mip levels, the triangle's normal) happens here and
+// nowhere later.
+#ifndef MATERIAL_GLSL
+#define MATERIAL_GLSL
+
+#include "shaders/lib/geometry/draw.glsl"
+#include "shaders/lib/geometry/inputs.glsl"
+#include "shaders/lib/surface/material_factors.glsl"
+#include "shaders/lib/lights/object_lights.glsl"
+#include "shaders/lib/geometry/position.glsl"
+#include "shaders/lib/surface/specular_aa.glsl"
+#include "shaders/lib/surface/surface.glsl"
+
+layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
+layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
+layout(set = SET_MATERIAL, binding = SLOT_normal) uniform sampler2D normal_texture;
+layout(set = SET_MATERIAL, binding = SLOT_occlusion) uniform sampler2D occlusion_texture;
+layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_texture;
+layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
+layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
+layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
+
+// Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
+// break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
+// not cover.
+vec2 slotTexcoord(uint slot) {
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) return SHADED(v_slot_texcoords[slot]);
+    return shaded_texcoord;
+}
+
+// Samples a slot's texture. Under MSAA, coordinates at the pixel's centre select the mip level: the shaded
+// locations of neighbouring pixels are not one pixel apart.
+vec2 middleTexcoord(uint slot) {
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) return MIDDLE(v_slot_texcoords[slot]);
+    return middle_texcoord;
+}
+vec4 sampledTexel(sampler2D map, uint slot) {
+    if (!multisampled()) return texture(map, slotTexcoord(slot));
+    vec2 middle = middleTexcoord(slot);
+    return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
+}
+
+// Texel of a slot: sampled, or constant for images of one colour; `texel` is the slot's feature. In pixels
+// that the triangle does not cover the constant may read 0, so code that takes differences samples the
+// map.
+vec4 slotTexel(sampler2D map, uint slot, uint texel) {
+    return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
+}
+// Slots that share a texel repeat the same sample, which compilers merge.
+vec4 baseColorTexel() { return slotTexel(base_color_texture, SLOT_base_color, feature_base_color_texture); }
+vec4 normalTexel() { return slotTexel(normal_texture, SLOT_normal, feature_normal_texture); }
+// Roughness in green, metallic in blue.
+vec4 metallicRoughnessTexel() {
+    if (feature_metallic_roughness_texture == TEXEL_ALPHAS)
+        return vec4(1.0, normalTexel().a, baseColorTexel().a, 1.0);
+    return slotTexel(metallic_roughness_texture, SLOT_metallic_roughness, feature_metallic_roughness_texture);
+}
+vec4 occlusionTexel() {
+    if (feature_occlusion_texture == TEXEL_SHARED) return metallicRoughnessTexel();
+    return slotTexel(occlusion_texture, SLOT_occlusion, feature_occlusion_texture);
+}
+vec4 emissiveTexel() {
+    if (feature_emissive_texture == TEXEL_SHARED) return baseColorTexel();
+    return slotTexel(emissive_texture, SLOT_emissive, feature_emissive_texture);
+}
+
+vec4 baseColor() {
+    vec4 color = material.base_color;
+    if (on(feature_base_color_texture)) color *= baseColorTexel();
+    if (on(feature_vertex_color)) color *= shaded_color;
+    return color;
+}
+
+// Fraction of a pixel where alpha reaches the cutoff, if alpha changes linearly across it (Golus 2017,
+// "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage"). `alpha` is at the shaded location, inside
+// the triangle: beyond the edge a repeating texture starts again. The change of alpha sums the differences
+// between pixel centres along both axes: the width over which an edge in any direction crosses a pixel. It
+// excludes the factor, which reads as 0 where a quad leaves its triangle (slotTexcoord). It is at most 1,
+// because pixels beside the triangle may lie where the texture repeats; transparent locations then stay
+// transparent for cutoffs above 3/8.
+float sharpenedAlpha(float alpha) {
+    float middle = 1.0;
+    if (on(feature_base_color_texture))
+        middle *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
+    if (on(feature_vertex_color)) middle *= middle_color.a;
+    float change = min(material.base_color.a * (abs(dFdxFine(middle)) + abs(dFdyFine(middle))), 1.0);
+    float above = alpha - material.alpha_cutoff;
+    return change > 0.0 ? clamp(above / change + 0.5, 0.0, 1.0) : above < 0.0 ? 0.0 : 1.0;
+}
+
+// Alpha mask. Every pass that draws the material calls this, so a pre-pass cuts the same holes as shading.
+// A masked pixel continues as a helper invocation: its neighbours' mip levels and triangle normals are
+// differences to it and would be undefined after `discard`. Returns the remaining samples of the
+// triangle's coverage.
+uint cutOut(vec4 base_color) {
+    if (feature_alpha_mask == MASK_COVERS) {
+        uint covered = coverageOf(sharpenedAlpha(base_color.a));
+        gl_SampleMask[0] = int(covered);
+        return covered & uint(gl_SampleMaskIn[0]);
+    }
+    if (on(feature_alpha_mask) && base_color.a < material.alpha_cutoff) demote;
+    return uint(gl_SampleMaskIn[0]);
+}
+
+float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
+// A vector along the triangle's normal, of any non-zero length and either sign. The derivatives are scaled
+// first: in a tiny scene the squared length of their cross product would underflow. A triangle seen
+// edge-on or without area gives the direction to the viewer, `towards` (of any length).
+vec3 alongTriangleNormal(vec3 towards) {
+    vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
+    vec3 n = crossProduct(dx * (1.0 / max(largestOf(dx), 1e-37)),
+                          dy * (1.0 / max(largestOf(dy), 1e-37)));
+    return dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
+}
+// The triangle's unit normal, facing the viewer.
+vec3 triangleNormal(vec3 towards) {
+    vec3 along = alongTriangleNormal(towards);
+    vec3 unit = along * inversesqrt(dot(along, along));
+    return dot(unit, towards) < 0.0 ? -unit : unit;
+}
+
+// Tangent-space normal of a texel, scaled and not normalised.
+vec3 mappedNormal(vec4 texel, float scale) {
+    vec3 t = texel.xyz * 2.0 - 1.0;
+    t.xy *= scale;
+    return t;
+}
+vec3 mappedNormal() {
+    return mappedNormal(normalTexel(), material.normal_scale);
+}
+
+// Unit vector along `v`; 0 for the zero vector.
+vec3 directionOf(vec3 v) {
+    float length2 = dot(v, v);
+    return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
+}
+
+// Transforms `t` from tangent space, (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as
+// MikkTSpace defines it (glTF 2.0).
+vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
+    vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
+    return t.x * tangent.xyz + t.y * bitangent + t.z * n;
+}
+
+// Negated on the back of a double-sided material. The triangle's normal replaces a normal that vanished,
+// by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
+// share one normalisation.
+vec3 shadingNormal(vec3 towards) {
+    vec3 n = shaded_normal;
+    if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
+    float length2 = dot(n, n);
+    bool negated = on(feature_double_sided) && !gl_FrontFacing;
+    if (on(feature_vanishing_normals)) {
+        vec3 along = alongTriangleNormal(towards);
+        bool vanished = !(length2 > 0.0);
+        n = vanished ? along : n;
+        vec3 unit = n * inversesqrt(dot(n, n));
+        return (vanished ? dot(unit, towards) < 0.0 : negated) ? -unit : unit;
+    }
+    vec3 unit = n * inversesqrt(length2);
+    return negated ? -unit : unit;
+}
+
+// Gives all four pixels of a quad the value of the covered ones. On lavapipe the others, which derivatives
+// use, read 0 from the material buffer, so they take a neighbour's value.
+float overQuad(float value) {
+    uvec2 odd = uvec2(gl_FragCoord.xy) & 1u;
+    float dx = dFdxFine(value);
+    float in_row = value != 0.0 ? value : (odd.x != 0 ? -dx : dx);
+    float dy = dFdyFine(in_row);
+    return in_row != 0.0 ? in_row : (odd.y != 0 ? -dy : dy);
+}
+
+// Specular anti-aliasing by the normal's change between pixel centres; shaded locations are not one pixel
+// apart. The change is the same for front and back faces.
+float filteredRoughness(float roughness) {
+    vec3 n = middle_normal;
+    if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
+        vec2 at = middleTexcoord(SLOT_normal);
+        float scale = overQuad(material.normal_scale);
+        n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
+    }
+    vec3 unit = directionOf(n);
+    float w = gl_FragCoord.w;
+    float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));
+    if ((feature_specular_aa & SPECULAR_AA_SLOPE) != 0) {
+        vec3 right = on(feature_orthographic) ? view.origin_x : view.direction_x;
+        vec3 down = on(feature_orthographic) ? view.origin_y : view.direction_y;
+        right *= inversesqrt(dot(right, right));
+        down *= inversesqrt(dot(down, down));
+        return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), right, down, rounded);
+    }
+    return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
+}
+
+Surface surfaceFromMaterial(vec4 base_color) {
+    Material m = material;
+    Surface s;
+    s.position = positionFromDepth(shadedPixel(), fragmentDepth());
+    vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
+    s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
+    s.triangle_normal = s.geometric_normal;
+    s.normal = shadingNormal(towards);
+    s.material_id = constants.material;
+    s.texcoord = shaded_texcoord;
+    s.tangent = s.tangent_normal = vec3(0.0);
+    s.handedness = 0.0;
+    if (on(feature_captured) && on(feature_normal_texture)) {
+        s.tangent = directionOf(shaded_tangent.xyz);
+        s.handedness = shaded_tangent.w < 0.0 ? -1.0 : 1.0;  // undoes the rounding of interpolation
+        s.tangent_normal = directionOf(mappedNormal());
+    }
+    s.lightmap = vec3(0.0);
+    s.lightmapped = on(feature_lightmap_texture);
+    s.object_irradiance = vec3(0.0);
+    s.transmission = on(feature_transmission) ? m.transmission : 0.0;
+    if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
+        s.object_irradiance +=
+            on(feature_double_sided) && !gl_FrontFacing ? shaded_irradiance_behind : shaded_irradiance;
+    if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
+    if (on(feature_unlit)) {  // see contract/material.h
+        s.albedo = vec3(0.0);
+        s.metallic = 0.0;
+        s.roughness = 1.0;
+        s.occlusion = 1.0;
+        s.emission = base_color.rgb;
+        s.dielectric_f0 = vec3(0.0);
+        s.dielectric_f90 = 0.0;
+        return s;
+    }
+    s.albedo = base_color.rgb;
+    s.metallic = m.metallic;
+    s.roughness = m.roughness;
+    if (on(feature_metallic_roughness_texture)) {
+        vec4 texel = metallicRoughnessTexel();
+        s.roughness *= texel.g;
+        s.metallic *= texel.b;
+    }
+    if (on(feature_specular_aa)) s.roughness = filteredRoughness(s.roughness);
+    s.occlusion = 1.0;
+    if (on(feature_occlusion_texture)) {
+        float texel = occlusionTexel().r;
+        s.occlusion = 1.0 + m.occlusion_strength * (texel - 1.0);
+    }
+    s.emission = vec3(0.0);
+    if (on(feature_emission)) {
+        s.emission = m.emission;
+        if (on(feature_emissive_texture)) s.emission *= emissiveTexel().rgb;
+    }
+    if (on(feature_lightmap_texture)) {
+        vec4 texel = slotTexel(lightmap_texture, SLOT_lightmap, feature_lightmap_texture);
+        s.lightmap = m.lightmap_intensity * texel.rgb;
+    }
+    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
+    s.dielectric_f90 = 1.0;
+    if (on(feature_dielectric_specular)) {
+        s.dielectric_f0 = m.dielectric_f0;
+        s.dielectric_f90 = m.specular;
+        if (on(feature_specular_color_texture))
+            s.dielectric_f0 *= slotTexel(specular_color_texture, SLOT_specular_color,
+                                         feature_specular_color_texture).rgb;
+        if (on(feature_specular_texture))
+            s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular, feature_specular_texture).a;
+        s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
+    }
+    return s;
+}
+
+#endif
