@@ -39,8 +39,8 @@ const Image* channelIn(const Frame& frame, gpu::uint mode) {
     return found == frame.channels.end() ? nullptr : &found->second;
 }
 
-// The sum of terms, in the order of lit(Radiance) in shaders/lib/shading/radiance.glsl, so that another order is
-// detected.
+// The sum of terms, in the order of lit(Radiance) in shaders/lib/shading/radiance.glsl, so that another order
+// is detected.
 float sumOf(const std::array<float, 5>& t, float emission) {
     return (((t[diffuseTerm] + t[specularTerm]) + t[ambientTerm]) + emission) * t[transmittanceTerm] +
            t[hazeTerm];
