@@ -3,9 +3,9 @@
 
 #include "compare/reference/channels.h"
 #include "compare/reference/checkpoint.h"
-#include "compare/reference/time_estimate.h"
 #include "compare/reference/picture_key.h"
 #include "compare/reference/pixel_renderer.h"
+#include "compare/reference/time_estimate.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
