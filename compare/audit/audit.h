@@ -38,7 +38,7 @@ struct BreakingPoint {
 };
 // `up` and `down` are empty if the criterion fails at the default magnitude.
 struct ValidRange {
-    bool original = false;
+    bool at_original = false;
     BreakingPoint up, down;
 };
 
@@ -57,7 +57,7 @@ struct QuantityAudit {
     std::vector<std::string> left_out;  // ChosenSeries::left_out
     std::vector<Step> steps;            // ascending
     // By criterion and series.
-    std::array<std::vector<ValidRange>, criterionCount> passes;
+    std::array<std::vector<ValidRange>, criterionCount> valid_ranges;
     // By criterion (only the two error criteria) and series.
     std::array<std::vector<Predicted>, 2> predicted;
     std::vector<Failure> failures;
