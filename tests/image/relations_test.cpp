@@ -29,13 +29,13 @@ void expectAllHold(const std::string& scene, std::size_t atLeast,
                    const std::vector<std::string>& names = {}) {
     const audit::Subject subject = relatedScene(scene);
     audit::RelationMeasurer measurer(device(), subject, {}, pipelines());
-    std::size_t result = 0;
+    std::size_t passed = 0;
     for (const audit::Relation* relation : audit::relationsOf(names)) {
         const audit::RelationResult of = measurer.measure(*relation);
         EXPECT_TRUE(of.passes()) << scene << " " << audit::inWords(of, relatedDevice());
-        result += audit::verdictOf(of) == "holds";
+        passed += audit::verdictOf(of) == "holds";
     }
-    EXPECT_GE(result, atLeast) << scene;
+    EXPECT_GE(passed, atLeast) << scene;
 }
 
 TEST(RelationImages, AllHoldInTheGallery) {
