@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The candidates that a choice measures first: each path as given, and with each usual single change.
+// The candidates that a choice measures first: each path as given, and with each default single change.
 #pragma once
 
 #include "shared/frame/settings.h"
@@ -41,7 +41,7 @@ struct Change {
 
 inline constexpr std::size_t mostInTable = 24;
 
-// Each path's first candidate and those that differ from it in one usual change; all candidates if they
+// Each path's first candidate and those that differ from it in one default change; all candidates if they
 // are few. `candidates`: each path's first comes before its others.
 std::vector<Settings> tableOf(std::span<const Settings> candidates);
 

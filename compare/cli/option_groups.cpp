@@ -32,11 +32,11 @@ std::string namesOf(const auto& all) {
 
 void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except) {
     app.option_defaults()->group(pixel_group);
-    const Settings usual;
+    const Settings defaults;
     for (const Field& field : settingFields()) {
         const std::string option(field.option);
         if (option == "camera" || option == except) continue;
-        const std::string value = usual.valueOf(option);
+        const std::string value = defaults.valueOf(option);
         app.add_option_function<std::string>(
                "--" + option,
                [&parsed, option](const std::string& words) { parsed.settings.emplace_back(option, words); },
@@ -101,11 +101,13 @@ void addOutput(CLI::App& app, Options& options) {
         ->excludes(quiet);
 }
 
-void addFiles(CLI::App& app, Options& options, const std::string& usual) {
+void addFiles(CLI::App& app, Options& options, const std::string& defaults) {
     app.option_defaults()->group(output_group);
-    app.add_option("-o,--out", options.out, usual)->type_name("DIR|FILE")->check([](const std::string& word) {
-        return std::string(word.empty() ? "\"\" names no folder or file" : "");
-    });
+    app.add_option("-o,--out", options.out, defaults)
+        ->type_name("DIR|FILE")
+        ->check([](const std::string& word) {
+            return std::string(word.empty() ? "\"\" names no folder or file" : "");
+        });
     app.add_flag("--force", options.force, "also replace files that diptych did not write");
 }
 
@@ -196,13 +198,13 @@ void addSince(CLI::App& app, Options& options) {
         ->type_name("DIR|report.json");
 }
 
-void addGrid(CLI::App& app, Options& options, const char* usual) {
+void addGrid(CLI::App& app, Options& options, const char* defaults) {
     app.add_option(
            "--grid", options.grid,
            fmt::format(
                "Settings to try: {{ \"settings\": {{ \"gbuffer\": [\"compact\", \"full\"], \"size\": "
                "[\"1/2\"] }} }} tries every combination; a list of such objects tries each in turn ({})",
-               usual))
+               defaults))
         ->type_name("FILE.json|JSON");
 }
 

@@ -19,15 +19,15 @@ inline constexpr const char* device_group = "Device and timing";
 void addSettings(CLI::App& app, ParsedOptions& parsed, const std::string& except = "");
 void addPicture(CLI::App& app, Options& options, ParsedOptions& parsed);
 void addOutput(CLI::App& app, Options& options);
-// `usual`: help of --out.
-void addFiles(CLI::App& app, Options& options, const std::string& usual);
+// `defaults`: help of --out.
+void addFiles(CLI::App& app, Options& options, const std::string& defaults);
 void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& parsed);
 void addTolerances(CLI::App& app, Options& options);
 void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed);
 void addShard(CLI::App& app, Options& options);
 void addSince(CLI::App& app, Options& options);
-// `usual`: what a sweep tries without --grid.
-void addGrid(CLI::App& app, Options& options, const char* usual);
+// `defaults`: what a sweep tries without --grid.
+void addGrid(CLI::App& app, Options& options, const char* defaults);
 void addChoose(CLI::App& app, ChooseOptions& choose, ParsedOptions& parsed);
 void addAudit(CLI::App& app, AuditOptions& audit, ParsedOptions& parsed);
 void addReport(CLI::App& app, Options& options, ParsedOptions& parsed);

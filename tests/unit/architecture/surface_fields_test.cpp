@@ -2,6 +2,7 @@
 // A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
 // needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
 #include "compare/verdict/encoding_bits.h"
+#include "shared/frame/debug_modes.h"
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>
