@@ -39,31 +39,37 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     return key;
 }
 
+struct LightingDraw {
+    Shader fragment;
+    Variant variant;
+    std::vector<VkFormat> colors;
+    gpu::uint groups;  // with MSAA: draws this many sample groups
+};
+
 // A full-screen pass over the G-buffer. Its triangle lies at the smallest drawable depth, so a depth test
 // of LESS_OR_EQUAL skips pixels without geometry (depth 0) before shading. With MSAA the depth is
 // frame.groups of addGroups(), and there is a triangle for each of the first `groups` sample groups.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
-                         Shader fragment, Variant variant, const std::vector<VkFormat>& colors,
-                         const LightBatch& batch, gpu::uint groups) {
+                         LightingDraw draw, const LightBatch& batch) {
     for (const ImageRef image : frame.gbuffer)
         if (image.valid()) pass.samples(image, inFragment);
     batch.read(pass);
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
     pass.samples(frame.depth, inFragment).depthTest(frame.depth).takes(shadingMs(passes, inputs, batch));
-    variant.set(gpu::FEATURE_light_batch, batch.kind);
+    draw.variant.set(gpu::FEATURE_light_batch, batch.kind);
     const DepthStorage drawn = frame.groups.valid() ? DepthStorage() : inputs.depth;
     const VkPipeline pipeline =
         inputs.pipelines.get(drawn.stored({.vertex = Shader::deferred_lighting_vert,
-                                           .fragment = fragment,
-                                           .variant = variant,
+                                           .fragment = draw.fragment,
+                                           .variant = draw.variant,
                                            .input = NO_VERTICES,
-                                           .colors = colors,
+                                           .colors = draw.colors,
                                            .depth = depthFormat,
                                            .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
                                            .depth_write = false,
                                            .samples = inputs.samples}));
-    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, groups));
+    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, draw.groups));
 }
 
 // Inputs of lighting: G-buffer and depth. Under MSAA the sample-group image replaces depth.
@@ -84,8 +90,12 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
     return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
-        addDeferredLighting(passes, pass, inputs, frame, Shader::deferred_light_batch_frag,
-                            lightingVariant(inputs), {litFormat, litFormat}, batch, inputs.samples);
+        addDeferredLighting(passes, pass, inputs, frame,
+                            {Shader::deferred_light_batch_frag,
+                             lightingVariant(inputs),
+                             {litFormat, litFormat},
+                             inputs.samples},
+                            batch);
     });
 }
 
@@ -142,9 +152,9 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
         addComputeLighting(passes, inputs, shaded, groups, lit);
     } else {
         const LightBatch last = addEarlierLighting(passes, inputs, shaded);
-        addDeferredLighting(passes, passes.draw("shade").color(lit, Load::clear), inputs, shaded,
-                            Shader::deferred_shade_frag, lightingVariant(inputs), {inputs.lit_format}, last,
-                            groups);
+        addDeferredLighting(
+            passes, passes.draw("shade").color(lit, Load::clear), inputs, shaded,
+            {Shader::deferred_shade_frag, lightingVariant(inputs), {inputs.lit_format}, groups}, last);
     }
     addFurtherGroups(passes, inputs, shaded, further, lit);
     addRest(passes, inputs, images, lit);
@@ -170,8 +180,9 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         Variant variant = lightingVariant(inputs);
         variant.set(gpu::FEATURE_captures, group.images);
         if (solid)
-            addDeferredLighting(passes, pass, inputs, shaded, Shader::deferred_capture_frag, variant,
-                                group.formats, last, inputs.samples);
+            addDeferredLighting(passes, pass, inputs, shaded,
+                                {Shader::deferred_capture_frag, variant, group.formats, inputs.samples},
+                                last);
         else
             pass.record([](VkCommandBuffer) {});
         addTransparentCapture(passes, inputs, frame.depth, images);

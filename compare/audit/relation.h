@@ -31,7 +31,7 @@ struct Related {
     bool own_base = false;  // the base differs from the original case
 };
 
-// How similar the images must be; RelationMeasurer::grantOf derives the tolerances.
+// How similar the images must be; RelationMeasurer::toleranceOf derives the tolerances.
 enum class Equality {
     bits,     // same arithmetic on the same numbers: bitwise identical
     sums,     // same terms, added in another order

@@ -87,6 +87,31 @@ std::vector<Settings> tableRows(Device& device, const BenchGroup& group, const R
     return rows;
 }
 
+// The group's Settings that are worth measuring; the others become skips.
+std::vector<Settings> triedSettings(Device& device, const BenchGroup& group, const Requirements& needs,
+                                    Bench& bench) {
+    std::vector<Settings> tried;
+    for (const Settings& settings : tableRows(device, group, needs, bench))
+        if (std::string reason = hopeless(bench, group, settings); reason.empty())
+            tried.push_back(settings);
+        else
+            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
+    return tried;
+}
+
+// Empty if the device's limits are reached, as --table growth is meant to do; then all become skips.
+std::optional<PreparedFrames> preparedFrames(Renderer& renderer, const BenchGroup& group,
+                                             const std::vector<Settings>& tried, Bench& bench) {
+    try {
+        return renderer.prepare(tried);
+    } catch (const std::runtime_error& error) {
+        if (!group.growth) throw;
+        for (const Settings& settings : tried)
+            bench.skips.push_back(skipOf(bench, settings, group, error.what()));
+        return {};
+    }
+}
+
 }  // namespace
 
 double assignMs(const BenchRow& row) {
@@ -138,24 +163,11 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                   const Stage& progress) {
     SceneViews views(scene);
     const Requirements needs = views.at(viewRequest(group.settings.front())).needs;
-    std::vector<Settings> tried;
-    for (const Settings& settings : tableRows(device, group, needs, bench))
-        if (std::string reason = hopeless(bench, group, settings); reason.empty())
-            tried.push_back(settings);
-        else
-            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
+    const std::vector<Settings> tried = triedSettings(device, group, needs, bench);
     if (tried.empty()) return;
     Renderer renderer(device, views);
-    std::optional<PreparedFrames> prepared;
-    try {
-        prepared.emplace(renderer.prepare(tried));
-    } catch (const std::runtime_error& error) {
-        // --table growth is meant to reach the device's limits.
-        if (!group.growth) throw;
-        for (const Settings& settings : tried)
-            bench.skips.push_back(skipOf(bench, settings, group, error.what()));
-        return;
-    }
+    std::optional<PreparedFrames> prepared = preparedFrames(renderer, group, tried, bench);
+    if (!prepared) return;
     PreparedFrames& frames = *prepared;
     const int profiled = std::max(bench.runs, fewestProfiled);
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);

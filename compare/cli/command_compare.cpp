@@ -42,33 +42,24 @@ const Frame& renewing(const Options& options, const Frame* old, const std::vecto
         fmt::format("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path)));
 }
 
-}  // namespace
-
-int runCompare(const Options& given) {
-    if (given.pixel) {
-        checkAgainstDevice(given, {});
-        return runPixel(given);
-    }
-    Options options = given;
-    options.scenes = scenesOf(given.scenes);
-    const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));
-    const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
+void noteUnused(const Options& options) {
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare renders both");
     if (options.heat)
         note(options, "--heat is not used: the report shows every channel, including light_count");
     if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
-    std::optional<Frame> baseline;
-    if (!options.baseline_file.empty()) {
-        checkOnePicture(options, settings);
-        if (!options.update_baseline || std::filesystem::exists(options.baseline_file))
-            baseline = frameFromExr(options.baseline_file);
-    }
-    checkSamples(options, settings, baseline);
-    checkAgainstDevice(options, settings);
-    checkSince(options);
-    if (options.scenes.size() > 1 || !options.shard.empty()) return compareMany(options, settings, folder);
+}
 
+// The file of --baseline; empty without one, or if this command writes the first.
+std::optional<Frame> readBaseline(const Options& options, const std::vector<Settings>& settings) {
+    if (options.baseline_file.empty()) return {};
+    checkOnePicture(options, settings);
+    if (options.update_baseline && !std::filesystem::exists(options.baseline_file)) return {};
+    return frameFromExr(options.baseline_file);
+}
+
+int compareOneScene(const Options& options, const std::vector<Settings>& settings,
+                    std::optional<Frame> baseline, const std::filesystem::path& folder) {
     const PictureChoice picture = pictureChoice(options);
     const CompareOptions compare = compareOptions(options);
     Progress progress(progressOutput(options));
@@ -128,6 +119,26 @@ int runCompare(const Options& given) {
     if (!report.errors.empty()) return 2;
     // The new baseline replaces the old one, so only the last comparison counts.
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
+}
+
+}  // namespace
+
+int runCompare(const Options& given) {
+    if (given.pixel) {
+        checkAgainstDevice(given, {});
+        return runPixel(given);
+    }
+    Options options = given;
+    options.scenes = scenesOf(given.scenes);
+    const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));
+    const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
+    noteUnused(options);
+    std::optional<Frame> baseline = readBaseline(options, settings);
+    checkSamples(options, settings, baseline);
+    checkAgainstDevice(options, settings);
+    checkSince(options);
+    if (options.scenes.size() > 1 || !options.shard.empty()) return compareMany(options, settings, folder);
+    return compareOneScene(options, settings, std::move(baseline), folder);
 }
 
 }  // namespace diptych::cli

@@ -86,7 +86,8 @@ Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours,
     return substituteChannels(*attempt.frame, ours, drawing, render);
 }
 
-int explainScene(const Options& options) {
+// Checks the options of one scene. Returns the baseline's Settings.
+Settings checkedBaseline(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
             fmt::format("{}: explain takes one scene; run it once for each", options.scenes[1]));
@@ -94,20 +95,23 @@ int explainScene(const Options& options) {
         throw std::runtime_error(
             fmt::format("--scene {}: names the scene of two EXR files; the scene here is {}",
                         options.scene_file, options.scenes.front()));
-    ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
     const Settings baseline = options.sides.of(options.settings, options.baseline);
     if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
     const bool external = !options.renderers.empty();
     if (external && (options.renderers.size() > 1 || !options.test.empty()))
         throw std::runtime_error("--renderer: explain compares two images; give one renderer and no --test");
-    const bool across = !options.against_device.empty();
-    if (across && (external || !options.test.empty()))
+    if (options.against_device.empty()) return baseline;
+    if (external || !options.test.empty())
         throw std::runtime_error(
             fmt::format("--against-device {}: explain compares two images; give no --renderer and no --test",
                         options.against_device));
-    if (across) checkAgainstDevice(options, {baseline});
-    const Settings test = external || across ? baseline : testOf(options, baseline, of.test);
-    if (external) of.test = options.renderers.front().name;
+    checkAgainstDevice(options, {baseline});
+    return baseline;
+}
+
+void addCommands(const Options& options, const Settings& baseline, const Settings& test,
+                 ExplainedPictures& of) {
+    const bool external = !options.renderers.empty(), across = !options.against_device.empty();
     std::vector<std::string> again =
         withWords(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
                             options.renderer_words),
@@ -122,6 +126,16 @@ int explainScene(const Options& options) {
         of.commands.push_back(
             {"Every channel of both",
              shellLine(withWords(commandWords("compare", of.scene, baseline), wordsOf(options.sides)))});
+}
+
+int explainScene(const Options& options) {
+    const Settings baseline = checkedBaseline(options);
+    ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
+    const bool external = !options.renderers.empty();
+    const Settings test =
+        external || !options.against_device.empty() ? baseline : testOf(options, baseline, of.test);
+    if (external) of.test = options.renderers.front().name;
+    addCommands(options, baseline, test, of);
     const PictureChoice picture = pictureChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, of.scene);

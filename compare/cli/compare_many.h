@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/cli/options.h"
-#include "compare/report/parts.h"
+#include "compare/report/whole_report.h"
 
 #include <filesystem>
 #include <vector>

@@ -92,6 +92,17 @@ std::vector<std::string> heldOutCameras(const Scene& scene, const std::vector<st
     return held_out;
 }
 
+// Changes of the candidates that differ from the first of their path in one Setting.
+std::vector<Change> singleChanges(const std::vector<Settings>& candidates) {
+    std::vector<Change> single;
+    for (const Settings& row : candidates) {
+        const Settings& first = *std::ranges::find(candidates, row.path, &Settings::path);
+        const std::vector<Change> changes = changesBetween(first, row);
+        if (changes.size() == 1) single.push_back(changes.front());
+    }
+    return single;
+}
+
 }  // namespace
 
 struct SceneChooser::LoadedScene {
@@ -164,11 +175,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 
     SearchOptions search;
     search.budget = report.budget;
-    for (const Settings& row : candidates) {
-        const Settings& first = *std::ranges::find(candidates, row.path, &Settings::path);
-        const std::vector<Change> changes = changesBetween(first, row);
-        if (changes.size() == 1) search.changes.push_back(changes.front());
-    }
+    search.changes = singleChanges(candidates);
     search.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
         std::optional<Settings> made = combined(given, of, changes);
         const bool drawn = options_.grid.empty() ? made && !drawingProblem(device_, *made)

@@ -11,8 +11,8 @@
 namespace diptych::reference {
 namespace {
 
-// Sixteen-point Gauss-Legendre quadrature on (0, 1) (Golub and Welsch 1969, "Calculation of Gauss
-// Quadrature Rules"). The roots are bracketed on a finer grid, bisected, and refined by Newton's method.
+// Sixteen-point Gauss-Legendre quadrature on (0, 1). Sign changes on a grid bracket the roots; Newton's
+// method refines them.
 struct Rule {
     static constexpr int points = 16;
     std::array<double, points> at, weight;

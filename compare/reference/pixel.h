@@ -7,7 +7,9 @@
 #include "compare/reference/surface.h"
 
 #include <limits>
+#include <map>
 #include <optional>
+#include <vector>
 
 namespace diptych::reference {
 
@@ -24,6 +26,18 @@ struct Pixel {
     double local_edge = std::numeric_limits<double>::infinity(), local_radiance = 0;
     double depth = 0;
     Hazed haze;
+};
+
+// One pixel, and the contribution of each light to it.
+struct PixelLight {
+    std::map<int, glm::dvec3> channels;  // by debug mode number, as in Picture::channels
+    double uncertainty = 0;              // as in Picture::uncertainty
+    glm::dvec3 unblended{0};             // lit without blended surfaces, W/(sr m^2)
+    // At the pixel's centre, before haze; empty in the background. `lights` is indexed like
+    // Request::lights: each light with its shadow, without environment and ambient light. `without_lights`
+    // is the rest.
+    std::vector<Shading> lights;
+    Shading without_lights;
 };
 
 }  // namespace diptych::reference

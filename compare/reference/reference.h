@@ -3,11 +3,9 @@
 // Vulkan, no shader and no code of the paths.
 #pragma once
 
-#include "compare/reference/lighting.h"
+#include "compare/reference/pixel.h"
 #include "compare/reference/request.h"
 #include "shared/image/image.h"
-
-#include <glm/vec3.hpp>
 
 #include <map>
 #include <vector>
@@ -51,18 +49,6 @@ std::vector<int> surfaceChannels();
 // Renders the image, multithreaded. The result does not depend on the number of threads or on
 // interruptions. Throws std::runtime_error, one line, if finished tiles cannot be saved.
 Picture draw(const Request& request);
-
-// One pixel, and the contribution of each light to it.
-struct PixelLight {
-    std::map<int, glm::dvec3> channels;  // by debug mode number, as in Picture::channels
-    double uncertainty = 0;              // as in Picture::uncertainty
-    glm::dvec3 unblended{0};             // lit without blended surfaces, W/(sr m^2)
-    // At the pixel's centre, before haze; empty in the background. `lights` is indexed like
-    // Request::lights: each light with its shadow, without environment and ambient light. `without_lights`
-    // is the rest.
-    std::vector<Shading> lights;
-    Shading without_lights;
-};
 
 // Renders one pixel of the image of draw(). Its surface is lit once for each light.
 PixelLight drawPixel(const Request& request, int x, int y);

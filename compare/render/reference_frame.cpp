@@ -125,6 +125,31 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
             .surfaces = surfaces ? &surfaces->channels : nullptr};
 }
 
+// Moves the picture's images into the Frame, with notes on what they show.
+void takePicture(reference::Picture& picture, Frame& frame) {
+    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
+    frame.channels = std::move(picture.channels);
+    for (auto& [mode, image] : frame.channels)
+        if (auto repaired = repairNonfinite(image); !repaired.empty())
+            frame.repaired[mode] = std::move(repaired);
+    frame.through_gbuffer = std::move(picture.decoded);
+    frame.shadow_edge = std::move(picture.shadow_edge);
+    frame.local_shadow_edge = std::move(picture.local_shadow_edge);
+    frame.blended = std::move(picture.blended);
+    frame.unblended = std::move(picture.unblended);
+    frame.environment_costs = std::move(picture.environment_costs);
+    if (!picture.surroundings.empty()) {
+        frame.hidden_light = hiddenLight(picture.surroundings);
+        if (frame.hidden_light) frame.notes.push_back(hiddenLightNote(*frame.hidden_light));
+    }
+    if (!picture.uncertainty.empty()) {
+        frame.relative_uncertainty =
+            uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
+        frame.uncertainty = std::move(picture.uncertainty);
+        frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
+    }
+}
+
 }  // namespace
 
 reference::PixelLight drawReferencePixel(const Scene& scene, const SceneView& view, const Settings& settings,
@@ -157,28 +182,8 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     reference::Picture picture = reference::draw(request);
 
     Frame frame = describedFrame(scene, view, settings);
-    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
-    frame.channels = std::move(picture.channels);
-    for (auto& [mode, image] : frame.channels)
-        if (auto repaired = repairNonfinite(image); !repaired.empty())
-            frame.repaired[mode] = std::move(repaired);
-    frame.through_gbuffer = std::move(picture.decoded);
-    frame.shadow_edge = std::move(picture.shadow_edge);
-    frame.local_shadow_edge = std::move(picture.local_shadow_edge);
-    frame.blended = std::move(picture.blended);
-    frame.unblended = std::move(picture.unblended);
-    frame.environment_costs = std::move(picture.environment_costs);
-    if (!picture.surroundings.empty()) {
-        frame.hidden_light = hiddenLight(picture.surroundings);
-        if (frame.hidden_light) frame.notes.push_back(hiddenLightNote(*frame.hidden_light));
-    }
     frame.requested = options.requested;
-    if (!picture.uncertainty.empty()) {
-        frame.relative_uncertainty =
-            uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
-        frame.uncertainty = std::move(picture.uncertainty);
-        frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
-    }
+    takePicture(picture, frame);
     std::erase_if(frame.channels, [&](const auto& entry) {
         return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
     });

@@ -2,15 +2,12 @@
 #include "compare/report/parts.h"
 
 #include "compare/files/our_files.h"
-#include "compare/files/output.h"
-#include "compare/files/output_folder.h"
 #include "compare/report/encoder.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/html.h"
 #include "compare/report/json.h"
 #include "compare/report/policy.h"
 #include "compare/report/report.h"
-#include "compare/report/titles.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/fail.h"
@@ -40,7 +37,7 @@ using Json = nlohmann::ordered_json;
 using Place = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
-// Arrays of report.json and suites of junit.xml, in their final form.
+// By PartText.
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
 
@@ -218,10 +215,6 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     return part;
 }
 
-std::string readText(const fs::path& root, const std::string& name) {
-    return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
-}
-
 void makeFolders(const fs::path& root, const std::vector<std::string>& files) {
     for (const std::string& name : files) {
         std::error_code error;
@@ -229,23 +222,6 @@ void makeFolders(const fs::path& root, const std::vector<std::string>& files) {
         fs::create_directories(folder, error);
         if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
     }
-}
-
-void replaceAll(std::string& text, std::string_view what, const std::string& by) {
-    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
-        text.replace(at, what.size(), by);
-}
-
-// The section inside a part's script.
-std::string sectionIn(const fs::path& root, const std::string& script) {
-    return named((root / script).string(), [&]() -> std::string {
-        const std::string text = textBelow(root, script, json_bytes);
-        const std::size_t open = text.find('('), close = text.rfind(')');
-        if (open >= close || close == text.npos) fail("is not a report section");
-        const nlohmann::json words = parseJson("[" + text.substr(open + 1, close - open - 1) + "]");
-        if (words.size() != 2 || !words[1].is_string()) fail("is not a report section");
-        return words[1];
-    });
 }
 
 // Checks that all files of the part exist and are valid, so that joining cannot fail on them later.
@@ -259,54 +235,11 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
                 return InputFile(root, name).size();
             });
     for (const std::string& name : part.sections) sectionIn(root, name);
-    for (const char* text : partTexts) {
-        const std::string name = part.scene_folder + text;
-        const std::string inner = readText(root, name);
+    for (std::size_t i = 0; i < std::size(partTexts); ++i) {
+        const std::string name = part.scene_folder + partTexts[i];
+        const std::string inner = readPartText(root, part, static_cast<PartText>(i));
         if (name.ends_with(".json")) named((root / name).string(), [&] { checkJson("[" + inner + "]"); });
     }
-}
-
-// The parts' devices, in order of first use.
-std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
-    std::vector<DrawnOn> devices;
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportDevice& device = placed.part.report.device;
-        auto at = std::ranges::find_if(devices, [&](const DrawnOn& one) {
-            return one.device.name == device.name && one.device.driver == device.driver &&
-                   one.device.type == device.type;
-        });
-        if (at == devices.end()) at = devices.insert(at, {device});
-        at->comparisons += placed.part.report.comparisons.size();
-        at->compare_ms += placed.part.report.diff_ms;
-        at->encode_ms += placed.part.encode_ms;
-    }
-    return devices;
-}
-
-ReportLayout layoutOf(const WholeReport& whole, const Report& summary, const ReportOptions& options) {
-    ReportLayout layout;
-    layout.single_file = options.single_file;
-    layout.keep = options.keep;
-    layout.folder = folderOfAll(summary);
-    layout.order = failingFirst(summary);
-    std::vector<std::string> files;
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportPart& part = placed.part;
-        layout.sections.insert(layout.sections.end(), part.sections.begin(), part.sections.end());
-        if (!options.single_file) files.insert(files.end(), part.files.begin(), part.files.end());
-    }
-    for (std::size_t i = 0; i < layout.sections.size(); ++i) layout.ids.push_back(std::to_string(i));
-    if (whole.shard.empty()) {
-        const std::size_t inPage = options.single_file ? layout.order.size() : comparisonsInPage;
-        for (std::size_t at = 0; at < std::min(layout.order.size(), inPage); ++at)
-            layout.sections[layout.order[at]].clear();
-    } else {
-        for (const PlacedPart& placed : whole.parts)
-            for (const std::string& name : placed.part.texts()) files.push_back(name);
-        files.emplace_back(shardManifest);
-    }
-    layout.exr = std::move(files);  // order does not matter: files() lists them
-    return layout;
 }
 
 }  // namespace
@@ -385,129 +318,20 @@ ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
     return part;
 }
 
-std::vector<IndexRow> rowsOf(const WholeReport& whole) {
-    std::vector<IndexRow> rows;
-    for (const PlacedPart& placed : whole.parts)
-        rows.insert(rows.end(), placed.part.rows.begin(), placed.part.rows.end());
-    return rows;
+std::string readPartText(const fs::path& root, const ReportPart& part, PartText text) {
+    const std::string name = part.scene_folder + partTexts[static_cast<std::size_t>(text)];
+    return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
 }
 
-Report summaryOf(const WholeReport& whole) {
-    Report all;
-    for (const PlacedPart& placed : whole.parts) {
-        const Report& report = placed.part.report;
-        if (all.device.name.empty()) all.device = report.device;
-        if (all.against.name.empty()) all.against = report.against;
-        const std::size_t first = all.frames.size();
-        all.frames.insert(all.frames.end(), report.frames.begin(), report.frames.end());
-        for (Comparison comparison : report.comparisons) {
-            comparison.baseline += first;
-            comparison.test += first;
-            all.comparisons.push_back(std::move(comparison));
-        }
-        for (CloserPath closer : report.closer_paths) {
-            closer.reference += first;
-            for (std::size_t& path : closer.paths) path += first;
-            all.closer_paths.push_back(std::move(closer));
-        }
-    }
-    all.errors = whole.errors;
-    return all;
-}
-
-void writeWhole(const WholeReport& whole, const Report& summary, const fs::path& path,
-                const ReportOptions& options) {
-    constexpr const char* manifest = "report.json";
-    const ReportLayout layout = layoutOf(whole, summary, options);
-    const std::vector<DrawnOn> devices = devicesOf(whole);
-    struct Place {
-        const PlacedPart* part;
-        std::string section;
-    };
-    std::vector<Place> places;
-    ReportTexts texts;
-    JunitSuite totals;
-    texts.devices = devices;
-    texts.rows = rowsOf(whole);
-    texts.since = options.since;
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportPart& part = placed.part;
-        texts.closer_boxes.insert(texts.closer_boxes.end(), part.closer_boxes.begin(),
-                                  part.closer_boxes.end());
-        for (const std::string& section : part.sections) places.push_back({&placed, section});
-        totals.tests += part.junit.tests;
-        totals.failures += part.junit.failures;
-        totals.seconds += part.junit.seconds;
-    }
-    texts.section = [&](std::size_t index) {
-        std::string text = sectionIn(places[index].part->root, places[index].section);
-        replaceAll(text, numberLater, layout.ids[index]);
-        replaceAll(text, titleLater, sectionTitle(summary, layout, index));
-        return text;
-    };
-    // Reads one text of each part, one after the other.
-    const auto each = [&](std::size_t text, const std::function<void(std::string)>& give) {
-        for (const PlacedPart& placed : whole.parts)
-            give(readText(placed.root, placed.part.scene_folder + partTexts[text]));
-    };
-    const auto array = [&](std::size_t text) {
-        return
-            [&each, text](const JsonSink& add) { each(text, [&](const std::string& inner) { add(inner); }); };
-    };
-
-    OutputFolder folder(path);
-    const std::vector<std::string> files = layout.files();
-    folder.makeFolders(files);
-    const std::set<std::string> listed(files.begin(), files.end());
-    for (const PlacedPart& placed : whole.parts)
-        for (const std::vector<std::string>& names :
-             {placed.part.files, placed.part.sections, placed.part.texts()})
-            for (const std::string& name : names)
-                if (listed.contains(name))
-                    (placed.kept ? linkOrCopy : copyBelow)(placed.root, name, folder / name);
-    const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
-        AtomicFile file(folder / name);
-        make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });
-        file.commit();
-    };
-    write(manifest, [&](const JsonSink& sink) {
-        writeReportJson(summary, &layout, devices, options.since.get(), {array(0), array(1), array(2)}, sink);
+std::string sectionIn(const fs::path& root, const std::string& script) {
+    return named((root / script).string(), [&]() -> std::string {
+        const std::string text = textBelow(root, script, json_bytes);
+        const std::size_t open = text.find('('), close = text.rfind(')');
+        if (open >= close || close == text.npos) fail("is not a report section");
+        const nlohmann::json words = parseJson("[" + text.substr(open + 1, close - open - 1) + "]");
+        if (words.size() != 2 || !words[1].is_string()) fail("is not a report section");
+        return words[1];
     });
-    write("junit.xml", [&](const JsonSink& sink) {
-        writeJunit(
-            summary, totals,
-            [&](const JsonSink& add) {
-                each(3, [&](std::string suites) {
-                    replaceAll(suites, folderLater, junitFolder(path));
-                    add(suites);
-                });
-            },
-            sink);
-    });
-    if (!whole.shard.empty()) writeFile(folder / shardManifest, whole.shard);
-    writeFile(folder / "index.html", reportHtml(summary, layout, texts));
-    folder.put(files, [&] {
-        checkReplaceable({OutputKind::folder, path}, manifest, options.force);
-        return manifestFiles(path, manifest);
-    });
-}
-
-std::string wholeTable(const WholeReport& whole, const Report& summary, bool all) {
-    std::string out;
-    for (const PlacedPart& placed : whole.parts)
-        for (std::size_t i = 0; i < placed.part.tables.size(); ++i)
-            if (all || !placed.part.report.comparisons[i].passed()) out += placed.part.tables[i];
-    if (all)
-        for (const PlacedPart& placed : whole.parts)
-            for (const std::string& text : placed.part.closer_tables) out += text;
-    return out + tableEnd(summary);
-}
-
-std::string wholeExposureLine(const WholeReport& whole) {
-    std::vector<Exposure> exposures;
-    for (const PlacedPart& placed : whole.parts)
-        exposures.insert(exposures.end(), placed.part.exposures.begin(), placed.part.exposures.end());
-    return exposureLine(exposures);
 }
 
 }  // namespace diptych

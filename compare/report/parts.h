@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Builds a report of many scenes from parts, one per scene. Each part is written as soon as its scene is
-// compared, so that its Frames can be freed before the next scene. An interrupted command resumes after
-// its last part. Parts from several machines form the same report as one machine would.
+// One scene's part of a report of many scenes. It is written as soon as its scene is compared, so that its
+// Frames can be freed before the next scene. An interrupted command resumes after its last part.
 #pragma once
 
 #include "compare/picture/picture.h"
@@ -45,35 +44,11 @@ ReportPart writePart(const Report& report, const std::filesystem::path& root, co
 ReportPart readPart(const std::filesystem::path& root, const std::string& scene_folder);
 bool isPartThere(const std::filesystem::path& root, const std::string& scene_folder);
 
-// A part, and the folder of its files.
-struct PlacedPart {
-    ReportPart part;
-    std::filesystem::path root;
-    // Written by this command, in its own folder; false for a shard, whose owner may change it.
-    bool kept = false;
-};
-
-struct WholeReport {
-    std::vector<PlacedPart> parts;  // in the order of the report
-    std::vector<SceneError> errors;
-    // For a shard: the text of its manifest. Its parts stay in the report so that shards can be joined.
-    std::string shard;
-};
-inline constexpr const char* shardManifest = "shard.json";
-
-// The rows of all comparisons, in order.
-std::vector<IndexRow> rowsOf(const WholeReport& whole);
-
-// The joined report without pixels, for titles, lists and the verdict.
-Report summaryOf(const WholeReport& whole);
-
-// Writes the report into `folder` as writeReport() does. Files of `kept` parts are linked if possible,
-// otherwise copied; files of other parts are copied. Throws std::runtime_error naming the file.
-void writeWhole(const WholeReport& whole, const Report& summary, const std::filesystem::path& folder,
-                const ReportOptions& options);
-
-// reportTable() and exposureLine() of the whole report. `all` false: omits comparisons that pass.
-std::string wholeTable(const WholeReport& whole, const Report& summary, bool all);
-std::string wholeExposureLine(const WholeReport& whole);
+// Texts that only joining the parts needs: arrays of report.json and suites of junit.xml, in their final
+// form.
+enum class PartText { frames, comparisons, truth, junit };
+std::string readPartText(const std::filesystem::path& root, const ReportPart& part, PartText text);
+// The section inside a part's script.
+std::string sectionIn(const std::filesystem::path& root, const std::string& script);
 
 }  // namespace diptych

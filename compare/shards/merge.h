@@ -2,7 +2,7 @@
 // Merges reports of shards into the report of a single run.
 #pragma once
 
-#include "compare/report/parts.h"
+#include "compare/report/whole_report.h"
 #include "compare/shards/manifest.h"
 
 #include <filesystem>

@@ -223,6 +223,133 @@ std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
                : fmt::format("almost no pixel has a bound of its own in {}", fmt::join(words, ", "));
 }
 
+// Whether both images were rendered on devices without rounding differences; a file only if by this device.
+bool isBitExact(const Report& report, const Frame& left, const Frame& right) {
+    return std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
+        const bool here = frame->origin.file.empty() || (frame->origin.device == report.device.name &&
+                                                         frame->origin.driver == report.device.driver);
+        return here && deviceOf(report, *frame).bitExact();
+    });
+}
+
+// Reports settings that another renderer did not apply, and its channels that Diptych lacks.
+void readOrigins(const Frame& left, const Frame& right, bool strict, Comparison& comparison) {
+    std::vector<std::string>& lines = strict ? comparison.failures : comparison.notes;
+    for (const Frame* frame : {&left, &right})
+        for (const std::string& line : frame->origin.not_applied)
+            lines.push_back(fmt::format("{}: {}", frame->name, line));
+    for (const Frame* frame : {&left, &right})
+        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
+            lines.push_back(fmt::format("{} of {}: not compared, Diptych has no such channel",
+                                        fmt::join(frame->origin.left_out, ", "), frame->name));
+}
+
+// Adds a channel that `lacking` does not have: as forward-only or deferred-only, or as a note or failure.
+void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacking,
+                  const ChannelDemands& demands, Comparison& comparison) {
+    const Rule* rule = ruleFor(demands.rules, mode.name);
+    const Path path = lacking.settings.path;
+    const bool forward_only = mode.maker == MadeBy::forward_only && path == Path::deferred,
+               deferred_only = mode.maker == MadeBy::deferred_only && path == Path::forward_plus;
+    if ((!forward_only && !deferred_only) || (rule && namesChannels(*rule)))
+        return judgeOneSided({std::string(mode.name), having.name}, demands, comparison.failures,
+                             comparison.notes);
+    ChannelDiff& channel = comparison.channels.emplace_back();
+    channel.mode = &mode;
+    channel.tolerance = {0, forward_only
+                                ? "the G-buffer does not store it, so only forward+ has it"
+                                : "forward+ shades each triangle as it is drawn, so only deferred has it"};
+    channel.verdict = forward_only ? Verdict::forward_only : Verdict::deferred_only;
+}
+
+// Adds the requested channels of both sides, not yet compared. Returns the names of those that at least one
+// side has.
+std::vector<std::string> pairChannels(const Frame& left, const Frame& right, const CompareOptions& options,
+                                      Comparison& comparison) {
+    const bool lit_alone = comparesLitAlone(left, right);
+    if (lit_alone)
+        comparison.notes.push_back(
+            "only lit is compared with the reference: with MSAA, a path's other channels show one sample, "
+            "the reference's the pixel centre");
+    readOrigins(left, right, options.strict, comparison);
+    ChannelDemands demands{options.rules, {}, options.strict};
+    for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
+    std::vector<std::string> names,
+        lacking_channels;  // missing in another renderer, which need not have them
+    for (const DebugMode& mode : debugModes()) {
+        const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
+                   onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
+        if (!onLeft && !onRight) continue;
+        names.emplace_back(mode.name);
+        if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
+        const bool paths = !isMadeByReference(mode);
+        if (onLeft && onRight) {
+            if (paths && left.settings.assign != right.settings.assign)
+                comparison.notes.push_back(
+                    fmt::format("{} was not compared: --assign {} and {} evaluate different lights",
+                                mode.name, nameOf(left.settings.assign), nameOf(right.settings.assign)));
+            else
+                comparison.channels.emplace_back().mode = &mode;
+            continue;
+        }
+        const Frame &having = onLeft ? left : right, &lacking = onLeft ? right : left;
+        if (paths && isReferenceFrame(lacking)) continue;
+        if (lacking.origin.external && !options.strict)
+            lacking_channels.emplace_back(mode.name);
+        else
+            addUnmatched(mode, having, lacking, demands, comparison);
+    }
+    if (std::ranges::none_of(comparison.channels, isCompared, &ChannelDiff::verdict))
+        throw std::runtime_error(
+            fmt::format("{} and {} share no requested channel; add one that both support to --channels",
+                        left.name, right.name));
+    if (!lacking_channels.empty())
+        comparison.notes.push_back(fmt::format("{} does not have {}: not compared",
+                                               (left.origin.external ? left : right).name,
+                                               fmt::join(lacking_channels, ", ")));
+    return names;
+}
+
+// Compares the matched channels, and those that prove lit; of these, keeps only the failing ones.
+void diffChannels(const FramePair& pair, const CompareOptions& options, Comparison& comparison) {
+    const std::vector<int> proving = provingChannels(comparison, pair, options.rules);
+    for (const int mode : proving) comparison.channels.emplace_back().mode = &debugMode(mode);
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
+        ChannelDiff& channel = comparison.channels[i];
+        if (isCompared(channel.verdict))
+            channel = diffChannel(*channel.mode, pair, options.rules, options.allow_noise);
+        for (const Frame* frame : {&pair.baseline, &pair.test, pair.explaining})
+            if (frame) letGo(*frame, channel.mode->number);
+        options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
+                            "compare " + std::string(channel.mode->name));
+    });
+    std::erase_if(comparison.channels, [&](const ChannelDiff& channel) {
+        return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->number) > 0;
+    });
+    std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->number; });
+}
+
+// Warns if agreement says little; a failure with --strict. `shown` as for emptinessOf().
+void readEmptiness(const FramePair& pair, double shown, const CompareOptions& options,
+                   Comparison& comparison) {
+    if (const std::string emptiness = emptinessOf(pair.baseline, pair.test, comparison.coverage, shown);
+        !emptiness.empty()) {
+        if (options.allow_empty)
+            comparison.notes.push_back(emptiness);
+        else if (options.strict)
+            comparison.failures.push_back(emptiness + "; --allow-empty accepts that");
+        else
+            comparison.emptiness = emptiness;
+    }
+    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) {
+        if (options.strict)
+            comparison.failures.push_back(loose + "; --strict does not accept that");
+        else
+            comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + loose;
+    }
+}
+
 }  // namespace
 
 const ReportDevice& deviceOf(const Report& report, const Frame& frame) {
@@ -251,13 +378,6 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                                              left.name, left.settings.size.width, left.settings.size.height,
                                              right.name, right.settings.size.width,
                                              right.settings.size.height));
-    // Another device's image may have been rounded differently.
-    const bool here = std::ranges::all_of(std::array{&left, &right}, [&](const Frame* frame) {
-        return frame->origin.file.empty() ||
-               (frame->origin.device == report.device.name && frame->origin.driver == report.device.driver);
-    });
-    const auto drawnExactly = [&](const Frame& frame) { return deviceOf(report, frame).bitExact(); };
-    const bool cpu = here && drawnExactly(left) && drawnExactly(right);
     comparison.coverage = coverage(left, right);
     const double shown = static_cast<double>(comparison.coverage.count) /
                          static_cast<double>(std::max<std::size_t>(comparison.coverage.covered.size(), 1));
@@ -267,7 +387,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
                    right,
                    needs,
                    comparison.coverage,
-                   cpu,
+                   isBitExact(report, left, right),
                    explaining(report, left, right),
                    options.texels ? &*options.texels : nullptr,
                    options.across};
@@ -279,94 +399,13 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         leaveOutOtherSurfaces(pair, comparison);
     }
 
-    const bool lit_alone = comparesLitAlone(left, right);
-    if (lit_alone)
-        comparison.notes.push_back(
-            "only lit is compared with the reference: with MSAA, a path's other channels show one sample, "
-            "the reference's the pixel centre");
-    bool shared = false;
-    std::vector<std::string> lacking_channels;  // missing in another renderer, which need not have them
-    std::vector<std::string> names;             // of channels that at least one side has
-    ChannelDemands demands{options.rules, {}, options.strict};
-    for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
-    for (const Frame* frame : {&left, &right})
-        for (const std::string& line : frame->origin.not_applied)
-            (options.strict ? comparison.failures : comparison.notes)
-                .push_back(fmt::format("{}: {}", frame->name, line));
-    for (const Frame* frame : {&left, &right})
-        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
-            (options.strict ? comparison.failures : comparison.notes)
-                .push_back(fmt::format("{} of {}: not compared, Diptych has no such channel",
-                                       fmt::join(frame->origin.left_out, ", "), frame->name));
-    for (const DebugMode& mode : debugModes()) {
-        const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
-                   onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
-        const bool paths = !isMadeByReference(mode);
-        if (onLeft || onRight) names.emplace_back(mode.name);
-        if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
-        if (paths && onLeft && onRight && left.settings.assign != right.settings.assign) {
-            comparison.notes.push_back(
-                fmt::format("{} was not compared: --assign {} and {} evaluate different lights", mode.name,
-                            nameOf(left.settings.assign), nameOf(right.settings.assign)));
-        } else if (onLeft && onRight) {
-            shared = true;
-            comparison.channels.emplace_back().mode = &mode;
-        } else if (onLeft || onRight) {
-            const std::string& one = onLeft ? left.name : right.name;
-            const Path lacking = onLeft ? right.settings.path : left.settings.path;
-            if (paths && isReferenceFrame(onLeft ? right : left)) continue;
-            if ((onLeft ? right : left).origin.external && !options.strict) {
-                lacking_channels.emplace_back(mode.name);
-                continue;
-            }
-            const Rule* rule = ruleFor(options.rules, mode.name);
-            const bool forward_only = mode.maker == MadeBy::forward_only && lacking == Path::deferred,
-                       deferred_only = mode.maker == MadeBy::deferred_only && lacking == Path::forward_plus;
-            if ((forward_only || deferred_only) && !(rule && namesChannels(*rule))) {
-                ChannelDiff& channel = comparison.channels.emplace_back();
-                channel.mode = &mode;
-                channel.tolerance = {
-                    0, forward_only
-                           ? "the G-buffer does not store it, so only forward+ has it"
-                           : "forward+ shades each triangle as it is drawn, so only deferred has it"};
-                channel.verdict = forward_only ? Verdict::forward_only : Verdict::deferred_only;
-            } else {
-                judgeOneSided({std::string(mode.name), one}, demands, comparison.failures, comparison.notes);
-            }
-        }
-    }
-    if (!shared)
-        throw std::runtime_error(
-            fmt::format("{} and {} share no requested channel; add one that both support to --channels",
-                        left.name, right.name));
-    if (!lacking_channels.empty())
-        comparison.notes.push_back(fmt::format("{} does not have {}: not compared",
-                                               (left.origin.external ? left : right).name,
-                                               fmt::join(lacking_channels, ", ")));
-    const std::vector<int> proving = provingChannels(comparison, pair, options.rules);
-    for (const int mode : proving) comparison.channels.emplace_back().mode = &debugMode(mode);
-    std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
-        ChannelDiff& channel = comparison.channels[i];
-        if (isCompared(channel.verdict))
-            channel = diffChannel(*channel.mode, pair, options.rules, options.allow_noise);
-        for (const Frame* frame : {&left, &right, pair.explaining})
-            if (frame) letGo(*frame, channel.mode->number);
-        options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
-                            "compare " + std::string(channel.mode->name));
-    });
-
-    // Shows only those that fail.
-    std::erase_if(comparison.channels, [&](const ChannelDiff& channel) {
-        return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->number) > 0;
-    });
-    std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->number; });
-
+    const std::vector<std::string> names = pairChannels(left, right, options, comparison);
+    diffChannels(pair, options, comparison);
     // Two devices blend surfaces that each has sampled and placed in its own way.
     if (!options.across) readBlending(pair, options.rules, comparison);
     for (const Frame* frame : {&left, &right}) {
         readCounters(*frame, comparison);
-        readNoise(*frame, drawnExactly(*frame), options.allow_noise, comparison);
+        readNoise(*frame, deviceOf(report, *frame).bitExact(), options.allow_noise, comparison);
     }
     if (const std::string ways = waysOfJudging(comparison.channels); !ways.empty())
         comparison.notes.push_back(ways);
@@ -374,21 +413,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         comparison.notes.push_back(idleText(*rule, names));
     if (!comparison.coverage.known)
         comparison.notes.push_back("without material_id and depth, background pixels count in every mean");
-    if (const std::string emptiness = emptinessOf(left, right, comparison.coverage, shown);
-        !emptiness.empty()) {
-        if (options.allow_empty)
-            comparison.notes.push_back(emptiness);
-        else if (options.strict)
-            comparison.failures.push_back(emptiness + "; --allow-empty accepts that");
-        else
-            comparison.emptiness = emptiness;
-    }
-    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) {
-        if (options.strict)
-            comparison.failures.push_back(loose + "; --strict does not accept that");
-        else
-            comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + loose;
-    }
+    readEmptiness(pair, shown, options, comparison);
     return comparison;
 }
 

@@ -276,6 +276,58 @@ void judgeIdleRules(PictureDiff& diff, std::span<const Rule> rules, const std::v
         (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));
 }
 
+// The channel with its measurement, after --blur and --shift.
+std::unique_ptr<PictureChannelDiff> diffOf(MatchedChannel pair, const PictureDiff& diff,
+                                           const PictureDiffOptions& options) {
+    auto channel = std::make_unique<PictureChannelDiff>();
+    channel->pair = std::move(pair);
+    MatchedChannel& p = channel->pair;
+    if (p.kind != ChannelKind::id) {
+        if (options.blur > 0) {
+            p.reference.image = metrics::blurred(p.reference.image, options.blur);
+            p.test.image = metrics::blurred(p.test.image, options.blur);
+        }
+        if (options.shift > 0)
+            p.test.image = metrics::shifted(p.reference.image, p.test.image, options.shift);
+    }
+    channel->display = diff.display && p.kind == ChannelKind::color;
+    channel->measurement =
+        std::make_unique<Measurement>(ChannelPair{p.metric, p.kind, channel->display, p.reference.rows(),
+                                                  p.test.rows(), diff.coverage.get(), nullptr, options.flip});
+    return channel;
+}
+
+void judgeChannels(PictureDiff& diff, const PictureDiffOptions& options) {
+    constexpr double reading = 0.3;
+    const auto all = static_cast<double>(diff.channels.size());
+    double done = 0;
+    for (auto& channel : diff.channels) {
+        options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
+        judge(*channel, options);
+        findWorst(diff, *channel);
+    }
+    if (options.metric_given && options.rules.empty() &&
+        std::ranges::none_of(diff.channels, [&](const auto& channel) {
+            return (*channel->measurement)({options.metric, 0}).has_value();
+        }))
+        throw std::runtime_error(
+            fmt::format("--metric {}: not defined for any channel of these images", options.metric));
+    for (auto& channel : diff.channels) sayHidden(diff, *channel);
+}
+
+void checkBlackness(PictureDiff& diff, const PictureDiffOptions& options) {
+    const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
+        return isBlack(channel->pair.reference.rows(), *diff.coverage) &&
+               isBlack(channel->pair.test.rows(), *diff.coverage);
+    });
+    if (!black || options.allow_empty) return;
+    constexpr const char* blackness = "both images are black: every compared value is 0";
+    if (options.strict)
+        diff.failures.push_back(fmt::format("{}; --allow-empty accepts that", blackness));
+    else
+        diff.emptiness = blackness;
+}
+
 }  // namespace
 
 std::string figureOfMetric(const std::string& name) {
@@ -344,52 +396,12 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
     for (const OneSidedChannel& channel : matched.one_sided)
         judgeOneSided(channel, {options.rules, options.channels, options.strict}, diff.failures, diff.notes);
-    for (MatchedChannel& pair : matched.channels) {
-        auto channel = std::make_unique<PictureChannelDiff>();
-        channel->pair = std::move(pair);
-        MatchedChannel& p = channel->pair;
-        if (p.kind != ChannelKind::id) {
-            if (options.blur > 0) {
-                p.reference.image = metrics::blurred(p.reference.image, options.blur);
-                p.test.image = metrics::blurred(p.test.image, options.blur);
-            }
-            if (options.shift > 0)
-                p.test.image = metrics::shifted(p.reference.image, p.test.image, options.shift);
-        }
-        channel->display = diff.display && p.kind == ChannelKind::color;
-        channel->measurement = std::make_unique<Measurement>(
-            ChannelPair{p.metric, p.kind, channel->display, p.reference.rows(), p.test.rows(),
-                        diff.coverage.get(), nullptr, options.flip});
-        diff.channels.push_back(std::move(channel));
-    }
-    constexpr double reading = 0.3;
-    const auto all = static_cast<double>(diff.channels.size());
-    double done = 0;
-    for (auto& channel : diff.channels) {
-        options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
-        judge(*channel, options);
-        findWorst(diff, *channel);
-    }
-    if (options.metric_given && options.rules.empty() &&
-        std::ranges::none_of(diff.channels, [&](const auto& channel) {
-            return (*channel->measurement)({options.metric, 0}).has_value();
-        }))
-        throw std::runtime_error(
-            fmt::format("--metric {}: not defined for any channel of these images", options.metric));
-    for (auto& channel : diff.channels) sayHidden(diff, *channel);
+    for (MatchedChannel& pair : matched.channels)
+        diff.channels.push_back(diffOf(std::move(pair), diff, options));
+    judgeChannels(diff, options);
     addNotes(diff, options);
     judgeIdleRules(diff, options.rules, names);
-    const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
-        return isBlack(channel->pair.reference.rows(), *diff.coverage) &&
-               isBlack(channel->pair.test.rows(), *diff.coverage);
-    });
-    constexpr const char* blackness = "both images are black: every compared value is 0";
-    if (black && !options.allow_empty) {
-        if (options.strict)
-            diff.failures.push_back(fmt::format("{}; --allow-empty accepts that", blackness));
-        else
-            diff.emptiness = blackness;
-    }
+    checkBlackness(diff, options);
     return diff;
 }
 

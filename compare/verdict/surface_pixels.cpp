@@ -61,6 +61,90 @@ std::uint64_t mostOf(double share, std::uint64_t edges) {
     return std::max(fewPixels, static_cast<std::uint64_t>(std::min(1.0, share) * static_cast<double>(edges)));
 }
 
+using Planes = std::array<const Image*, 2>;  // of baseline and test; null where missing
+
+Planes planesOf(const FramePair& pair, gpu::uint mode) {
+    return {findChannel(pair.baseline, mode), findChannel(pair.test, mode)};
+}
+
+// Tests whether both devices show the same surface and light at a pixel.
+class PixelTest {
+public:
+    // Both Frames have material_id.
+    explicit PixelTest(const FramePair& pair) : pair_(pair) {
+        if (depths_[0] && depths_[1]) depth_.emplace(debugMode(gpu::DEBUG_depth), pair);
+        if (uvs_[0] && uvs_[1]) coordinates_.emplace(texcoords_, pair, *uvs_[0], *uvs_[1]);
+        if (findChannel(pair.baseline, gpu::DEBUG_lit) && findChannel(pair.test, gpu::DEBUG_lit) &&
+            pair.across->relit.contains(gpu::DEBUG_lit))
+            light_.emplace(debugMode(gpu::DEBUG_lit), pair);
+    }
+
+    struct Result {
+        bool edge = false;  // beside another surface, another triangle's plane or a seam, in either image
+        bool material = false, place = false, seam = false;  // which of them differs
+        bool isOther() const { return material || place || seam; }
+    };
+    Result operator()(std::size_t i) const {
+        const double facet = facetOf_(i);
+        Result result;
+        result.edge = isBesideEdge(sides_[0], *ids_[0], normals_[0], i, facet) ||
+                      isBesideEdge(sides_[1], *ids_[1], normals_[1], i, facet) ||
+                      (coordinates_ && (isBesideSeam(*uvs_[0], i) || isBesideSeam(*uvs_[1], i)));
+        result.material = *ids_[0]->pixel(i) != *ids_[1]->pixel(i);
+        result.place = (normals_[0] && normals_[1] &&
+                        metrics::angle(normals_[0]->pixel(i), normals_[1]->pixel(i)) > facet) ||
+                       (depth_ && !(depth_->error(i) <= (*depth_)(i)));
+        result.seam = coordinates_ &&
+                      !(apart(texcoords_, uvs_[0]->pixel(i), uvs_[1]->pixel(i)) <=
+                        (*coordinates_)(i) +
+                            relativeRounding() * std::max(1.0, metrics::largestFinite(uvs_[0]->pixel(i), 2)));
+        return result;
+    }
+
+    // Whether two surfaces have the same depth there, so that either may be visible or blended first.
+    bool isTied(std::size_t i, const Result& result) const {
+        const auto& surface_at = pair_.across->surface_at;
+        if (!positions_[0] || !depths_[0] || !surface_at) return false;
+        if (!result.isOther())
+            return light_ && light_->blendedApart(i) > 0 &&
+                   surface_at(-1, positions_[0]->pixel(i), tieReach(i), false);
+        if (result.place || !positions_[1]) return false;
+        const double near = tieReach(i);
+        const auto isThere = [&](const Image& ids, const Image& places) {
+            return *ids.pixel(i) >= 0 &&
+                   surface_at(static_cast<int>(*ids.pixel(i)), places.pixel(i), near, !result.material);
+        };
+        return isThere(*ids_[0], *positions_[0]) && isThere(*ids_[1], *positions_[1]);
+    }
+
+    bool isBesideShadowEdge(std::size_t i) const { return shadowed_.isBesideEdge(i); }
+    // A larger difference of light beside a shadow boundary also means another shadow, at the other image's
+    // position.
+    bool showsOtherShadow(std::size_t i, bool beside) const {
+        return shadowed_.differs(i) || (beside && light_ && !(light_->error(i) <= (*light_)(i)));
+    }
+
+private:
+    // How far from a position another surface of equal depth may lie, m.
+    double tieReach(std::size_t i) const {
+        return *depths_[0]->pixel(i) * (step_ / pixelsPerRadian(pair_.baseline, i) + relativeRounding());
+    }
+
+    const FramePair& pair_;
+    const Planes ids_ = planesOf(pair_, gpu::DEBUG_material_id),
+                 normals_ = planesOf(pair_, gpu::DEBUG_geometric_normal),
+                 depths_ = planesOf(pair_, gpu::DEBUG_depth),
+                 positions_ = planesOf(pair_, gpu::DEBUG_position);
+    const Planes uvs_ = pair_.across->texcoords;
+    const DebugMode& texcoords_ = debugMode(gpu::DEBUG_texcoords);
+    const std::array<SurfaceAround, 2> sides_{SurfaceAround(pair_.baseline), SurfaceAround(pair_.test)};
+    const FacetBound facetOf_{pair_};
+    const Shadowed shadowed_{pair_};
+    std::optional<DeviceBounds> depth_, light_;
+    std::optional<PlaceBound> coordinates_;
+    const double step_ = stepOf(*pair_.across, &DevicePrecision::sub_pixel_bits);
+};
+
 }  // namespace
 
 std::vector<int> surfacePixelChannels() {
@@ -71,75 +155,26 @@ std::vector<int> surfacePixelChannels() {
 SurfacePixels surfacePixels(const FramePair& pair) {
     SurfacePixels found;
     found.others.assign(pair.coverage.covered.size(), 0);
-    const auto both = [&](gpu::uint mode) {
-        return std::array{findChannel(pair.baseline, mode), findChannel(pair.test, mode)};
-    };
-    const auto [a, b] = both(gpu::DEBUG_material_id);
-    const auto [n, m] = both(gpu::DEBUG_geometric_normal);
-    const auto [z, w] = both(gpu::DEBUG_depth);
-    const auto [p, q] = both(gpu::DEBUG_position);
-    const auto [u, v] = pair.across->texcoords;
-    if (!a || !b) return found;
-    const std::array sides{SurfaceAround(pair.baseline), SurfaceAround(pair.test)};
-    const FacetBound facetOf(pair);
-    std::optional<DeviceBounds> depth;
-    if (z && w) depth.emplace(debugMode(gpu::DEBUG_depth), pair);
-    std::optional<PlaceBound> coordinates;
-    const DebugMode& texcoords = debugMode(gpu::DEBUG_texcoords);
-    if (u && v) coordinates.emplace(texcoords, pair, *u, *v);
-    const Shadowed shadowed(pair);
-    std::optional<DeviceBounds> light;
-    if (findChannel(pair.baseline, gpu::DEBUG_lit) && findChannel(pair.test, gpu::DEBUG_lit) &&
-        pair.across->relit.contains(gpu::DEBUG_lit))
-        light.emplace(debugMode(gpu::DEBUG_lit), pair);
-    const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
-    // How far from a position another surface of equal depth may lie, m.
-    const auto tieReach = [&](std::size_t i) {
-        return *z->pixel(i) * (step / pixelsPerRadian(pair.baseline, i) + relativeRounding());
-    };
+    const auto [ids, other_ids] = planesOf(pair, gpu::DEBUG_material_id);
+    if (!ids || !other_ids) return found;
+    const PixelTest test(pair);
     std::uint64_t narrow = 0;
     for (std::size_t i = 0; i < found.others.size(); ++i) {
         if (!pair.coverage.covered[i]) continue;
-        const double facet = facetOf(i);
-        const bool edge = isBesideEdge(sides[0], *a, n, i, facet) ||
-                          isBesideEdge(sides[1], *b, m, i, facet) ||
-                          (coordinates && (isBesideSeam(*u, i) || isBesideSeam(*v, i)));
-        const bool material = *a->pixel(i) != *b->pixel(i),
-                   place = (n && m && metrics::angle(n->pixel(i), m->pixel(i)) > facet) ||
-                           (depth && !(depth->error(i) <= (*depth)(i))),
-                   seam = coordinates &&
-                          !(apart(texcoords, u->pixel(i), v->pixel(i)) <=
-                            (*coordinates)(i) +
-                                relativeRounding() * std::max(1.0, metrics::largestFinite(u->pixel(i), 2)));
-        const bool other = material || place || seam;
-        if (other && !place && p && q && z && pair.across->surface_at) {
-            const double near = tieReach(i);
-            const auto isThere = [&](const Image& ids, const Image& places) {
-                return *ids.pixel(i) >= 0 && pair.across->surface_at(static_cast<int>(*ids.pixel(i)),
-                                                                     places.pixel(i), near, !material);
-            };
-            if (isThere(*a, *p) && isThere(*b, *q)) {
-                found.others[i] = 1;
-                ++found.tied;
-                continue;
-            }
-        }
-        if (!other && light && p && z && pair.across->surface_at && light->blendedApart(i) > 0 &&
-            pair.across->surface_at(-1, p->pixel(i), tieReach(i), false)) {
+        const PixelTest::Result result = test(i);
+        if (test.isTied(i, result)) {
             found.others[i] = 1;
             ++found.tied;
             continue;
         }
-        count(found.triangles, i, a->width, other, edge);
-        narrow += edge && pair.grid->narrow[i] != 0;
-        // A larger difference of light beside a shadow boundary also means another shadow, at the other
-        // image's position.
-        const bool beside = shadowed.isBesideEdge(i),
-                   shade = !other &&
-                           (shadowed.differs(i) || (beside && light && !(light->error(i) <= (*light)(i))));
-        count(found.shadows, i, a->width, shade, beside);
+        const bool other = result.isOther();
+        count(found.triangles, i, ids->width, other, result.edge);
+        narrow += result.edge && pair.grid->narrow[i] != 0;
+        const bool beside = test.isBesideShadowEdge(i), shade = !other && test.showsOtherShadow(i, beside);
+        count(found.shadows, i, ids->width, shade, beside);
         found.others[i] = other || shade ? 1 : 0;
     }
+    const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
     found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
     // Each texel of a filter across an edge may show another triangle.
     const double texels = pair.baseline.settings.shadow_kernel + 1;

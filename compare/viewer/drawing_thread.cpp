@@ -9,6 +9,7 @@
 #include "compare/render/shown_scene.h"
 #include "compare/report/frame_files.h"
 #include "compare/verdict/pair_reports.h"
+#include "compare/viewer/facts.h"
 #include "compare/viewer/picture_cost.h"
 #include "compare/viewer/pictures.h"
 #include "compare/viewer/reference_thread.h"
@@ -35,8 +36,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), depthMode = static_cast<int>(gpu::DEBUG_depth),
-               ids = static_cast<int>(gpu::DEBUG_material_id),
-               counts = static_cast<int>(gpu::DEBUG_light_count);
+               ids = static_cast<int>(gpu::DEBUG_material_id);
 
 // Target for rendering both paths while moving, ms. With the host's work that gives about 15 images a
 // second, and a key takes effect within two of them.
@@ -55,13 +55,6 @@ double msSince(Clock::time_point start) {
 
 // Aborts work that is no longer needed.
 struct Superseded {};
-
-double durationOf(const Animation& animation) {
-    double end = 0;
-    for (const Keyframes& keyframes : animation.keyframes)
-        if (!keyframes.times.empty()) end = std::max(end, double{keyframes.times.back()});
-    return end;
-}
 
 std::vector<int> everyChannel() {
     std::vector<int> modes;
@@ -365,15 +358,7 @@ struct DrawingThread::State {
         dropRenderer();
         scene = std::move(read);
         loaded = asked;
-        auto known = std::make_shared<SceneFacts>();
-        known->scene = asked.scene;
-        known->name = scene->name;
-        for (const Camera& camera : poseAt(*scene, 0, "").cameras) known->cameras.push_back(camera.name);
-        for (const Animation& animation : scene->animations) {
-            known->animations.push_back(animation.name);
-            known->duration = std::max(known->duration, durationOf(animation));
-        }
-        known->notes = scene->notes;
+        auto known = std::make_shared<SceneFacts>(factsOf(*scene, asked.scene));
         {
             const std::lock_guard lock(mutex);
             facts = std::move(known);
@@ -446,32 +431,7 @@ struct DrawingThread::State {
     }
 
     void takeFacts(const std::array<const Frame*, 2>& of, bool timed_too) {
-        for (std::size_t i = 0; i < 2; ++i) {
-            PathFacts& facts_of = paths.at(i);
-            const Frame& frame = *of.at(i);
-            facts_of.name = frame.name;
-            if (timed_too) {
-                facts_of.ms = frame.time.median;
-                facts_of.passes = frame.passes;
-                ++facts_of.measurement;
-            }
-            facts_of.bytes = frame.bytes;
-            facts_of.counters = frame.counters;
-            facts_of.notes = frame.notes;
-            facts_of.mean_lights.reset();
-            facts_of.most_lights.reset();
-            if (const auto found = frame.channels.find(counts); found != frame.channels.end()) {
-                const Coverage covered = coverage(frame, frame);
-                double sum = 0, most = 0;
-                for (std::size_t p = 0; p < found->second.pixels(); ++p)
-                    if (covered.covered[p]) {
-                        sum += double{found->second.pixel(p)[0]};
-                        most = std::max(most, double{found->second.pixel(p)[0]});
-                    }
-                facts_of.mean_lights = covered.count > 0 ? sum / static_cast<double>(covered.count) : 0;
-                facts_of.most_lights = most;
-            }
-        }
+        for (std::size_t i = 0; i < 2; ++i) viewer::takeFacts(*of.at(i), timed_too, paths.at(i));
     }
 
     // Shows a smaller image first if a still one takes long.
@@ -611,14 +571,13 @@ struct DrawingThread::State {
         shown = std::move(next);
     }
 
-    void judge() {
-        const Settings& settings = order.subject.settings;
+    // Both paths with every channel.
+    std::vector<Frame> judgedFrames(const std::array<Settings, 2>& settings) {
         RenderOptions render = channelOptions(everyChannel());
         render.requested = everyChannel();
-        const std::array both_settings{settingsOf(drawn_paths[0], settings.size),
-                                       settingsOf(drawn_paths[1], settings.size)};
-        render = judgedOptions(std::move(render), both_settings,
-                               settings.reference_mode == ReferenceMode::scene, false, Twice::none);
+        render =
+            judgedOptions(std::move(render), settings,
+                          order.subject.settings.reference_mode == ReferenceMode::scene, false, Twice::none);
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
             if (judged_of == both && drawn == both && has(everyChannel())) {
@@ -627,32 +586,42 @@ struct DrawingThread::State {
             }
             render.progress =
                 stage("verdict").part(0.4 * static_cast<double>(i), 0.4 * static_cast<double>(i + 1));
-            pair.push_back(renderer->draw(both_settings.at(i), render));
+            pair.push_back(renderer->draw(settings.at(i), render));
         }
-        auto next = std::make_shared<Judged>();
-        next->subject = both;
-        const SceneView& view = views->at(viewRequest(pair[0].settings));
-        CompareOptions compare = options.compare;
-        compare.light_differs = lightDifferences(both_settings[0], both_settings[1]);
-        compare.progress = Stage(comparing, "verdict").part(0.8, 1);
-        heed();
-        const Against against = judgedAgainst();
+        return pair;
+    }
+
+    Report judgedReport(std::vector<Frame> pair, Against against, const CompareOptions& compare) {
+        const Requirements& needs = views->at(viewRequest(pair[0].settings)).needs;
+        const ReportDevice here = reportDevice(*device);
         if (against == Against::reference) {
             std::vector<Frame> three{*reference.frame({}, nullptr)};
             std::ranges::move(pair, std::back_inserter(three));
             std::vector<std::string> materials;
             for (const Material& material : scene->materials) materials.push_back(material.name);
-            next->report = makeReferenceReport(std::move(three), {view.needs, view.needs, view.needs},
-                                               reportDevice(*device), compare, {{}}, {materials});
-        } else if (against == Against::file) {
+            return makeReferenceReport(std::move(three), {needs, needs, needs}, here, compare, {{}},
+                                       {materials});
+        }
+        if (against == Against::file) {
             Frame baseline = *storedFrame();
             baseline.requested = pair[0].requested;
-            next->report = makeBaselineReport(std::move(baseline), std::move(pair), view.needs,
-                                              reportDevice(*device), compare, {});
-        } else {
-            next->report =
-                makeReport(std::move(pair), {view.needs, view.needs}, reportDevice(*device), compare, {});
+            return makeBaselineReport(std::move(baseline), std::move(pair), needs, here, compare, {});
         }
+        return makeReport(std::move(pair), {needs, needs}, here, compare, {});
+    }
+
+    void judge() {
+        const Size& size = order.subject.settings.size;
+        const std::array settings{settingsOf(drawn_paths[0], size), settingsOf(drawn_paths[1], size)};
+        std::vector<Frame> pair = judgedFrames(settings);
+        auto next = std::make_shared<Judged>();
+        next->subject = both;
+        CompareOptions compare = options.compare;
+        compare.light_differs = lightDifferences(settings[0], settings[1]);
+        compare.progress = Stage(comparing, "verdict").part(0.8, 1);
+        heed();
+        const Against against = judgedAgainst();
+        next->report = judgedReport(std::move(pair), against, compare);
         judged_of = both;
         judged_against = against;
         // Every channel exists from now on.

@@ -2,6 +2,7 @@
 #include "compare/viewer/viewer.h"
 
 #include "compare/files/our_files.h"
+#include "compare/viewer/actions.h"
 #include "compare/viewer/canvas.h"
 #include "compare/viewer/drawing_thread.h"
 #include "compare/viewer/fly_camera.h"
@@ -362,64 +363,12 @@ private:
         return {};
     }
 
-    template <class Value>
-    static void cycle(Value& value, std::initializer_list<Value> values) {
-        const auto* const at = std::ranges::find(values, value);
-        value = at == values.end() || at + 1 == values.end() ? *values.begin() : *(at + 1);
-    }
-
     void act(const KeyPress& pressed, bool shift) {
+        if (const auto message = actOnState(pressed, shift, contents_, state_)) {
+            if (!message->empty()) tell(*message);
+            return;
+        }
         switch (pressed.action) {
-            case Action::forward:
-            case Action::left:
-            case Action::back:
-            case Action::right:
-            case Action::rise:
-            case Action::sink:
-            case Action::flicker:
-                if (pressed.action != Action::flicker && !camera_.canMove() && contents_.shown)
-                    tell("this camera is orthographic and cannot move: press N for another camera");
-                break;
-            case Action::orbit:
-                state_.orbiting = !state_.orbiting;
-                tell(state_.orbiting ? "dragging orbits what is under the cursor" : "dragging looks around");
-                break;
-            case Action::wipe:
-                // A difference has no panels to arrange.
-                if (std::exchange(state_.look.difference, Difference::none) != Difference::none) break;
-                cycle(state_.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single});
-                break;
-            case Action::difference:
-                cycle(state_.look.difference, {Difference::none, Difference::signed_difference,
-                                               Difference::absolute, Difference::relative, Difference::flip});
-                break;
-            case Action::against:
-                if (state_.stored.empty())
-                    cycle(state_.look.against, {Against::paths, Against::reference});
-                else
-                    cycle(state_.look.against, {Against::paths, Against::reference, Against::file});
-                state_.look.file =
-                    state_.look.against == Against::file ? state_.stored : std::filesystem::path();
-                break;
-            case Action::swap:
-                change(
-                    [](Settings& s) { s.path = s.path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0]; });
-                break;
-            case Action::channel:
-                state_.look.mode = pressed.number;
-                break;
-            case Action::next_channel:
-                nextChannel(shift ? -1 : 1);
-                break;
-            case Action::light_debug:
-                state_.light_debug = !state_.light_debug;
-                break;
-            case Action::light_visibility:
-                state_.look.heat = !state_.look.heat;
-                break;
-            case Action::information:
-                state_.information = !state_.information;
-                break;
             case Action::zoom:
                 if (state_.canvas.zoom > 0)
                     state_.canvas.zoom = 0;
@@ -435,25 +384,6 @@ private:
             case Action::next_camera:
                 nextCamera();
                 break;
-            case Action::play:
-                if (contents_.facts && contents_.facts->duration > 0)
-                    state_.playing = !state_.playing;
-                else
-                    tell("this scene has no animation");
-                break;
-            case Action::scene_lights:
-                setOption(state_, "scene-lights", state_.subject.settings.scene_lights ? "off" : "on");
-                break;
-            case Action::rig:
-                if (state_.rig.empty() && state_.subject.settings.lights.empty())
-                    tell("no lights from --lights: add some in the settings panel, such as point:32");
-                else if (state_.subject.settings.lights.empty())
-                    setOption(state_, "lights", state_.rig);
-                else {
-                    state_.rig = state_.subject.settings.lights;
-                    setOption(state_, "lights", "none");
-                }
-                break;
             case Action::screenshot:
                 drawing_.save(options_.out.empty() ? "." : options_.out);
                 tell("writing both paths, all channels");
@@ -465,14 +395,8 @@ private:
                 state_.requests.copy = renderCommand(state_);
                 handleRequests();
                 break;
-            case Action::panels:
-                state_.panels = !state_.panels;
-                break;
             case Action::full_screen:
                 window_.toggleFullScreen();
-                break;
-            case Action::help:
-                state_.help = !state_.help;
                 break;
             case Action::leave:
                 leave();
@@ -480,6 +404,9 @@ private:
             case Action::quit:
                 quit_ = true;
                 break;
+            default:  // held keys
+                if (pressed.action != Action::flicker && !camera_.canMove() && contents_.shown)
+                    tell("this camera is orthographic and cannot move: press N for another camera");
         }
     }
 
@@ -493,17 +420,6 @@ private:
             state_.pixel.reset();
         else if (window_.isFullScreen())
             window_.toggleFullScreen();
-    }
-
-    // Steps through the channels above 9, by number.
-    void nextChannel(int step) {
-        std::vector<int> beyond;
-        for (const DebugMode& mode : debugModes())
-            if (mode.number > 9) beyond.push_back(mode.number);
-        const auto count = static_cast<std::ptrdiff_t>(beyond.size());
-        std::ptrdiff_t at = std::ranges::find(beyond, state_.look.mode) - beyond.begin();
-        at = at == count ? (step > 0 ? 0 : count - 1) : (at + step + count) % count;
-        state_.look.mode = beyond[static_cast<std::size_t>(at)];
     }
 
     void nextCamera() {

@@ -82,16 +82,9 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
                   (range.cluster_count + partClusters - 1) / partClusters,
                   place,
                   whole};
-        for (std::uint32_t first = 0; first < range.cluster_count; first += partClusters)
-            parts_.push_back({static_cast<std::uint32_t>(items_.size()), made.first + first,
-                              std::min(partClusters, range.cluster_count - first)});
-        order_.resize(order_.size() + range.cluster_count);
-        if (computes && !whole) {
-            const auto culled = static_cast<gpu::uint>(culled_items_.size());
-            culled_items_.push_back(culledItem(item, draws_.draws[item.draw], made.shown, oneSided));
-            for (std::uint32_t p = made.first_part; p < made.first_part + made.parts; ++p)
-                culled_parts_.push_back({culled, parts_[p].first, parts_[p].clusters, 0, p});
-        }
+        addParts(made);
+        if (computes && !whole)
+            addCulled(made, culledItem(item, draws_.draws[item.draw], made.shown, oneSided));
         if (!whole) place += range.index_count;
         item.chosen = !whole;
         item.first_run = made.first_part;
@@ -108,10 +101,28 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
         run();
         return;
     }
-    compute_.emplace(device, pipelines, layouts.culling, geometry, grid, culled_items_,
-                     ComputeCulling::Sizes{static_cast<std::uint32_t>(culled_parts_.size()),
-                                           static_cast<std::uint32_t>(order_.size()), place,
-                                           static_cast<std::uint32_t>(parts_.size())});
+    const ComputeCulling::Sizes sizes{static_cast<std::uint32_t>(culled_parts_.size()),
+                                      static_cast<std::uint32_t>(order_.size()), place,
+                                      static_cast<std::uint32_t>(parts_.size())};
+    compute_.emplace(device, pipelines, layouts.culling, geometry, grid, culled_items_, sizes);
+    runOnGpu();
+}
+
+void Culling::addParts(const Item& item) {
+    for (std::uint32_t first = 0; first < item.clusters; first += partClusters)
+        parts_.push_back({static_cast<std::uint32_t>(items_.size()), item.first + first,
+                          std::min(partClusters, item.clusters - first)});
+    order_.resize(order_.size() + item.clusters);
+}
+
+void Culling::addCulled(const Item& item, const gpu::CulledItem& culled) {
+    const auto index = static_cast<gpu::uint>(culled_items_.size());
+    culled_items_.push_back(culled);
+    for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p)
+        culled_parts_.push_back({index, parts_[p].first, parts_[p].clusters, 0, p});
+}
+
+void Culling::runOnGpu() {
     run();
     compute_->runOnce(name);
     // Culling of a view is deterministic, so these counts stay valid.

@@ -71,6 +71,10 @@ private:
         std::uint32_t item, first, clusters;
         std::uint32_t place = 0;  // offset of its first index
     };
+    void addParts(const Item& item);
+    void addCulled(const Item& item, const gpu::CulledItem& culled);
+    // Culls once on the GPU, and takes the index ranges.
+    void runOnGpu();
     void order(const Item& item);
     void choose(std::size_t part, std::uint32_t* indices);
     void fillGaps(const Instances& instances);

@@ -12,10 +12,9 @@
 namespace diptych {
 
 FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
-                           const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
-                           std::optional<std::uint32_t> objectPixelLights, bool albedoTable)
-    : lists_(device, uploader, layouts.lists, choice, view, lights),
-      objects_(device, uploader, draws, lights, objectPixelLights),
+                           const DrawList& draws, const GpuLights& lights, const Choice& choice)
+    : lists_(device, uploader, layouts.lists, choice.lists, view, lights),
+      objects_(device, uploader, draws, lights, choice.object_pixel_lights),
       placeholders_(device, uploader, layouts),
       sets_(device, layouts.frame, frameBindings(), 1) {
     gpu::View gpuView = view.gpuView();
@@ -52,7 +51,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                                     VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
     std::vector<glm::vec4> albedo;
-    if (albedoTable) albedo = directionalAlbedoPairs();
+    if (choice.albedo_table) albedo = directionalAlbedoPairs();
     albedo_ = makeBuffer<glm::vec4>(device, uploader, "directional albedo", albedo,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     albedo_view_ = makeTexelView(device, "directional albedo", albedo_, VK_FORMAT_R32G32B32A32_SFLOAT);

@@ -17,11 +17,13 @@ namespace diptych {
 // Buffers of one view: camera, draws, lights and light lists; bound as SET_FRAME.
 class FrameBuffers {
 public:
-    // `albedoTable`: uploads the table of albedo.h. `objectPixelLights`: --pixel-lights with --assign
-    // per_object; else empty.
+    struct Choice {
+        LightLists::Choice lists{};
+        std::optional<std::uint32_t> object_pixel_lights{};  // --pixel-lights with --assign per_object
+        bool albedo_table = false;                           // uploads the table of albedo.h
+    };
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
-                 const DrawList& draws, const GpuLights& lights, const LightLists::Choice& choice,
-                 std::optional<std::uint32_t> objectPixelLights = {}, bool albedoTable = false);
+                 const DrawList& draws, const GpuLights& lights, const Choice& choice);
     VkDescriptorSet set() const { return sets_[0]; }
     DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }

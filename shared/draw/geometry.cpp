@@ -21,6 +21,17 @@
 
 namespace diptych {
 
+// A primitive split into meshlets.
+struct Geometry::CutPrimitive {
+    std::vector<glm::vec3> moved;  // positions relative to the origin, if that is not 0
+    std::vector<std::uint32_t> indices;
+    std::vector<Cluster> clusters;
+    ClusterTriangles triangles;
+    const std::vector<glm::vec3>& positions(const Primitive& p) const {
+        return moved.empty() ? p.positions : moved;
+    }
+};
+
 namespace {
 
 gpu::VertexAttributes attributesOf(const Primitive& p, std::size_t i) {
@@ -83,19 +94,16 @@ std::uint32_t indexCountOf(const Scene& scene) {
     return static_cast<std::uint32_t>(sum);
 }
 
-// A primitive split into meshlets.
-struct CutPrimitive {
-    std::vector<glm::vec3> moved;  // positions relative to the origin, if that is not 0
-    std::vector<std::uint32_t> indices;
-    std::vector<Cluster> clusters;
-    ClusterTriangles triangles;
-    const std::vector<glm::vec3>& positions(const Primitive& p) const {
-        return moved.empty() ? p.positions : moved;
-    }
-};
+std::vector<gpu::CulledCluster> culledClusters(std::span<const Cluster> clusters) {
+    std::vector<gpu::CulledCluster> culled;
+    culled.reserve(clusters.size());
+    for (const Cluster& c : clusters) culled.push_back({c.min, c.first_index, c.max, c.index_count / 3});
+    return culled;
+}
 
-// Splits every primitive, mesh by mesh.
-std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin) {
+}  // namespace
+
+std::vector<Geometry::CutPrimitive> Geometry::cut(const Scene& scene, const glm::dvec3& origin) {
     std::vector<const Primitive*> all;
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives) all.push_back(&p);
@@ -114,15 +122,6 @@ std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin) {
     });
     return cuts;
 }
-
-std::vector<gpu::CulledCluster> culledClusters(std::span<const Cluster> clusters) {
-    std::vector<gpu::CulledCluster> culled;
-    culled.reserve(clusters.size());
-    for (const Cluster& c : clusters) culled.push_back({c.min, c.first_index, c.max, c.index_count / 3});
-    return culled;
-}
-
-}  // namespace
 
 Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : scene_(scene) {
     std::vector<glm::vec3> positions;
@@ -156,20 +155,8 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             }
             positions.insert(positions.end(), stored.begin(), stored.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
-            range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
-            for (Cluster cluster : made.clusters) {
-                cluster.first_index += first_clustered_ + static_cast<std::uint32_t>(clustered_.size());
-                clusters_.push_back(cluster);
-            }
-            clustered_.insert(clustered_.end(), made.indices.begin(), made.indices.end());
-            cluster_triangles_.add(made.triangles);
-            range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
-            if (mayBlend[range.material]) {
-                range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
-                range.kept_positions = static_cast<std::uint32_t>(kept_positions_.size());
-                kept_indices_.insert(kept_indices_.end(), p.indices.begin(), p.indices.end());
-                kept_positions_.insert(kept_positions_.end(), p.positions.begin(), p.positions.end());
-            }
+            addClusters(range, made);
+            if (mayBlend[range.material]) keep(range, p);
             ranges_.back().push_back(range);
         }
     }
@@ -187,6 +174,24 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
         cluster_buffer_ =
             makeBuffer<gpu::CulledCluster>(device, uploader, "clusters", culledClusters(clusters_),
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
+}
+
+void Geometry::addClusters(PrimitiveRange& range, const CutPrimitive& cut) {
+    range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
+    for (Cluster cluster : cut.clusters) {
+        cluster.first_index += first_clustered_ + static_cast<std::uint32_t>(clustered_.size());
+        clusters_.push_back(cluster);
+    }
+    clustered_.insert(clustered_.end(), cut.indices.begin(), cut.indices.end());
+    cluster_triangles_.add(cut.triangles);
+    range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
+}
+
+void Geometry::keep(PrimitiveRange& range, const Primitive& p) {
+    range.kept_indices = static_cast<std::uint32_t>(kept_indices_.size());
+    range.kept_positions = static_cast<std::uint32_t>(kept_positions_.size());
+    kept_indices_.insert(kept_indices_.end(), p.indices.begin(), p.indices.end());
+    kept_positions_.insert(kept_positions_.end(), p.positions.begin(), p.positions.end());
 }
 
 PlacedPrimitive Geometry::placed(const Pose& pose, const Instance& instance) const {

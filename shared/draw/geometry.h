@@ -99,6 +99,13 @@ public:
     }
 
 private:
+    struct CutPrimitive;
+    // Splits every primitive, mesh by mesh.
+    static std::vector<CutPrimitive> cut(const Scene& scene, const glm::dvec3& origin);
+    void addClusters(PrimitiveRange& range, const CutPrimitive& cut);
+    // Keeps triangles for sorting.
+    void keep(PrimitiveRange& range, const Primitive& p);
+
     const Scene& scene_;
     std::vector<std::vector<PrimitiveRange>> ranges_;
     std::vector<Cluster> clusters_;

@@ -101,6 +101,31 @@ const TextureSlot& normalMapOf(const Scene& scene, const Pose& pose, const Insta
     return materialsOf(scene, pose)[static_cast<std::size_t>(primitive.material)].normal_texture;
 }
 
+// Sets the members that depend on the pose. Returns the deltas of its morph targets.
+std::vector<gpu::PosedDelta> takePose(gpu::PosedInstance& i, const Deformations::Rest& rest,
+                                      const Scene& scene, const Pose& pose, const Instance& instance) {
+    i.bitangents = 1;
+    i.handedness = glm::determinant(glm::dmat3(instance.world_from_object)) < 0 ? -1.0f : 1.0f;
+    if (instance.skin < 0) i.joint_sets = 0;
+    const std::vector<double>* const weights =
+        instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
+    std::vector<gpu::PosedDelta> deltas = deltasOf(rest, weights, i);
+    // Tangents are recomputed if their inputs change.
+    const TextureSlot& map = normalMapOf(scene, pose, instance);
+    const bool moves_texcoords =
+        map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
+    if (i.normals_end == 0 && !moves_texcoords && !instance.map_rotated) i.groups = 0;
+    if (i.groups > 0) {
+        const int material = primitiveOf(scene, instance).material;
+        i.bitangents = static_cast<float>(
+            mirroredSign(scene.materials[static_cast<std::size_t>(material)].normal_texture, map));
+        i.map_second = map.texcoord == 1 ? 1 : 0;
+        i.map_u = glm::vec2(map.u);
+        i.map_v = glm::vec2(map.v);
+    }
+    return deltas;
+}
+
 glm::uvec2 groupsFor(std::uint32_t threads) {
     const std::uint32_t groups = (threads + gpu::POSING_THREADS - 1) / gpu::POSING_THREADS;
     return {std::min(groups, gpu::POSING_GROUPS), (groups + gpu::POSING_GROUPS - 1) / gpu::POSING_GROUPS};
@@ -113,114 +138,35 @@ OwnedPipelineLayout makePosingLayout(Device& device) {
         device, {}, VkPushConstantRange{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::PosingConstants)});
 }
 
-Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
-               const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
-               SkinNormals normals)
-    : layout_(layout), skinning_(skinning) {
-    // Arrays store offsets first, which become addresses below.
-    struct Arrays {
+// Data of a pose's instances, with offsets until there are buffers with addresses.
+struct Posing::Data {
+    struct Record {
         gpu::PosedInstance instance;
-        std::size_t record, matrices, deltas;
-        std::uint64_t first_group, first_morphed;
+        std::size_t record, matrices, deltas;      // offsets in `arena`
+        std::uint64_t first_group, first_morphed;  // in the buffers of groups
     };
-    const bool pairs = device.support().has(DeviceFeature::shaderInt64);
     Arena arena;
-    std::vector<Arrays> arrays;
-    std::vector<const Instance*> posed;
+    std::vector<Record> records;
     std::uint64_t groups = 0, morphed = 0;
-    for (const Instance& instance : pose.instances) {
-        if (instance.box < 0) continue;
-        const Primitive& primitive = primitiveOf(geometry.scene(), instance);
-        if (primitive.indices.empty()) {
-            instances_.emplace_back();
-            continue;
-        }
-        const Deformations::Rest& of = rest.of(instance.mesh, instance.primitive);
-        gpu::PosedInstance i = of.instance;
-        i.bitangents = 1;
-        i.handedness = glm::determinant(glm::dmat3(instance.world_from_object)) < 0 ? -1.0f : 1.0f;
-        if (instance.skin < 0) i.joint_sets = 0;
-        const std::vector<double>* const weights =
-            instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
-        const std::vector<gpu::PosedDelta> deltas = deltasOf(of, weights, i);
-        // Tangents are recomputed if their inputs change.
-        const TextureSlot& map = normalMapOf(geometry.scene(), pose, instance);
-        const bool moves_texcoords =
-            map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
-        if (i.normals_end == 0 && !moves_texcoords && !instance.map_rotated) i.groups = 0;
-        if (i.groups > 0) {
-            i.bitangents = static_cast<float>(mirroredSign(
-                geometry.scene().materials[static_cast<std::size_t>(primitive.material)].normal_texture,
-                map));
-            i.map_second = map.texcoord == 1 ? 1 : 0;
-            i.map_u = glm::vec2(map.u);
-            i.map_v = glm::vec2(map.v);
-        }
-        arrays.push_back({i, arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
-                          arena.add(matricesOf(pose, instance, i.pivot)), arena.add(deltas), groups,
-                          morphed});
-        instances_.push_back(
-            {arrays.back().record, i.vertices, i.groups, vertices_, {}, variantOf(of, i, pairs, normals)});
-        vertices_ += i.vertices;
-        groups += i.groups;
-        if (i.groups > 0) morphed += i.vertices;
-    }
-    if (arrays.empty()) {
+};
+
+Posing::Posing(const PosingSources& sources, Pipelines& pipelines, const Pose& pose, Skinning skinning,
+               SkinNormals normals)
+    : layout_(sources.layout), skinning_(skinning) {
+    Device& device = sources.device;
+    Data data;
+    addInstances(data, sources, pose, normals);
+    if (data.records.empty()) {
         instances_.clear();
         return;
     }
     if (skinning == Skinning::compute && vertices_ > std::numeric_limits<std::int32_t>::max())
         throw std::runtime_error("the deformed meshes have over 2^31 vertices, too many for one buffer");
-    makes_tangents_ = groups > 0;
-    pose_ = arena.makeBuffer(device, "pose");
-    constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                 drawn = addressed | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (makes_tangents_) {
-        tangents_ = GpuBuffer(device, "tangents of groups", groups * sizeof(glm::vec3), addressed);
-        morphed_ = GpuBuffer(device, "morphed vertices", morphed * sizeof(gpu::MorphedVertex), addressed);
-    }
-    if (skinning == Skinning::compute) {
-        positions_ = GpuBuffer(device, "posed positions", vertices_ * sizeof(glm::vec3), drawn);
-        attributes_ = GpuBuffer(device, "posed attributes", vertices_ * sizeof(gpu::VertexAttributes), drawn);
-    }
-    std::vector<VkBufferCopy> copies;
-    std::uint64_t first = 0;
-    for (Arrays& a : arrays) {
-        gpu::PosedInstance& i = a.instance;
-        i.matrices = addressWords(pose_.address() + a.matrices);
-        i.deltas = addressWords(pose_.address() + a.deltas);
-        if (i.groups > 0) {
-            i.group_tangents = addressWords(tangents_.address() + a.first_group * sizeof(glm::vec3));
-            i.morphed = addressWords(morphed_.address() + a.first_morphed * sizeof(gpu::MorphedVertex));
-        }
-        if (skinning == Skinning::compute) {
-            i.posed_positions = addressWords(positions_.address() + first * sizeof(glm::vec3));
-            i.posed_attributes = addressWords(attributes_.address() + first * sizeof(gpu::VertexAttributes));
-            copies.push_back({i.first_vertex * sizeof(gpu::VertexAttributes),
-                              first * sizeof(gpu::VertexAttributes),
-                              i.vertices * sizeof(gpu::VertexAttributes)});
-        }
-        first += i.vertices;
-        arena.put(a.record, i);
-    }
-    auto placed = arrays.begin();
-    for (Posed& p : instances_)
-        if (p.vertices > 0) {
-            p.address = pose_.address() + p.address;
-            p.constants = constantsOf(placed++->instance, p.address);
-        }
-    arena.upload(uploader, pose_);
-    uploader.flush();
-    device.submit([&](VkCommandBuffer commands) {
-        if (copies.empty()) return;
-        vkCmdCopyBuffer(commands, geometry.attributes().handle(), attributes_.handle(),
-                        static_cast<std::uint32_t>(copies.size()), copies.data());
-        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
-                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT);
-    });
+    makeBuffers(device, data);
+    const std::vector<VkBufferCopy> copies = setAddresses(data);
+    data.arena.upload(sources.uploader, pose_);
+    sources.uploader.flush();
+    copyAttributes(device, sources.geometry, copies);
     PassList once(device, 1, 1);
     addPasses(once, pipelines);
     once.run();
@@ -228,6 +174,93 @@ Posing::Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipel
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT,
                       VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    });
+}
+
+void Posing::addInstances(Data& data, const PosingSources& sources, const Pose& pose, SkinNormals normals) {
+    const bool pairs = sources.device.support().has(DeviceFeature::shaderInt64);
+    const Scene& scene = sources.geometry.scene();
+    for (const Instance& instance : pose.instances) {
+        if (instance.box < 0) continue;
+        if (primitiveOf(scene, instance).indices.empty()) {
+            instances_.emplace_back();
+            continue;
+        }
+        const Deformations::Rest& rest = sources.rest.of(instance.mesh, instance.primitive);
+        gpu::PosedInstance i = rest.instance;
+        const std::vector<gpu::PosedDelta> deltas = takePose(i, rest, scene, pose, instance);
+        data.records.push_back({i, data.arena.add(std::span<const gpu::PosedInstance>(&i, 1)),
+                                data.arena.add(matricesOf(pose, instance, i.pivot)), data.arena.add(deltas),
+                                data.groups, data.morphed});
+        instances_.push_back({data.records.back().record,
+                              i.vertices,
+                              i.groups,
+                              vertices_,
+                              {},
+                              variantOf(rest, i, pairs, normals)});
+        vertices_ += i.vertices;
+        data.groups += i.groups;
+        if (i.groups > 0) data.morphed += i.vertices;
+    }
+}
+
+void Posing::makeBuffers(Device& device, const Data& data) {
+    makes_tangents_ = data.groups > 0;
+    pose_ = data.arena.makeBuffer(device, "pose");
+    constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                 drawn = addressed | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (makes_tangents_) {
+        tangents_ = GpuBuffer(device, "tangents of groups", data.groups * sizeof(glm::vec3), addressed);
+        morphed_ =
+            GpuBuffer(device, "morphed vertices", data.morphed * sizeof(gpu::MorphedVertex), addressed);
+    }
+    if (skinning_ == Skinning::compute) {
+        positions_ = GpuBuffer(device, "posed positions", vertices_ * sizeof(glm::vec3), drawn);
+        attributes_ = GpuBuffer(device, "posed attributes", vertices_ * sizeof(gpu::VertexAttributes), drawn);
+    }
+}
+
+std::vector<VkBufferCopy> Posing::setAddresses(Data& data) {
+    std::vector<VkBufferCopy> copies;
+    std::uint64_t first = 0;
+    for (Data::Record& r : data.records) {
+        gpu::PosedInstance& i = r.instance;
+        i.matrices = addressWords(pose_.address() + r.matrices);
+        i.deltas = addressWords(pose_.address() + r.deltas);
+        if (i.groups > 0) {
+            i.group_tangents = addressWords(tangents_.address() + r.first_group * sizeof(glm::vec3));
+            i.morphed = addressWords(morphed_.address() + r.first_morphed * sizeof(gpu::MorphedVertex));
+        }
+        if (skinning_ == Skinning::compute) {
+            i.posed_positions = addressWords(positions_.address() + first * sizeof(glm::vec3));
+            i.posed_attributes = addressWords(attributes_.address() + first * sizeof(gpu::VertexAttributes));
+            copies.push_back({i.first_vertex * sizeof(gpu::VertexAttributes),
+                              first * sizeof(gpu::VertexAttributes),
+                              i.vertices * sizeof(gpu::VertexAttributes)});
+        }
+        first += i.vertices;
+        data.arena.put(r.record, i);
+    }
+    auto record = data.records.begin();
+    for (Posed& p : instances_)
+        if (p.vertices > 0) {
+            p.address = pose_.address() + p.address;
+            p.constants = constantsOf(record++->instance, p.address);
+        }
+    return copies;
+}
+
+void Posing::copyAttributes(Device& device, const Geometry& geometry,
+                            const std::vector<VkBufferCopy>& copies) const {
+    device.submit([&](VkCommandBuffer commands) {
+        if (copies.empty()) return;
+        vkCmdCopyBuffer(commands, geometry.attributes().handle(), attributes_.handle(),
+                        static_cast<std::uint32_t>(copies.size()), copies.data());
+        memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT,
+                      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT);
     });
 }
 
@@ -319,11 +352,7 @@ std::uint64_t Posing::bytes() const {
 }
 
 Posings::Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry)
-    : device_(device),
-      uploader_(uploader),
-      geometry_(geometry),
-      rest_(device, uploader, scene, geometry),
-      layout_(makePosingLayout(device)) {}
+    : sources_{device, uploader, geometry, {device, uploader, scene, geometry}, makePosingLayout(device)} {}
 
 std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, SkinNormals normals,
                                           Pipelines& pipelines) {
@@ -332,13 +361,12 @@ std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, S
     for (const Instance& instance : pose.instances)
         if (instance.box >= 0) {
             key.instances.push_back(instance);
-            key.maps.push_back(normalMapOf(geometry_.scene(), pose, instance));
+            key.maps.push_back(normalMapOf(sources_.geometry.scene(), pose, instance));
         }
     std::erase_if(kept_, [](const Kept& kept) { return kept.posing.expired(); });
     for (const Kept& kept : kept_)
         if (kept.key == key) return kept.posing.lock();
-    auto posing = std::make_shared<const Posing>(device_, uploader_, pipelines, layout_, rest_, geometry_,
-                                                 pose, skinning, normals);
+    auto posing = std::make_shared<const Posing>(sources_, pipelines, pose, skinning, normals);
     ++made_;
     kept_.push_back({std::move(key), posing});
     return posing;

@@ -18,15 +18,22 @@ namespace diptych {
 // Layout of the compute shaders, shared by all poses.
 OwnedPipelineLayout makePosingLayout(Device& device);
 
+// What all poses of a scene share.
+struct PosingSources {
+    Device& device;
+    Uploader& uploader;
+    const Geometry& geometry;
+    Deformations rest;
+    OwnedPipelineLayout layout;  // of makePosingLayout()
+};
+
 // One pose of a scene. It owns its buffers, so frames of different times may be drawn in any order.
 class Posing {
 public:
     Posing() = default;  // an empty pose
     // Deforms the instances once, for draws before the first frame. Throws std::runtime_error if memory
-    // runs out, or if more morph targets have a weight than a shader can add. The geometry and the layout
-    // must outlive it.
-    Posing(Device& device, Uploader& uploader, Pipelines& pipelines, VkPipelineLayout layout,
-           const Deformations& rest, const Geometry& geometry, const Pose& pose, Skinning skinning,
+    // runs out, or if more morph targets have a weight than a shader can add. The sources must outlive it.
+    Posing(const PosingSources& sources, Pipelines& pipelines, const Pose& pose, Skinning skinning,
            SkinNormals normals);
 
     bool any() const { return !instances_.empty(); }
@@ -60,6 +67,14 @@ private:
         gpu::PosingConstants constants{};  // of the compute shaders
         Variant variant{};                 // of the compute shaders
     };
+    struct Data;
+    void addInstances(Data& data, const PosingSources& sources, const Pose& pose, SkinNormals normals);
+    void makeBuffers(Device& device, const Data& data);
+    // Returns the copies of undeformed attributes that copyAttributes() makes.
+    std::vector<VkBufferCopy> setAddresses(Data& data);
+    void copyAttributes(Device& device, const Geometry& geometry,
+                        const std::vector<VkBufferCopy>& copies) const;
+
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     Skinning skinning_ = Skinning::compute;
     std::vector<Posed> instances_;  // by box
@@ -74,8 +89,8 @@ public:
     Posings(Device& device, Uploader& uploader, const Scene& scene, const Geometry& geometry);
     std::shared_ptr<const Posing> at(const Pose& pose, Skinning skinning, SkinNormals normals,
                                      Pipelines& pipelines);
-    std::uint64_t bytes() const { return rest_.bytes(); }  // of data that all poses share
-    std::size_t made() const { return made_; }             // number of poses created
+    std::uint64_t bytes() const { return sources_.rest.bytes(); }  // of data that all poses share
+    std::size_t made() const { return made_; }                     // number of poses created
 
 private:
     // Inputs that determine a pose's vertices.
@@ -93,11 +108,7 @@ private:
         Key key;
         std::weak_ptr<const Posing> posing;
     };
-    Device& device_;
-    Uploader& uploader_;
-    const Geometry& geometry_;
-    Deformations rest_;
-    OwnedPipelineLayout layout_;
+    PosingSources sources_;
     std::vector<Kept> kept_;
     std::size_t made_ = 0;
 };

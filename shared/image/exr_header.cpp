@@ -141,32 +141,6 @@ std::int64_t decodedBytes(const std::vector<ExrChannel>& channels) {
     return 4 * (std::ssize(channels) + std::ranges::count(channels, ExrSample::uint, &ExrChannel::sample));
 }
 
-void checkClaims(Claims& claims, const ExrPart& part, const ExrWindow& display, const Tiles& tiles,
-                 const Compressor& compressor, std::size_t fileBytes, std::uint64_t most) {
-    const ExrWindow& window = part.data;
-    const std::int64_t pixel = decodedBytes(part.channels);
-    checkImageSize(window.width(), window.height(), pixel, most);
-    const auto data = static_cast<std::uint64_t>(window.width() * window.height() * pixel);
-    checkImageSize(display.width(), display.height(), pixel, displayBytes(data, most));
-    // OpenEXR decodes whole chunks (rows of tiles or blocks of lines), which may exceed the image.
-    constexpr std::int64_t small_tile = 4096;
-    if (tiles.width > std::max(window.width(), small_tile) ||
-        tiles.height > std::max(window.height(), small_tile))
-        fail(fmt::format("tiles of {} x {} pixels are larger than the image of {} x {}", tiles.width,
-                         tiles.height, window.width(), window.height()));
-    checkImageSize(std::max(window.width(), tiles.width),
-                   tiles.width > 0 ? tiles.height : std::int64_t{compressor.lines}, pixel, most);
-    claims.least_file += static_cast<double>(part.stored_bytes) / compressor.ratio;
-    if (claims.least_file > static_cast<double>(fileBytes))
-        failToHold(window.width(), window.height(), fileBytes);
-    claims.data += data;
-    claims.display += static_cast<std::uint64_t>(display.width() * display.height() * pixel);
-    const std::uint64_t allowed = displayBytes(claims.data, most);
-    if (claims.data > most || claims.display > allowed)
-        fail(fmt::format("this part and the parts before it claim {} MiB; the limit is {} MiB",
-                         std::max(claims.data, claims.display) >> 20, allowed >> 20));
-}
-
 // Reads colour space and pixel aspect.
 std::optional<glm::dmat3> meaningOf(const Attributes& part, FileNotes& notes) {
     if (part.needed.contains("pixelAspectRatio"))
@@ -198,6 +172,8 @@ struct Reader {
         return several() ? kind == "tiledimage" || kind == "deeptile" : (flags & 0x200) != 0;
     }
     void readPart(const Attributes& attributes, int number);
+    void checkClaims(const ExrPart& part, const ExrWindow& display, const Tiles& tiles,
+                     const Compressor& compressor);
     void take(const Attributes& attributes, ExrPart part, const Tiles& tiles, const Compressor& compressor);
 };
 
@@ -223,10 +199,36 @@ void Reader::readPart(const Attributes& attributes, int number) {
          tiles, compressor);
 }
 
+void Reader::checkClaims(const ExrPart& part, const ExrWindow& display, const Tiles& tiles,
+                         const Compressor& compressor) {
+    const ExrWindow& window = part.data;
+    const std::int64_t pixel = decodedBytes(part.channels);
+    checkImageSize(window.width(), window.height(), pixel, most);
+    const auto data = static_cast<std::uint64_t>(window.width() * window.height() * pixel);
+    checkImageSize(display.width(), display.height(), pixel, displayBytes(data, most));
+    // OpenEXR decodes whole chunks (rows of tiles or blocks of lines), which may exceed the image.
+    constexpr std::int64_t small_tile = 4096;
+    if (tiles.width > std::max(window.width(), small_tile) ||
+        tiles.height > std::max(window.height(), small_tile))
+        fail(fmt::format("tiles of {} x {} pixels are larger than the image of {} x {}", tiles.width,
+                         tiles.height, window.width(), window.height()));
+    checkImageSize(std::max(window.width(), tiles.width),
+                   tiles.width > 0 ? tiles.height : std::int64_t{compressor.lines}, pixel, most);
+    claims.least_file += static_cast<double>(part.stored_bytes) / compressor.ratio;
+    if (claims.least_file > static_cast<double>(file.size()))
+        failToHold(window.width(), window.height(), file.size());
+    claims.data += data;
+    claims.display += static_cast<std::uint64_t>(display.width() * display.height() * pixel);
+    const std::uint64_t allowed = displayBytes(claims.data, most);
+    if (claims.data > most || claims.display > allowed)
+        fail(fmt::format("this part and the parts before it claim {} MiB; the limit is {} MiB",
+                         std::max(claims.data, claims.display) >> 20, allowed >> 20));
+}
+
 void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles,
                   const Compressor& compressor) {
     const ExrWindow display = windowOf(attributes, "displayWindow");
-    checkClaims(claims, part, display, tiles, compressor, file.size(), most);
+    checkClaims(part, display, tiles, compressor);
     if (header.parts.empty()) header.display = display;
     if (display != header.display)
         fail(fmt::format(

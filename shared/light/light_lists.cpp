@@ -46,6 +46,24 @@ std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
     return all;
 }
 
+GpuBuffer listBuffer(Device& device, const char* name, std::uint64_t count, std::uint64_t each,
+                     VkBufferUsageFlags usage = 0) {
+    return GpuBuffer(device, name, std::max<std::uint64_t>(count * each, 16),
+                     usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+}
+
+// Number of texels of the largest buffer that shaders may read as texels.
+std::uint64_t mostTexels(const gpu::LightGrid& grid, const GpuLights& lights, std::size_t bounds) {
+    constexpr std::uint64_t texel = sizeof(gpu::vec4);
+    return std::max({lights.lights.size() * sizeof(gpu::Light) / texel,
+                     lights.spot_cones.size() * sizeof(gpu::SpotCone) / texel,
+                     lights.area_lights.size() * sizeof(gpu::AreaLight) / texel,
+                     bounds * sizeof(gpu::LightBound) / texel, std::uint64_t{grid.lists} + 1,
+                     std::uint64_t{grid.capacity},  // one texel per entry, whatever its width
+                     std::uint64_t{grid.words} * grid.list_stride / 4});
+}
+
 }  // namespace
 
 std::span<const VkDescriptorType> listBindings() {
@@ -69,44 +87,21 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     if (lights.local() == 0) choice_.lists = gpu::LISTS_NONE;
     choice_.in_front = choice_.in_front && choice_.lists == gpu::LISTS_TILED;
     std::vector<gpu::LightBound> bounds;
-    std::vector<gpu::uint> all;
     if (any()) {
         bounds = lightBounds(lights, view);
         grid_ = makeLightGrid(choice_.lists, choice_.in_front, view, lights, bounds, device.profile().costs,
                               std::min(std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes));
-        all = listOfAll(grid_);
     }
-    constexpr std::uint64_t texel = sizeof(gpu::vec4);
-    const std::uint64_t most =
-        std::max({lights.lights.size() * sizeof(gpu::Light) / texel,
-                  lights.spot_cones.size() * sizeof(gpu::SpotCone) / texel,
-                  lights.area_lights.size() * sizeof(gpu::AreaLight) / texel,
-                  bounds.size() * sizeof(gpu::LightBound) / texel, std::uint64_t{grid_.lists} + 1,
-                  std::uint64_t{grid_.capacity},  // one texel per entry, whatever its width
-                  std::uint64_t{grid_.words} * grid_.list_stride / 4});
-    addressed_ = most > device.limits().maxTexelBufferElements;
-    const auto buffer = [&](const char* name, std::uint64_t count, std::uint64_t each,
-                            VkBufferUsageFlags usage = 0) {
-        return GpuBuffer(device, name, std::max<std::uint64_t>(count * each, 16),
-                         usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    };
-    // One more than there are cells: the last is the list of all lights, for positions in no cell.
-    heads_ = buffer("light list heads", std::uint64_t{grid_.lists} + 1, sizeof(gpu::LightListHead),
-                    texelsOrAddress);
-    indices_ = buffer("light lists", std::uint64_t{grid_.capacity} * grid_.width, 4, texelsOrAddress);
-    listed_ = buffer("light list counts", 2 * std::uint64_t{grid_.lists} + 1, 4);
-    heads_view_ = texelsUnless(addressed_, device, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
-    indices_view_ = texelsUnless(addressed_, device, "light lists", indices_,
-                                 grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
-    grid_.heads = addressWords(heads_.address());
-    grid_.indices = addressWords(indices_.address());
+    addressed_ = mostTexels(grid_, lights, bounds.size()) > device.limits().maxTexelBufferElements;
+    makeLists();
     if (any()) {
+        const std::vector<gpu::uint> all = listOfAll(grid_);
         uploader.buffer(indices_, std::as_bytes(std::span(all)));
         bounds_ = makeBuffer<gpu::LightBound>(device, uploader, "light bounds", bounds, texelsOrAddress);
         bounds_view_ =
             texelsUnless(addressed_, device, "light bounds", bounds_, VK_FORMAT_R32G32B32A32_SFLOAT);
-        masks_ = buffer("light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4, texelsOrAddress);
+        masks_ = listBuffer(device, "light masks", std::uint64_t{grid_.words} * grid_.list_stride, 4,
+                            texelsOrAddress);
         masks_view_ = texelsUnless(addressed_, device, "light masks", masks_, VK_FORMAT_R32G32B32A32_UINT);
         grid_.bounds = addressWords(bounds_.address());
         grid_.masks = addressWords(masks_.address());
@@ -114,23 +109,40 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
                                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     uploader.flush();
-    if (!any()) return;
+    if (any()) makeInputsOfPasses();
+}
+
+void LightLists::makeLists() {
+    // One more than there are cells: the last is the list of all lights, for positions in no cell.
+    heads_ = listBuffer(device_, "light list heads", std::uint64_t{grid_.lists} + 1,
+                        sizeof(gpu::LightListHead), texelsOrAddress);
+    indices_ =
+        listBuffer(device_, "light lists", std::uint64_t{grid_.capacity} * grid_.width, 4, texelsOrAddress);
+    listed_ = listBuffer(device_, "light list counts", 2 * std::uint64_t{grid_.lists} + 1, 4);
+    heads_view_ = texelsUnless(addressed_, device_, "light list heads", heads_, VK_FORMAT_R32G32B32A32_UINT);
+    indices_view_ = texelsUnless(addressed_, device_, "light lists", indices_,
+                                 grid_.width == 4 ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT);
+    grid_.heads = addressWords(heads_.address());
+    grid_.indices = addressWords(indices_.address());
+}
+
+void LightLists::makeInputsOfPasses() {
     const bool gathers = choice_.kernel == ListKernel::gather;
-    candidates_ =
-        buffer("light candidates",
-               gathers ? std::uint64_t{grid_.words} * (grid_.tiles.x * grid_.tiles.y + grid_.slices) : 0, 4);
-    four_begins_ = buffer("begins of light lists", grid_.list_stride / 4, 4);
-    used_words_ =
-        buffer("used words of light masks", std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
-    counts_ =
-        buffer("light counts", std::uint64_t{grid_.lists} * grid_.segments, sizeof(gpu::LightListCount));
-    tile_depths_ =
-        buffer("tile depths", choice_.lists == gpu::LISTS_TILED ? grid_.lists : 0, sizeof(gpu::vec2));
-    overflow_ = buffer("light list overflow", 1, 4);
-    overflow_seen_ = GpuBuffer(device, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+    candidates_ = listBuffer(
+        device_, "light candidates",
+        gathers ? std::uint64_t{grid_.words} * (grid_.tiles.x * grid_.tiles.y + grid_.slices) : 0, 4);
+    four_begins_ = listBuffer(device_, "begins of light lists", grid_.list_stride / 4, 4);
+    used_words_ = listBuffer(device_, "used words of light masks",
+                             std::uint64_t{(grid_.words + 31) / 32} * grid_.list_stride, 4);
+    counts_ = listBuffer(device_, "light counts", std::uint64_t{grid_.lists} * grid_.segments,
+                         sizeof(gpu::LightListCount));
+    tile_depths_ = listBuffer(device_, "tile depths", choice_.lists == gpu::LISTS_TILED ? grid_.lists : 0,
+                              sizeof(gpu::vec2));
+    overflow_ = listBuffer(device_, "light list overflow", 1, 4);
+    overflow_seen_ = GpuBuffer(device_, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                MemoryUse::readback);
-    sampler_ = makeNearestSampler(device);
-    sets_ = DescriptorSets(device, layouts.lists(), listTypes, 1);
+    sampler_ = makeNearestSampler(device_);
+    sets_ = DescriptorSets(device_, layouts_.lists(), listTypes, 1);
     sets_.texels(0, gpu::BINDING_BOUNDS, bounds_view_);
     sets_.buffer(0, gpu::BINDING_MASKS, masks_.handle());
     sets_.buffer(0, gpu::BINDING_COUNTS, counts_.handle());
@@ -164,15 +176,16 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     if (!any()) return;
     Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    const auto kernel = [&](Shader shader) { return pipelines.compute(shader, own, layouts_.pipeline()); };
-    const auto bind = [this, frame_set](VkCommandBuffer commands) {
-        const std::array sets{frame_set, sets_[0]};
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0, sets.size(),
-                                sets.data(), 0, nullptr);
-    };
-    const auto dispatch = [](VkCommandBuffer commands, VkPipeline pipeline, glm::uvec3 size) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-        vkCmdDispatch(commands, size.x, size.y, size.z);
+    const auto step = [&](const char* name, Shader shader, glm::uvec3 size) -> Pass& {
+        Pass& pass = passes.compute(name);
+        const VkPipeline pipeline = pipelines.compute(shader, own, layouts_.pipeline());
+        return pass.record([=, this](VkCommandBuffer commands) {
+            const std::array sets{frame_set, sets_[0]};
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0,
+                                    sets.size(), sets.data(), 0, nullptr);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            vkCmdDispatch(commands, size.x, size.y, size.z);
+        });
     };
     // Only tiled lists read the depth, but lavapipe accesses every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
@@ -189,14 +202,10 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
                     listed = passes.buffer("list counts", listed_);
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
-    if (tiled) {
-        Pass& pass = passes.compute("assign depth bounds");
-        const VkPipeline bounds = kernel(Shader::light_depths_comp);
-        pass.samples(depth, inCompute).uses(depths, write).record([=, this](VkCommandBuffer commands) {
-            bind(commands);
-            dispatch(commands, bounds, {grid_.tiles.x, grid_.tiles.y, 1});
-        });
-    }
+    if (tiled)
+        step("assign depth bounds", Shader::light_depths_comp, {grid_.tiles.x, grid_.tiles.y, 1})
+            .samples(depth, inCompute)
+            .uses(depths, write);
     const bool gathers = choice_.kernel == ListKernel::gather;
     const char* const name = "assign lights";
     Pass& clear = passes.copy(name).uses(overflow, access::transferWrite).uses(masks, access::transferWrite);
@@ -206,32 +215,25 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
         vkCmdFillBuffer(commands, masks_.handle(), 0, VK_WHOLE_SIZE, 0);
         if (gathers) vkCmdFillBuffer(commands, candidates_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
-    const auto step = [&](Shader shader, glm::uvec3 size) -> Pass& {
-        Pass& pass = passes.compute(name);
-        const VkPipeline pipeline = kernel(shader);
-        return pass.record([=](VkCommandBuffer commands) {
-            bind(commands);
-            dispatch(commands, pipeline, size);
-        });
-    };
     // Both shaders write parts of the masks; scatter uses atomics.
     const glm::uvec3 byLight = inRows(std::uint64_t{grid_.local_lights} * gpu::LIGHT_THREADS);
-    if (gathers) step(Shader::light_candidates_comp, byLight).uses(candidates, read).uses(candidates, write);
-    Pass& mark = gathers ? step(Shader::light_gather_comp,
+    if (gathers)
+        step(name, Shader::light_candidates_comp, byLight).uses(candidates, read).uses(candidates, write);
+    Pass& mark = gathers ? step(name, Shader::light_gather_comp,
                                 inRows(std::uint64_t{grid_.words} * grid_.tiles.x * grid_.tiles.y,
                                        (grid_.slices + slicesOfThread - 1) / slicesOfThread))
                                .uses(candidates, read)
-                         : step(Shader::light_scatter_comp, byLight).uses(masks, read);
+                         : step(name, Shader::light_scatter_comp, byLight).uses(masks, read);
     mark.uses(masks, write);
     if (tiled) mark.uses(depths, read);
-    step(Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
+    step(name, Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
         .uses(masks, addressed_ ? read : access::texelRead(inCompute))
         .uses(used, write)
         .uses(counts, write)
         .uses(counts, read)
         .uses(begins, write);
-    step(Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
-    step(Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
+    step(name, Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
+    step(name, Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
         .uses(masks, read)
         .uses(used, read)
         .uses(counts, read)

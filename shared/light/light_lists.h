@@ -89,6 +89,10 @@ public:
     const GpuBuffer& candidates() const { return candidates_; }  // with ListKernel::gather
 
 private:
+    void makeLists();
+    // Buffers of the passes that fill the lists, and their descriptor set.
+    void makeInputsOfPasses();
+
     Device& device_;
     const ListLayouts& layouts_;
     Choice choice_;

@@ -71,6 +71,17 @@ gpu::Material gpuMaterial(const Material& m) {
     return g;
 }
 
+// Calls `use` with every material and slot that reads a texture, and whether the material is animated.
+template <class Take>
+void eachRead(const Scene& scene, const Take& use) {
+    const std::set<int> moving = materialsThatMove(scene);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const bool moves = moving.contains(static_cast<int>(m));
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (mayReadSlot(scene.materials[m], slot, moves)) use(scene.materials[m], slot, moves);
+    }
+}
+
 }  // namespace
 
 OwnedDescriptorSetLayout Materials::makeLayout(Device& device) {
@@ -165,18 +176,8 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         kinds.push_back(sampler);
         return kinds.size() - 1;
     };
-    const std::set<int> moving = materialsThatMove(scene);
-    const auto eachRead = [&](const auto& use) {
-        for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-            const bool moves = moving.contains(static_cast<int>(m));
-            for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
-                if (!mayReadSlot(scene.materials[m], slot, moves)) continue;
-                use(scene.materials[m], slot, moves);
-            }
-        }
-    };
     std::map<std::pair<int, std::size_t>, bool> oneColor;  // by image and slot
-    eachRead([&](const Material& material, std::size_t slot, bool) {
+    eachRead(scene, [&](const Material& material, std::size_t slot, bool) {
         const int texture = (material.*materialSlots[slot].texture).texture;
         const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
         const auto [known, isNew] = oneColor.try_emplace({read.image, slot});
@@ -185,33 +186,7 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         textures->image_number[texture] = read.image;
         textures->sampler_of[texture] = samplerOf(read.sampler);
     });
-
-    std::map<Use, std::size_t> imageOf;  // keyed by the image's first texture with this use
-    std::vector<Use> uses;
-    // Image -> its first texture, because textures of one image differ only in samplers.
-    std::map<int, int> firstOf;
-    const auto first = [&](int texture) {
-        return firstOf.try_emplace(textures->image_number.at(texture), texture).first->second;
-    };
-    const auto upload = [&](const Use& use) {
-        // A magnified alpha depends on its texture's wrap mode.
-        Use same = use;
-        same.texture = first(use.texture);
-        const auto [entry, isNew] = imageOf.try_emplace(same, uses.size() + 1);
-        if (isNew) uses.push_back(same);
-        textures->image_of[use] = entry->second;
-    };
-    eachRead([&](const Material& material, std::size_t slot, bool moves) {
-        const int texture = (material.*materialSlots[slot].texture).texture;
-        SlotTexels texels{};
-        if (textures->one_color.at({texture, slot})) texels[slot] = gpu::TEXEL_CONSTANT;
-        if (precision == TexturePrecision::packed && !moves) {
-            const SlotTexels planned =
-                textures->texelsOf(material, [&](const Material& m) { return isPacked(m, scene); });
-            if (planned[gpu::SLOT_metallic_roughness] == gpu::TEXEL_ALPHAS) texels = planned;
-        }
-        if (texels[slot] != gpu::TEXEL_ALPHAS) upload(textures->useOf(material, texels, slot));
-    });
+    const std::vector<Use> uses = chooseImages(scene, precision, *textures);
     textures->images.push_back(uploadTexture(
         device, uploader, MipChain(TextureImage{"white", 1, 1, {255, 255, 255, 255}}, false, Texels::linear8),
         VK_FORMAT_R8G8B8A8_UNORM));
@@ -219,6 +194,37 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
     probeColors(device, scene, precision, *textures);
     for (const Sampler& kind : kinds) textures->samplers.push_back(makeSampler(device, kind));
     return textures;
+}
+
+std::vector<Materials::Use> Materials::chooseImages(const Scene& scene, TexturePrecision precision,
+                                                    Textures& textures) {
+    std::map<Use, std::size_t> imageOf;  // keyed by the image's first texture with this use
+    std::vector<Use> uses;
+    // Image -> its first texture, because textures of one image differ only in samplers.
+    std::map<int, int> firstOf;
+    const auto first = [&](int texture) {
+        return firstOf.try_emplace(textures.image_number.at(texture), texture).first->second;
+    };
+    const auto upload = [&](const Use& use) {
+        // A magnified alpha depends on its texture's wrap mode.
+        Use same = use;
+        same.texture = first(use.texture);
+        const auto [entry, isNew] = imageOf.try_emplace(same, uses.size() + 1);
+        if (isNew) uses.push_back(same);
+        textures.image_of[use] = entry->second;
+    };
+    eachRead(scene, [&](const Material& material, std::size_t slot, bool moves) {
+        const int texture = (material.*materialSlots[slot].texture).texture;
+        SlotTexels texels{};
+        if (textures.one_color.at({texture, slot})) texels[slot] = gpu::TEXEL_CONSTANT;
+        if (precision == TexturePrecision::packed && !moves) {
+            const SlotTexels planned =
+                textures.texelsOf(material, [&](const Material& m) { return isPacked(m, scene); });
+            if (planned[gpu::SLOT_metallic_roughness] == gpu::TEXEL_ALPHAS) texels = planned;
+        }
+        if (texels[slot] != gpu::TEXEL_ALPHAS) upload(textures.useOf(material, texels, slot));
+    });
+    return uses;
 }
 
 // Decodes colours on the device, so that a factor has the bits of a sample.

@@ -88,6 +88,8 @@ private:
     };
     static std::shared_ptr<const Textures> upload(Device& device, Uploader& uploader, const Scene& scene,
                                                   TexturePrecision precision);
+    // Sets image_of; returns the uses of the images, in their order after white.
+    static std::vector<Use> chooseImages(const Scene& scene, TexturePrecision precision, Textures& textures);
     static void uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
                             const std::vector<Use>& uses, TexturePrecision precision, Textures& textures);
     static void probeColors(Device& device, const Scene& scene, TexturePrecision precision,

@@ -35,6 +35,16 @@ void cullBeyond(DrawList& casters, const LocalAtlas& atlas, const AtlasTile& til
     }));
 }
 
+// Lights with a shadow in buffer order: points, then spots.
+std::vector<Light> castingLocals(const GpuLights& lights, std::span<const Light> sources) {
+    std::vector<Light> casting;
+    for (gpu::uint i = 0; i < lights.casting_points; ++i)
+        casting.push_back(sources[lights.sources[lights.directional + i]]);
+    for (gpu::uint i = 0; i < lights.casting_spots; ++i)
+        casting.push_back(sources[lights.sources[lights.directional + lights.point + i]]);
+    return casting;
+}
+
 std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std::span<const Light> sources,
                                  int brightest) {
     const LocalCasting casting = localCasting(sources, brightest);
@@ -69,34 +79,15 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
 
 }  // namespace
 
-LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
-                           const Materials& materials, const View& view, const DrawList& seen,
-                           const GpuLights& lights, std::span<const Light> sources, DescriptorSets& frame,
-                           const Settings& settings)
+LocalShadows::LocalShadows(Device& device, Uploader& uploader, const ShadowedView& scene,
+                           DescriptorSets& frame, const Settings& settings)
     : frame_(frame),
       request_{settings.shadow_size, settings.shadow_kernel, double{settings.shadow_bias}},
       nearest_(makeNearestSampler(device)) {
-    // In buffer order: points, then spots.
-    std::vector<Light> casters;
-    for (gpu::uint i = 0; i < lights.casting_points; ++i)
-        casters.push_back(sources[lights.sources[lights.directional + i]]);
-    for (gpu::uint i = 0; i < lights.casting_spots; ++i)
-        casters.push_back(sources[lights.sources[lights.directional + lights.point + i]]);
+    layOut(scene);
     std::vector<glm::vec4> texels(1);
-    if (!casters.empty() && !seen.items.empty()) {
-        std::vector<std::array<glm::dvec3, 8>> boxes, casting;
-        for (const DrawItem& item : seen.items)
-            boxes.push_back(
-                cornersOf(item.range, glm::dmat4(glm::mat4(seen.draws[item.draw].world_from_object))));
-        for (const Instance& instance : pose.instances) {
-            const PlacedPrimitive placed = geometry.placed(pose, instance);
-            if (placed.range.index_count == 0 || materials.blends(placed.range.material)) continue;
-            casting.push_back(cornersOf(placed.range, placed.world_from_object));
-            for (glm::dvec3& corner : casting.back()) corner -= view.eye();
-        }
-        atlas_ = layOutAtlas(casters, boundsOf(pose, geometry), boxes, casting, view, request_);
-    }
     if (any()) {
+        const GpuLights& lights = scene.lights;
         const gpu::LocalCasters head{lights.directional + lights.casting_points,
                                      lights.directional + lights.point + lights.casting_spots,
                                      lights.directional + lights.point - lights.casting_points,
@@ -106,26 +97,49 @@ LocalShadows::LocalShadows(Device& device, Uploader& uploader, const Pose& pose,
         kinds_ = (lights.casting_points > 0 ? gpu::LOCAL_SHADOWS_POINTS : 0) |
                  (lights.casting_spots > 0 ? gpu::LOCAL_SHADOWS_SPOTS : 0);
     }
-    std::size_t draws = 0;
-    for (const AtlasTile& tile : atlas_.tiles) {
-        Map map{makeCasterList(pose, geometry, materials,
-                               {.clip_from_world = atlas_.clipFromWorld(tile, view.eye()),
-                                .eye = view.eye(),
-                                .all = settings.shadow_casters == ShadowCasters::all}),
-                {}};
-        if (settings.shadow_casters == ShadowCasters::needed)
-            cullBeyond(map.casters, atlas_, tile, view.eye());
-        draws += map.casters.items.size();
-        map.draws = makeBuffer<gpu::Draw>(device, uploader, "casters", map.casters.draws,
-                                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-        maps_.push_back(std::move(map));
-    }
-    if (settings.shadows != Shadows::off) notes_ = notesOf(atlas_, draws, sources, settings.shadow_lights);
+    const std::size_t draws = listCasters(device, uploader, scene, settings.shadow_casters);
+    if (settings.shadows != Shadows::off)
+        notes_ = notesOf(atlas_, draws, scene.sources, settings.shadow_lights);
     texels_ = makeBuffer<glm::vec4>(device, uploader, "local shadow lights", texels,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     uploader.flush();
     texels_view_ = makeTexelView(device, "local shadow lights", texels_, VK_FORMAT_R32G32B32A32_SFLOAT);
     frame_.texels(0, gpu::BINDING_LOCAL_SHADOW_LIGHTS, texels_view_);
+}
+
+void LocalShadows::layOut(const ShadowedView& scene) {
+    const std::vector<Light> lights = castingLocals(scene.lights, scene.sources);
+    if (lights.empty() || scene.seen.items.empty()) return;
+    std::vector<std::array<glm::dvec3, 8>> seen, casting;
+    for (const DrawItem& item : scene.seen.items)
+        seen.push_back(
+            cornersOf(item.range, glm::dmat4(glm::mat4(scene.seen.draws[item.draw].world_from_object))));
+    for (const Instance& instance : scene.pose.instances) {
+        const PlacedPrimitive placed = scene.geometry.placed(scene.pose, instance);
+        if (placed.range.index_count == 0 || scene.materials.blends(placed.range.material)) continue;
+        casting.push_back(cornersOf(placed.range, placed.world_from_object));
+        for (glm::dvec3& corner : casting.back()) corner -= scene.view.eye();
+    }
+    atlas_ = layOutAtlas(lights, boundsOf(scene.pose, scene.geometry), seen, casting, scene.view, request_);
+}
+
+std::size_t LocalShadows::listCasters(Device& device, Uploader& uploader, const ShadowedView& scene,
+                                      ShadowCasters which) {
+    const glm::dvec3 eye = scene.view.eye();
+    std::size_t draws = 0;
+    for (const AtlasTile& tile : atlas_.tiles) {
+        Map map{makeCasterList(scene.pose, scene.geometry, scene.materials,
+                               {.clip_from_world = atlas_.clipFromWorld(tile, eye),
+                                .eye = eye,
+                                .all = which == ShadowCasters::all}),
+                {}};
+        if (which == ShadowCasters::needed) cullBeyond(map.casters, atlas_, tile, eye);
+        draws += map.casters.items.size();
+        map.draws = makeBuffer<gpu::Draw>(device, uploader, "casters", map.casters.draws,
+                                          VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+        maps_.push_back(std::move(map));
+    }
+    return draws;
 }
 
 void LocalShadows::specialise(Variant& variant) const {

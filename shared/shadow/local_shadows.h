@@ -16,15 +16,24 @@
 
 namespace diptych {
 
+// What the shadow maps of a view show.
+struct ShadowedView {
+    const Pose& pose;
+    const Geometry& geometry;
+    const Materials& materials;
+    const View& view;
+    const DrawList& seen;            // draws of the image
+    const GpuLights& lights;         // made from `sources`
+    std::span<const Light> sources;  // world space
+};
+
 // Shadows of one view's casting points and spots. Adds no pass without such lights, visible geometry or
 // casters.
 class LocalShadows {
 public:
-    // Writes its bindings to `frame`, SET_FRAME. `seen`: draws of the image. `sources`: world-space lights
-    // from which `lights` was made.
-    LocalShadows(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
-                 const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
-                 std::span<const Light> sources, DescriptorSets& frame, const Settings& settings);
+    // Writes its bindings to `frame`, SET_FRAME.
+    LocalShadows(Device& device, Uploader& uploader, const ShadowedView& scene, DescriptorSets& frame,
+                 const Settings& settings);
     LocalShadows(const LocalShadows&) = delete;
     LocalShadows& operator=(const LocalShadows&) = delete;
 
@@ -51,6 +60,11 @@ private:
         DrawList casters;
         GpuBuffer draws;
     };
+    void layOut(const ShadowedView& scene);
+    // Returns the number of draws.
+    std::size_t listCasters(Device& device, Uploader& uploader, const ShadowedView& scene,
+                            ShadowCasters which);
+
     DescriptorSets& frame_;
     AtlasRequest request_;
     LocalAtlas atlas_;

@@ -70,6 +70,20 @@ MomentMaps::MomentMaps(Device& device)
     pipeline_layout_ = makePipelineLayout(device, {&layout, 1}, constants);
 }
 
+void MomentMaps::record(Pass& pass, VkPipeline pipeline, std::uint32_t set,
+                        const gpu::MomentConstants& constants, VkExtent2D threads) {
+    pass.record([this, pipeline, set, constants, threads](VkCommandBuffer commands) {
+        const VkDescriptorSet sets = sets_[set];
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, 0, 1, &sets, 0,
+                                nullptr);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdPushConstants(commands, pipeline_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                           &constants);
+        vkCmdDispatch(commands, (threads.width + gpu::MOMENT_THREADS - 1) / gpu::MOMENT_THREADS,
+                      threads.height, 1);
+    });
+}
+
 ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef depth, std::uint32_t size,
                                std::uint32_t layers, const Request& request) {
     const auto image = [&](const char* name, std::uint32_t count) {
@@ -95,17 +109,7 @@ ImageRef MomentMaps::addPasses(PassList& passes, Pipelines& pipelines, ImageRef 
     constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const auto dispatch = [&](Pass& pass, Shader shader, std::uint32_t set,
                               const gpu::MomentConstants& constants, VkExtent2D threads) {
-        const VkPipeline pipeline = pipelines.compute(shader, request.variant, pipeline_layout_);
-        pass.record([this, pipeline, set, constants, threads](VkCommandBuffer commands) {
-            const VkDescriptorSet sets = sets_[set];
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, 0, 1, &sets,
-                                    0, nullptr);
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-            vkCmdPushConstants(commands, pipeline_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
-                               &constants);
-            vkCmdDispatch(commands, (threads.width + gpu::MOMENT_THREADS - 1) / gpu::MOMENT_THREADS,
-                          threads.height, 1);
-        });
+        record(pass, pipelines.compute(shader, request.variant, pipeline_layout_), set, constants, threads);
     };
     const std::uint32_t runs = (size + gpu::BLUR_RUN - 1) / gpu::BLUR_RUN;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {

@@ -53,6 +53,9 @@ public:
                        std::uint32_t layers, const Request& request);
 
 private:
+    void record(Pass& pass, VkPipeline pipeline, std::uint32_t set, const gpu::MomentConstants& constants,
+                VkExtent2D threads);
+
     OwnedDescriptorSetLayout layout_;
     OwnedPipelineLayout pipeline_layout_;
     OwnedSampler sampler_;

@@ -13,11 +13,9 @@ namespace diptych {
 class ShadowMaps {
 public:
     // Parameters as of SunShadow and LocalShadows.
-    ShadowMaps(Device& device, Uploader& uploader, const Pose& pose, const Geometry& geometry,
-               const Materials& materials, const View& view, const DrawList& seen, const GpuLights& lights,
-               std::span<const Light> sources, DescriptorSets& frame, const Settings& settings)
-        : sun(device, frame, settings),
-          local(device, uploader, pose, geometry, materials, view, seen, lights, sources, frame, settings) {}
+    ShadowMaps(Device& device, Uploader& uploader, const ShadowedView& scene, DescriptorSets& frame,
+               const Settings& settings)
+        : sun(device, frame, settings), local(device, uploader, scene, frame, settings) {}
 
     void specialise(Variant& variant) const {
         sun.specialise(variant);
@@ -44,14 +42,10 @@ public:
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
         sun.addMarks(passes, inputs, depth);
     }
-    std::uint64_t bytes() const {
-        return sun.bytes() + local.bytes();
-    }  // of buffers; maps belong to the
-       // pass list
-    std::uint64_t imageBytes() const {
-        return sun.imageBytes();
-    }  // images that do not belong to the
-       // pass list
+    // Of buffers; maps belong to the pass list.
+    std::uint64_t bytes() const { return sun.bytes() + local.bytes(); }
+    // Of images that do not belong to the pass list.
+    std::uint64_t imageBytes() const { return sun.imageBytes(); }
     std::vector<std::string> notes() const {
         std::vector<std::string> all = sun.notes();
         all.insert(all.end(), local.notes().begin(), local.notes().end());

@@ -49,6 +49,35 @@ std::array<float, 4> unpacked(VkFormat format, const std::uint16_t* words, std::
     return {half((bits & 0x7FFu) << 4), half((bits >> 11 & 0x7FFu) << 4), half((bits >> 22) << 5), 0.0f};
 }
 
+// Writes the requested components of an image's copy to `to`, texel by texel.
+void takeComponents(const GpuImageInfo& image, const PassList::ReadBack& request, const void* copy,
+                    float* to) {
+    const auto first = static_cast<std::size_t>(request.first),
+               kept = static_cast<std::size_t>(request.components);
+    const std::size_t stored = componentsOf(image.format);
+    if (first + kept > stored)
+        throw std::logic_error("PassList: an image has fewer components than are read back");
+    const tbb::blocked_range<std::size_t> texels(0, texelsOf(image, request.slice), 65536);
+    if (isSmall(image.format)) {
+        const auto* words = static_cast<const std::uint16_t*>(copy);
+        tbb::parallel_for(texels, [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const std::array<float, 4> texel = unpacked(image.format, words, i);
+                std::copy_n(texel.begin() + first, kept, to + i * kept);
+            }
+        });
+        return;
+    }
+    const auto* from = static_cast<const float*>(copy);
+    tbb::parallel_for(texels, [&](const auto& range) {
+        if (kept == stored)
+            std::copy_n(from + range.begin() * stored, range.size() * stored, to + range.begin() * stored);
+        else
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                std::copy_n(from + i * stored + first, kept, to + i * kept);
+    });
+}
+
 }  // namespace
 
 std::vector<std::vector<float>> PassList::readBack(std::span<const ReadBack> requests) {
@@ -149,36 +178,8 @@ void PassList::copyToHost(std::span<const ReadBack> requests, std::span<const st
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
-    for (std::size_t image = 0; image < requests.size(); ++image) {
-        const std::size_t texels = texelsOf(infoOf(requests[image]), requests[image].slice);
-        const auto kept = static_cast<std::size_t>(requests[image].components);
-        const VkFormat format = infoOf(requests[image]).format;
-        const std::size_t stored = componentsOf(format);
-        const auto first = static_cast<std::size_t>(requests[image].first);
-        const void* const mapped = buffers[copy_of[image]].mapped();
-        if (first + kept > stored)
-            throw std::logic_error("PassList: an image has fewer components than are read back");
-        float* const to = into[image].data();
-        if (isSmall(format)) {
-            const auto* words = static_cast<const std::uint16_t*>(mapped);
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                    const std::array<float, 4> texel = unpacked(format, words, i);
-                    std::copy_n(texel.begin() + first, kept, to + i * kept);
-                }
-            });
-            continue;
-        }
-        const auto* from = static_cast<const float*>(mapped);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 65536), [&](const auto& range) {
-            if (kept == stored)
-                std::copy_n(from + range.begin() * stored, range.size() * stored,
-                            to + range.begin() * stored);
-            else
-                for (std::size_t i = range.begin(); i < range.end(); ++i)
-                    std::copy_n(from + i * stored + first, kept, to + i * kept);
-        });
-    }
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        takeComponents(infoOf(requests[i]), requests[i], buffers[copy_of[i]].mapped(), into[i].data());
 }
 
 }  // namespace diptych

@@ -4,6 +4,7 @@
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/flatten.h"
 #include "shared/vulkan/pipeline_compiler.h"
+#include "shared/vulkan/shader_interface.h"
 #include "shared/vulkan/specialize.h"
 
 #include <fmt/format.h>
@@ -71,6 +72,59 @@ VkPipelineShaderStageCreateInfo stageOf(VkShaderStageFlagBits stage, VkShaderMod
             .module = module,
             .pName = "main",
             .pSpecializationInfo = nullptr};
+}
+
+// States that are the same for every pipeline.
+constexpr VkPipelineInputAssemblyStateCreateInfo triangleAssembly{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+    .pNext = nullptr,
+    .flags = 0,
+    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+    .primitiveRestartEnable = VK_FALSE};
+constexpr VkPipelineViewportStateCreateInfo oneViewport{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+    .pNext = nullptr,
+    .flags = 0,
+    .viewportCount = 1,
+    .pViewports = nullptr,
+    .scissorCount = 1,
+    .pScissors = nullptr};
+constexpr std::array dynamicStates{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                   VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
+constexpr VkPipelineDynamicStateCreateInfo dynamicState{
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+    .pNext = nullptr,
+    .flags = 0,
+    .dynamicStateCount = dynamicStates.size(),
+    .pDynamicStates = dynamicStates.data()};
+
+VkPipelineRasterizationStateCreateInfo rasterState(const PipelineKey& key) {
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.depthClampEnable = key.depth_clamp;
+    raster.depthBiasEnable = key.depth_bias != DepthBias{};
+    raster.depthBiasConstantFactor = key.depth_bias.constant;
+    raster.depthBiasSlopeFactor = key.depth_bias.slope;
+    raster.lineWidth = 1.0f;
+    return raster;
+}
+
+VkPipelineMultisampleStateCreateInfo sampleState(const PipelineKey& key) {
+    VkPipelineMultisampleStateCreateInfo samples{};
+    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    samples.rasterizationSamples = key.samples;
+    samples.sampleShadingEnable = key.sample_shading;
+    samples.minSampleShading = 1;
+    return samples;
+}
+
+VkPipelineDepthStencilStateCreateInfo depthState(const PipelineKey& key) {
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+    depth.depthTestEnable = key.depth_compare != VK_COMPARE_OP_ALWAYS || key.depth_write;
+    depth.depthWriteEnable = key.depth_write;
+    depth.depthCompareOp = key.depth_compare;
+    return depth;
 }
 
 VkPipelineColorBlendAttachmentState blendState(Blend blend) {
@@ -155,37 +209,9 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
         .pVertexBindingDescriptions = parts.bindings.data(),
         .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size()),
         .pVertexAttributeDescriptions = attributes.data()};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-        .primitiveRestartEnable = VK_FALSE};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .viewportCount = 1,
-        .pViewports = nullptr,
-        .scissorCount = 1,
-        .pScissors = nullptr};
-    VkPipelineRasterizationStateCreateInfo raster{};
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.depthClampEnable = key.depth_clamp;
-    raster.depthBiasEnable = key.depth_bias != DepthBias{};
-    raster.depthBiasConstantFactor = key.depth_bias.constant;
-    raster.depthBiasSlopeFactor = key.depth_bias.slope;
-    raster.lineWidth = 1.0f;
-    VkPipelineMultisampleStateCreateInfo samples{};
-    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = key.samples;
-    samples.sampleShadingEnable = key.sample_shading;
-    samples.minSampleShading = 1;
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = key.depth_compare != VK_COMPARE_OP_ALWAYS || key.depth_write;
-    depth.depthWriteEnable = key.depth_write;
-    depth.depthCompareOp = key.depth_compare;
+    const VkPipelineRasterizationStateCreateInfo raster = rasterState(key);
+    const VkPipelineMultisampleStateCreateInfo samples = sampleState(key);
+    const VkPipelineDepthStencilStateCreateInfo depth = depthState(key);
     std::vector<VkPipelineColorBlendAttachmentState> blends;
     for (std::size_t i = 0; i < key.colors.size(); ++i)
         blends.push_back(blendState(key.blends.empty() ? Blend::none : key.blends.at(i)));
@@ -193,14 +219,6 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
     blend.pAttachments = blends.data();
-    constexpr std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                 VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
-    const VkPipelineDynamicStateCreateInfo dynamics{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .dynamicStateCount = dynamic.size(),
-        .pDynamicStates = dynamic.data()};
     const VkPipelineRenderingCreateInfo rendering{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
         .pNext = nullptr,
@@ -215,14 +233,14 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
                                             .stageCount = static_cast<std::uint32_t>(stages.size()),
                                             .pStages = stages.data(),
                                             .pVertexInputState = &input,
-                                            .pInputAssemblyState = &assembly,
+                                            .pInputAssemblyState = &triangleAssembly,
                                             .pTessellationState = nullptr,
-                                            .pViewportState = &viewport,
+                                            .pViewportState = &oneViewport,
                                             .pRasterizationState = &raster,
                                             .pMultisampleState = &samples,
                                             .pDepthStencilState = &depth,
                                             .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamics,
+                                            .pDynamicState = &dynamicState,
                                             .layout = context.layout,
                                             .renderPass = VK_NULL_HANDLE,
                                             .subpass = 0,

@@ -29,7 +29,4 @@ std::vector<std::uint32_t> specialized(std::span<const std::uint32_t> module,
                                        const SpecializationValue& value,
                                        const std::optional<std::set<std::uint32_t>>& outputs = {});
 
-// Locations of a module's inputs: one per matrix column and per array element.
-std::set<std::uint32_t> inputLocations(std::span<const std::uint32_t> module);
-
 }  // namespace diptych

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opcodes of SPIR-V 1.6 that this program reads; numbers as in section 3.49 of the specification.
+// Opcodes of SPIR-V 1.6 that this program reads, numbers as in section 3.49 of the specification; and their
+// instructions.
 #pragma once
 
 #include <cstddef>
@@ -118,6 +119,9 @@ inline constexpr std::uint32_t capabilityFloat16 = 9, capabilityInt64 = 11,
                                capabilityStorageImageMultisample = 27,
                                capabilityDemoteToHelperInvocation = 5379;
 
+inline constexpr std::uint32_t decorationSpecId = 1, decorationBuiltIn = 11, decorationLocation = 30,
+                               memoryVolatile = 1, storageInput = 1, storageOutput = 3;
+
 inline constexpr std::uint32_t magicNumber = 0x07230203, headerWords = 5;
 
 using Words = std::span<const std::uint32_t>;
@@ -130,5 +134,30 @@ inline std::uint32_t opOf(Words instruction) {
 inline Words instructionAt(Words module, std::size_t at) {
     return module.subspan(at, module[at] >> 16);
 }
+
+// Words of an instruction that are numbers, not ids: from `first` to before `end`.
+struct Literals {
+    std::size_t first, end;
+};
+Literals literalsOf(Words in);
+
+// Calls `id` with every id that an instruction names, including its result and type.
+template <typename Take>
+void eachId(Words in, Take&& id) {
+    const Literals literals = literalsOf(in);
+    for (std::size_t i = 1; i < in.size(); ++i) {
+        if (i >= literals.first && i < literals.end) continue;
+        if (opOf(in) == OpSwitch && i > 2 && i % 2 == 1) continue;
+        id(in[i]);
+    }
+}
+
+// Whether an instruction has no side effect, so that it can be removed if its result is unused.
+bool isPure(Words in);
+bool isTerminator(std::uint32_t op);
+// Whether an instruction in a function has a result.
+bool hasResult(Words in);
+// Id of the type, constant or variable that a global instruction declares; 0 if none.
+std::uint32_t declaredBy(Words in);
 
 }  // namespace diptych::spirv

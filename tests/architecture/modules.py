@@ -23,7 +23,7 @@ BOX_WIDTH, BOX_HEIGHT, GAP_X, GAP_Y, MARGIN = 132, 34, 14, 46, 20
 
 
 def module_of(path):
-    folder = re.sub(r"^(compare/\w+)/page$", r"\1", path.parent.as_posix())
+    folder = re.sub(r"^(compare/\w+)/page$|^(shaders/lib)/\w+$", r"\1\2", path.parent.as_posix())
     return PARTS.get(folder, folder)
 
 

@@ -173,8 +173,8 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
     }
 }
 
-// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each sample
-// reads the level whose texels match its solid angle.
+// Sampled specular of shaders/lib/environment/environment.glsl for a white metal in z = 0, in double. Each
+// sample reads the level whose texels match its solid angle.
 double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dvec3& v, int count,
                     double bias) {
     const double alpha = roughness * roughness, pi = std::numbers::pi;

@@ -115,7 +115,7 @@ TEST(RelationImages, EachIsBrokenByAPlantedFault) {
     audit::RelationMeasurer measurer(device(), subject, {}, pipelines());
     for (const audit::Relation& relation : audit::relations()) {
         const auto fault = injectedFaults().find(relation.name);
-        ASSERT_NE(fault, injectedFaults().end()) << relation.name << " has no planted fault";
+        ASSERT_NE(fault, injectedFaults().end()) << relation.name << " has no injected fault";
         const audit::RelationResult of = measurer.measure(relation, fault->second);
         EXPECT_EQ(audit::verdictOf(of), "broken") << audit::inWords(of, relatedDevice());
         bool every = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two thousand comparisons in four shards: the cost of merging them, and their page in a browser.
 #include "compare/report/folders.h"
-#include "compare/report/parts.h"
+#include "compare/report/whole_report.h"
 #include "compare/shards/manifest.h"
 #include "tests/tool/page_builder.h"
 

@@ -85,25 +85,31 @@ struct Elements {
     const unsigned char* at(std::size_t i) const { return first + i * stride; }
 };
 
-// Checks that `count` elements of `size` bytes, `stride` apart, from `offset` on, lie inside a bufferView.
-Elements locate(const tinygltf::Model& model, int view, std::size_t offset, std::size_t count,
-                std::size_t size, std::size_t stride, const std::string& who, const char* noun) {
+// Elements in a bufferView, bytes.
+struct ElementLayout {
+    std::size_t offset, count, size, stride;
+};
+
+// Checks that the elements lie inside a bufferView.
+Elements locate(const tinygltf::Model& model, int view, const ElementLayout& e, const std::string& who,
+                const char* noun) {
     const std::span<const unsigned char> bytes = viewBytes(model, view, who);
-    if (stride < size)
-        fail(who,
-             fmt::format("{} of {} bytes, but bufferView {} has a stride of {}", noun, size, view, stride));
-    if (count == 0) return {bytes.data(), stride, 0};
-    if (offset > bytes.size() || size > bytes.size() - offset ||
-        count - 1 > (bytes.size() - offset - size) / stride) {
+    if (e.stride < e.size)
+        fail(who, fmt::format("{} of {} bytes, but bufferView {} has a stride of {}", noun, e.size, view,
+                              e.stride));
+    if (e.count == 0) return {bytes.data(), e.stride, 0};
+    if (e.offset > bytes.size() || e.size > bytes.size() - e.offset ||
+        e.count - 1 > (bytes.size() - e.offset - e.size) / e.stride) {
         if (const std::string cut = cutOf(model, view); !cut.empty()) throw std::runtime_error(cut);
-        const bool countable = offset <= std::numeric_limits<std::size_t>::max() / 4 &&
-                               count - 1 < std::numeric_limits<std::size_t>::max() / 4 / stride;
-        fail(who, fmt::format("{} {} of {} bytes end at {}, past bufferView {} ({} bytes)", count, noun, size,
-                              countable ? fmt::format("{}", offset + (count - 1) * stride + size)
-                                        : "a number too large",
-                              view, bytes.size()));
+        const bool countable = e.offset <= std::numeric_limits<std::size_t>::max() / 4 &&
+                               e.count - 1 < std::numeric_limits<std::size_t>::max() / 4 / e.stride;
+        fail(who,
+             fmt::format("{} {} of {} bytes end at {}, past bufferView {} ({} bytes)", e.count, noun, e.size,
+                         countable ? fmt::format("{}", e.offset + (e.count - 1) * e.stride + e.size)
+                                   : "a number too large",
+                         view, bytes.size()));
     }
-    return {bytes.data() + offset, stride, count};
+    return {bytes.data() + e.offset, e.stride, e.count};
 }
 
 template <class T>
@@ -157,8 +163,10 @@ public:
                  fmt::format("{} is not {}", who_, width == 1 ? "SCALAR" : fmt::format("VEC{}", width)));
         if (file_.bufferView >= 0) {
             const std::size_t stride = strideOf(model, file_.bufferView);
-            own_ = locate(model, file_.bufferView, file_.byteOffset, file_.count, shape_.bytes(),
-                          stride ? stride : shape_.columns * shape_.columnStride(), who_, noun);
+            own_ = locate(model, file_.bufferView,
+                          {file_.byteOffset, file_.count, shape_.bytes(),
+                           stride ? stride : shape_.columns * shape_.columnStride()},
+                          who_, noun);
         } else if (file_.bufferView < -1) {
             viewBytes(model, file_.bufferView, who_);
         } else if (file_.count > MAX_ZERO_ELEMENTS) {
@@ -218,11 +226,13 @@ private:
         const auto count = static_cast<std::size_t>(sparse.count);
         const std::size_t indexBytes = componentBytes(sparse.indices.componentType);
         sparse_indices_ =
-            locate(model, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-                   count, indexBytes, indexBytes, who_, "sparse indices");
-        sparse_values_ =
-            locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
-                   shape_.bytes(), shape_.columns * shape_.columnStride(), who_, "sparse values");
+            locate(model, sparse.indices.bufferView,
+                   {static_cast<std::size_t>(sparse.indices.byteOffset), count, indexBytes, indexBytes}, who_,
+                   "sparse indices");
+        sparse_values_ = locate(model, sparse.values.bufferView,
+                                {static_cast<std::size_t>(sparse.values.byteOffset), count, shape_.bytes(),
+                                 shape_.columns * shape_.columnStride()},
+                                who_, "sparse values");
         // Sparse indices must be strictly ascending (glTF 2.0, 3.6.2.3), so each element is visited at
         // most twice.
         for (std::size_t s = 0; s < count; ++s) {

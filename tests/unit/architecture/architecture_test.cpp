@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks the architecture's rules on the project's own files. Each check has a negative control with a
-// planted fault.
+// Checks the architecture's rules on the project's own files. Each check has a negative control with an
+// injected fault.
 #include "tests/support/sources.h"
 
 #include <gtest/gtest.h>

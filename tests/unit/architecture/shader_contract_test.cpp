@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compares the tables of shared/contract with the embedded modules: the features each pass reads and the
-// descriptors its shaders declare. Each check has a negative control: a table with a planted fault.
+// descriptors its shaders declare. Each check has a negative control: a table with an injected fault.
 #include "shared/contract/bindings.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light.h"

@@ -98,7 +98,8 @@ TEST(ChooseSensitivity, WhereNoValueTurnsItNoneIsSaid) {
     EXPECT_FALSE(still.properties.front().open);
 }
 
-// Parallel lines cross somewhere by noise. The result stays open and is not reported as a crossing.
+// Parallel lines cross somewhere by noise. The result stays open and is not reported as a break-even
+// point.
 TEST(ChooseSensitivity, ACrossingThatNoiseMakesIsLeftOpen) {
     const Law laws[2] = {{2, 1}, {2.2, 1}};
     int turned = 0, open = 0;

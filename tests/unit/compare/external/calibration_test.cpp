@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planted deviations of a renderer, one and two at a time: exactly these are reported.
+// Injected deviations of a renderer, one and two at a time: exactly these are reported.
 #include "compare/external/calibration.h"
 
 #include "compare/external/placement.h"

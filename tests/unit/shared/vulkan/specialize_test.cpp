@@ -2,6 +2,7 @@
 // Specialised modules, compared with SPIRV-Tools as an independent implementation. Its validator accepts
 // them, and its slower optimiser gives the same result for the module with the same values.
 #include "shared/vulkan/specialize.h"
+#include "shared/vulkan/shader_interface.h"
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/features.h"

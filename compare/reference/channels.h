@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Channels of a pixel, and surfaces from captured channels.
+#pragma once
+
+#include "compare/reference/pixel.h"
+#include "compare/reference/pixel_rays.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/image.h"
+#include "shared/scene/model/scene.h"
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace diptych::reference {
+
+// The components of a channel (shared/contract/debug_mode.h).
+glm::dvec3 channelValue(int mode, const Pixel& pixel);
+
+// Decodes surfaces from a path's captured channels.
+class Captured {
+public:
+    Captured(const std::map<int, Image>& channels, const std::vector<Material>& materials)
+        : channels_(channels), materials_(materials) {}
+
+    bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
+    double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
+    int material(std::size_t pixel) const { return static_cast<int>(value(gpu::DEBUG_material_id, pixel).x); }
+    Surface surface(std::size_t pixel, const PixelRays& rays, int material) const;
+
+private:
+    glm::dvec3 value(gpu::uint mode, std::size_t pixel) const;
+
+    const std::map<int, Image>& channels_;
+    const std::vector<Material>& materials_;
+};
+
+}  // namespace diptych::reference
