@@ -30,9 +30,9 @@ CONTRACT_CONST(uint, EDGES_COVERAGE, 3);  // as EDGES_EXACT; one group if every 
                                           // whole pixel
 
 // Sample groups are stored as a depth. The mantissa stores the group of each sample
-// (shaders/lib/samples/sample_groups.glsl); the exponent is GROUP_EXPONENT plus the number of groups, so the depth
-// stays below 1. Group k of a pixel is shaded by a draw at the depth of exponent GROUP_EXPONENT + k + 1,
-// which passes the depth test if the pixel has more than k groups.
+// (shaders/lib/samples/sample_groups.glsl); the exponent is GROUP_EXPONENT plus the number of groups, so the
+// depth stays below 1. Group k of a pixel is shaded by a draw at the depth of exponent GROUP_EXPONENT + k +
+// 1, which passes the depth test if the pixel has more than k groups.
 CONTRACT_CONST(uint, GROUP_EXPONENT, 118);
 CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 

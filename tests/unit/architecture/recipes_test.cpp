@@ -184,7 +184,8 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         Faults{"a channel: compare/planted.cpp mentions X(4,  roughness and the recipe does not name it"});
     EXPECT_EQ(planted("compare/planted.cpp", "// DEBUG_roughness\n/* mae */ int DEBUG_roughness2;"), Faults{})
         << "a comment, and a longer word";
-    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// DEBUG_roughness").size(), 2u) << "and lit_ambient";
+    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// DEBUG_roughness").size(), 2u)
+        << "and lit_ambient";
 
     const auto edited = [&](const std::string& from, const std::string& to) {
         std::string other = page;
