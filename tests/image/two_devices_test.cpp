@@ -68,7 +68,7 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
         other[path].name += "-there";
         across.push_back(acrossDevices(here.uploaded.scene, here.views.at(viewRequest(frames[path].settings)),
                                        here.precision, frames[1]));
-        across.back().relit = relit(device(), here.uploaded.renderer, here.uploaded.scene, other[path]);
+        across.back().relit = relit(device(), here.uploaded.renderer, other[path]);
         frames.push_back(std::move(other[path]));
     }
     const std::vector<Requirements> needs(2, here.views.at(viewRequest(drawnSettings()[0])).needs);
