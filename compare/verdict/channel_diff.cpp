@@ -26,11 +26,17 @@ std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
     return measurement.pixelsAbove(most);
 }
 
+// Whether no error exceeds the largest bound of the bits, but some pixel's own.
+bool isBeyondItsBits(const ChannelDiff& channel) {
+    return channel.encoding_use && channel.encoding_use->beyond > 0 &&
+           channel.stats.max <= channel.tolerance.max;
+}
+
 // The criterion of the derived tolerance.
 Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const Measurement& measurement) {
     if (const auto& pixels = channel.unexplained_pixels)
         return {.figure = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
-    if (const auto& use = channel.device_use ? channel.device_use : channel.encoding_use)
+    if (const auto& use = isBeyondItsBits(channel) ? channel.encoding_use : channel.device_use)
         return {.figure = "times the bounds", .measured = use->used, .limit = 1, .pixels = use->beyond};
     if (const auto& f = channel.footprints) {
         if (f->used >= f->flip / detailFlip)
@@ -57,13 +63,13 @@ std::string faultOf(const ChannelDiff& channel) {
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("the encoding does not explain the difference at {} ({})",
                            counted(*channel.unexplained_pixels, "pixel"), share);
-    if (const auto& use = channel.encoding_use)
-        return use->beyond == 0
-                   ? std::string()
-                   : fmt::format(
-                         "the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times "
-                         "their bound at {},{}",
-                         counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
+    if (isBeyondItsBits(channel)) {
+        const BoundUse& use = *channel.encoding_use;
+        return fmt::format(
+            "the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times their bound at "
+            "{},{}",
+            counted(use.beyond, "pixel"), share, use.used, use.x, use.y);
+    }
     if (const auto& use = channel.device_use)
         return use->beyond == 0 ? std::string()
                                 : fmt::format(

@@ -11,13 +11,13 @@
 namespace diptych {
 namespace {
 
-// Of components in [0, 1], each bounded by its own value. 0 and 1 have codes of their own.
+// Of components in [0, 1], each bounded by its own value. 0 and 1 have codes of their own; NaN has no bound.
 template <class Bound>
 PixelUse componentsUse(const float* read, const float* own, int components, const Bound& bound) {
     PixelUse use;
     for (int c = 0; c < components; ++c) {
         const double x = own[c];
-        const PixelUse here = pixelUse(metrics::distance(read[c], own[c]), bound(x, x <= 0 || x >= 1));
+        const PixelUse here = pixelUse(metrics::distance(read[c], own[c]), bound(x, !(x > 0 && x < 1)));
         use = {std::max(use.share, here.share), std::max(use.bound, here.bound)};
     }
     return use;

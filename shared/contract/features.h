@@ -40,7 +40,7 @@
     /* more materials than the packed index can store */                                                    \
     X(18, gbuffer_wide_material_id,   gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
     /* forward+ shades what the G-buffer would give back */                                                 \
-    X(19, encoded_surface,            pass,    PASSES_SHADE)                                                \
+    X(19, encoded_surface,            pass,    PASS_FORWARD)                                                \
     /* images of CAPTURES (debug_mode.h) that a capture pass draws, one bit each */                         \
     X(20, captures,                   pass,    PASSES_SHADE | PASS_SAMPLES)                                 \
     X(21, orthographic,               frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_BACKGROUND) \

@@ -37,6 +37,7 @@ void expectExplained(const std::vector<Frame>& frames) {
     expectExplainedLight(frames);
     Requirements all;
     all.emission = all.lightmap = all.dielectric_specular = true;
+    all.min_emission = all.max_emission = all.max_lightmap = 1;
     const Coverage covered = coverage(frames[0], frames[1]);
     for (const int mode : lightingFields())
         if (const auto use = encodingUse(debugMode(mode), FramePair{frames[0], frames[1], all, covered})) {

@@ -47,7 +47,7 @@ std::vector<Without> withouts() {
            "        radiance.haze = hazed.scattered;\n"
            "    }\n"},
           {"shaders/lib/blending/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
-          {"shaders/pass/background.frag", "haze.glsl\"\n", "position.glsl\"\n"},
+          {"shaders/pass/background.frag", "environment/haze.glsl\"\n", "geometry/position.glsl\"\n"},
           {"shaders/pass/background.frag",
            "    if (on(feature_haze)) {\n"
            "        Hazed hazed = hazeBeyond(rayOrigin(gl_FragCoord.xy), away);\n"

@@ -189,7 +189,7 @@ TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
         Pair p;
         p.encoding(e);
         for (const gpu::uint mode :
-             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_geometric_normal,
+             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_lightmapped,
               gpu::DEBUG_light_count, gpu::DEBUG_list_overflow})
             EXPECT_EQ(p.of(mode).max, 0) << mode;
     }
