@@ -137,6 +137,7 @@ private:
             if (read.before_blending) return takeUnblended(read, std::move(image));
             if (read.sample > 0) {
                 keepInFile(image.data);
+                letGo(image.data);
                 frame_.further_samples[read.mode].push_back(std::move(image));
                 return;
             }

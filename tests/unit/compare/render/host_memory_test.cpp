@@ -58,16 +58,16 @@ TEST(HostMemory, IsAboutWhatCommandsTake) {
                               {"render", false, true, true, Path::forward_plus, small, 1, 110, 497},
                               {"render", false, true, true, Path::forward_plus, hd, 1, 110, 831},
                               {"render", false, true, true, Path::forward_plus, uhd, 1, 110, 1709},
-                              {"compare", true, false, false, Path::deferred, hd, 1, 76, 412},
-                              {"compare", true, false, false, Path::deferred, uhd, 1, 76, 1061},
-                              {"compare", true, true, false, Path::deferred, hd, 1, 76, 673},
-                              {"compare", true, true, false, Path::deferred, uhd, 1, 76, 1891},
-                              {"compare", true, false, false, Path::deferred, hd, 4, 76, 914},
-                              {"compare", true, false, false, Path::deferred, uhd, 4, 76, 3119},
+                              {"compare", true, false, false, Path::deferred, hd, 1, 76, 704},
+                              {"compare", true, false, false, Path::deferred, uhd, 1, 76, 1771},
+                              {"compare", true, true, false, Path::deferred, hd, 1, 76, 718},
+                              {"compare", true, true, false, Path::deferred, uhd, 1, 76, 1770},
+                              {"compare", true, false, false, Path::deferred, hd, 4, 76, 1301},
+                              {"compare", true, false, false, Path::deferred, uhd, 4, 76, 4657},
                               {"compare", true, true, true, Path::deferred, small, 1, 110, 588},
-                              {"compare", true, true, true, Path::deferred, hd, 1, 110, 1091},
-                              {"compare", true, false, true, Path::deferred, uhd, 1, 110, 1425},
-                              {"compare", true, true, true, Path::deferred, hd, 4, 110, 1902}}) {
+                              {"compare", true, true, true, Path::deferred, hd, 1, 110, 1066},
+                              {"compare", true, false, true, Path::deferred, uhd, 1, 110, 2159},
+                              {"compare", true, true, true, Path::deferred, hd, 4, 110, 1750}}) {
         std::vector<Settings> settings{settingsOf(m.path, m.size, m.msaa)};
         RenderOptions options = channels(m.all);
         if (m.compare) {
