@@ -53,6 +53,8 @@ unsigned slotsOf(int mode) {
             return base | slotBit(gpu::SLOT_specular);
         case gpu::DEBUG_dielectric_f0:
             return base | slotBit(gpu::SLOT_specular) | slotBit(gpu::SLOT_specular_color);
+        case gpu::DEBUG_lightmapped:
+            return base;
         case gpu::DEBUG_lightmap:
             return base | slotBit(gpu::SLOT_lightmap);
         default:

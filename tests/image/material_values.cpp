@@ -16,6 +16,7 @@ namespace {
 
 struct CellSurface {
     glm::dvec3 albedo{0}, normal{0, 0, 1}, emission{0}, f0{0}, lightmap{0};
+    bool lightmapped = false;
     glm::dvec3 tangent{0}, tangent_normal{0}, layer_f0{0};
     double metallic = 0, roughness = 1, occlusion = 1, f90 = 0, handedness = 0;
 };
@@ -173,7 +174,8 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         if (cell.textures[gpu::SLOT_occlusion].picture < 0) s.occlusion = 1;
         s.emission =
             cell.emissive * cell.emissive_strength.value_or(1) * glm::dvec3(texel(gpu::SLOT_emissive, true));
-        if (cell.textures[gpu::SLOT_lightmap].picture >= 0)
+        s.lightmapped = cell.textures[gpu::SLOT_lightmap].picture >= 0;
+        if (s.lightmapped)
             s.lightmap = cell.lightmap_intensity * glm::dvec3(texel(gpu::SLOT_lightmap, true));
         const double ior = cell.ior.value_or(1.5);
         const double r = ior == 0 ? 1 : (ior - 1) / (ior + 1);
@@ -202,6 +204,7 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         {gpu::DEBUG_handedness, {s.handedness}},
         {gpu::DEBUG_tangent_normal, components(s.tangent_normal)},
         {gpu::DEBUG_dielectric_f0, components(s.layer_f0)},
+        {gpu::DEBUG_lightmapped, {s.lightmapped ? 1.0 : 0.0}},
     };
     std::map<int, std::vector<double>> byChannel;
     for (const auto& [mode, value] : values) byChannel[static_cast<int>(mode)] = value;

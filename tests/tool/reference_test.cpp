@@ -373,7 +373,14 @@ TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
     ASSERT_LE(now.code, 1) << now.err;
     const Ran stored = runTool(folder, drawing + "--baseline now/reference.exr -o stored");
     EXPECT_EQ(stored.code, now.code) << stored.err;
-    const Json a = jsonIn(folder / "now/report.json"), b = jsonIn(folder / "stored/report.json");
+    Json a = jsonIn(folder / "now/report.json"), b = jsonIn(folder / "stored/report.json");
+    // The file has no light of decoded surfaces: forward+ shows instead what the encoding changes.
+    for (Json* const json : {&a, &b})
+        for (Json& channel : (*json)["comparisons"][0]["channels"])
+            if (channel["name"].get<std::string>().starts_with("lit")) {
+                channel.erase("because");
+                channel["criterion"].erase("measured");
+            }
     for (const std::size_t row : {0u, 1u})
         EXPECT_EQ(a["comparisons"][row]["channels"], b["comparisons"][row]["channels"]);
 }
