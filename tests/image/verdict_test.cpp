@@ -182,6 +182,12 @@ const NegativeControl negativeControls[] = {
      },
      {},
      "builtin:lightmaps"},
+    {"lightmapped",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.lightmap_texture.texture = -1;
+     },
+     {},
+     "builtin:lightmaps"},
     {"shadow_visibility",
      [](Scene& s) {
          for (Light& light : s.lights)
