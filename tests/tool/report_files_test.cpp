@@ -21,7 +21,8 @@ TEST(ReportFiles, AReportOfWhatPassesIsSmall) {
     std::uintmax_t all = 0;
     for (const auto& [ending, bytes] : sizes(folder / "all"))
         if (ending != ".exr") all += bytes;
-    EXPECT_LT(all, 12'200'000u);
+    // Of that, 0.9 MB are geometric normals, which differ by their encoding.
+    EXPECT_LT(all, 13'100'000u);
     EXPECT_GT(sizes(folder / "all")[".png"], 1'000'000u) << "the pictures are there";
     ASSERT_EQ(
         runTool(folder, "compare --keep failing -q -o failing builtin:triangle --size 48x27 --runs 0").code,
