@@ -175,8 +175,7 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         s.emission =
             cell.emissive * cell.emissive_strength.value_or(1) * glm::dvec3(texel(gpu::SLOT_emissive, true));
         s.lightmapped = cell.textures[gpu::SLOT_lightmap].picture >= 0;
-        if (s.lightmapped)
-            s.lightmap = cell.lightmap_intensity * glm::dvec3(texel(gpu::SLOT_lightmap, true));
+        if (s.lightmapped) s.lightmap = cell.lightmap_intensity * glm::dvec3(texel(gpu::SLOT_lightmap, true));
         const double ior = cell.ior.value_or(1.5);
         const double r = ior == 0 ? 1 : (ior - 1) / (ior + 1);
         s.f90 = cell.specular * texel(gpu::SLOT_specular, false).a;
