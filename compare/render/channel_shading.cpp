@@ -6,6 +6,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/surface_channels.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/material/gbuffer_layout.h"
 
 #include <fmt/format.h>
 
@@ -44,19 +45,12 @@ const Image& channelOf(const Frame& frame, gpu::uint mode) {
     return found->second;
 }
 
-// Bits per coordinate to which the path quantises geometric normals before lighting. 0: none, or the
-// channel already shows quantised normals.
+// Bits per coordinate to which lighting quantises the path's geometric normals. 0: none, or the channel
+// already shows quantised normals.
 float quantisedTo(const Frame& frame) {
-    if (frame.settings.path != Path::forward_plus) return 0;
-    switch (frame.settings.gbuffer) {
-        case GBufferEncoding::full:
-            return 0;
-        case GBufferEncoding::standard:
-            return gpu::STANDARD_NORMAL_BITS;
-        case GBufferEncoding::compact:
-            return gpu::COMPACT_GEOMETRIC_NORMAL_BITS;
-    }
-    return 0;
+    return frame.settings.path == Path::forward_plus
+               ? static_cast<float>(geometricNormalBits(frame.settings.gbuffer))
+               : 0;
 }
 
 // RGBA32F texels of an image of 1 or 3 components. `fourth`: alpha of a pixel.

@@ -17,11 +17,11 @@ namespace {
 constexpr double unormSlack = 8 * 0x1p-24;
 constexpr double squareSlack = 2 * unormSlack;
 
-}  // namespace
-
 double halfStep(unsigned bits) {
     return 0.5 / static_cast<double>((1u << bits) - 1);
 }
+
+}  // namespace
 
 double unormBound(unsigned bits) {
     return halfStep(bits) + unormSlack;
@@ -78,8 +78,7 @@ std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const
         case gpu::DEBUG_normals:
             return StoredField{octahedral, compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
         case gpu::DEBUG_geometric_normal:
-            return StoredField{octahedral,
-                               compact ? gpu::COMPACT_GEOMETRIC_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
+            return StoredField{octahedral, geometricNormalBits(encoding)};
         case gpu::DEBUG_metallic:
             return StoredField{unorm, compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS};
         case gpu::DEBUG_roughness:

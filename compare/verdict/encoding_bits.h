@@ -11,7 +11,6 @@
 namespace diptych {
 
 // For a number in [0, 1] in `bits` bits: half a step.
-double halfStep(unsigned bits);
 double unormBound(unsigned bits);
 
 // For a number x in [0, 1] whose square root is stored: |(sqrt x + h)^2 - x|, h half a step. Largest where

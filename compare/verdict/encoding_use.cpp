@@ -50,25 +50,37 @@ PixelUse useOf(const StoredField& field, const float* read, const float* own, in
     return {};
 }
 
+// A field that is stored exactly: nothing but the slack is granted.
+PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, double slack) {
+    const double size = mode.metric == Metric::relative ? metrics::largestFinite(own, mode.width) : 1;
+    return pixelUse(metrics::distance(read, own, mode.width), slack * size);
+}
+
+bool isLightingField(int mode) {
+    return std::ranges::find(lightingFields(), mode) != lightingFields().end();
+}
+
 }  // namespace
 
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
     if (!deferred || !forward) return {};
     const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
-    if (!field) return {};
     // Of every sample that both have, by pixel: deferred's and forward+'s.
     std::vector<std::pair<const Image*, const Image*>> samples{
         {&deferred->channels.at(mode.number), &forward->channels.at(mode.number)}};
     const auto read = deferred->further_samples.find(mode.number),
                own = forward->further_samples.find(mode.number);
-    if (read != deferred->further_samples.end() && own != forward->further_samples.end())
-        for (std::size_t s = 0; s < std::min(read->second.size(), own->second.size()); ++s)
+    if (read != deferred->further_samples.end() && own != forward->further_samples.end() &&
+        read->second.size() == own->second.size())
+        for (std::size_t s = 0; s < read->second.size(); ++s)
             samples.emplace_back(&read->second[s], &own->second[s]);
+    if (!field && (samples.size() == 1 || !isLightingField(mode.number))) return {};
     return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
         PixelUse worst;
         for (const auto& [a, b] : samples) {
-            const PixelUse here = useOf(*field, a->pixel(i), b->pixel(i), mode.width, slack);
+            const PixelUse here = field ? useOf(*field, a->pixel(i), b->pixel(i), mode.width, slack)
+                                        : exactUse(mode, a->pixel(i), b->pixel(i), slack);
             worst = {std::max(worst.share, here.share), std::max(worst.bound, here.bound)};
         }
         return worst;

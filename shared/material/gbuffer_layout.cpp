@@ -15,6 +15,18 @@ void GBufferLayout::specialise(Variant& variant) const {
         .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id);
 }
 
+gpu::uint geometricNormalBits(GBufferEncoding encoding) {
+    switch (encoding) {
+        case GBufferEncoding::full:
+            return 0;
+        case GBufferEncoding::standard:
+            return gpu::STANDARD_NORMAL_BITS;
+        case GBufferEncoding::compact:
+            return gpu::COMPACT_GEOMETRIC_NORMAL_BITS;
+    }
+    return 0;
+}
+
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled) {
     GBufferLayout layout;
     const bool full = encoding == GBufferEncoding::full, compact = encoding == GBufferEncoding::compact;

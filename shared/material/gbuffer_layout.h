@@ -25,6 +25,9 @@ struct GBufferLayout {
     void specialise(Variant& variant) const;
 };
 
+// Bits per octahedral coordinate of stored geometric normals; 0: stored as float32.
+gpu::uint geometricNormalBits(GBufferEncoding encoding);
+
 // `sampled`: with MSAA.
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled = false);
 

@@ -116,6 +116,24 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
     EXPECT_FALSE(p.use(gpu::DEBUG_albedo)) << "float32 is compared as it is";
 }
 
+// With MSAA a fault at one sample alone counts, also in fields that are stored exactly.
+TEST(EncodingUse, EverySampleIsJudged) {
+    for (const int mode : lightingFields()) {
+        PackedPair p;
+        for (Frame& frame : p.frames)
+            frame.further_samples[mode] = {frame.channels.at(mode), frame.channels.at(mode)};
+        const auto field = static_cast<gpu::uint>(mode);
+        ASSERT_TRUE(p.use(field)) << debugMode(mode).name;
+        EXPECT_EQ(p.use(field)->beyond, 0u) << debugMode(mode).name;
+        float& value = p.frames[0].further_samples.at(mode)[1].at(1, 2);
+        value += debugMode(mode).domain == Domain::unit ? 0.01f : 0.1f;
+        EXPECT_EQ(p.use(field)->beyond, 1u) << debugMode(mode).name;
+        EXPECT_EQ(p.use(field, 1)->beyond, 0u) << debugMode(mode).name << ": slack is granted";
+        p.frames[0].further_samples.at(mode).pop_back();
+        EXPECT_FALSE(p.use(field) && p.use(field)->beyond > 0) << "samples of other numbers cannot be paired";
+    }
+}
+
 // lit depends on the surface fields. They are judged with it and shown if they fail; without light they
 // are only judged if compared themselves.
 TEST(EncodingUse, LitIsJudgedWithItsFields) {

@@ -249,7 +249,7 @@ TEST(GltfExtremes, OneVertexAndNoMesh) {
     EXPECT_EQ(worldBounds(dot, poseAt(dot, 0)).min, glm::dvec3(1, 2, 3));
     EXPECT_EQ(worldBounds(dot, poseAt(dot, 0)).radius(), 0);
     f.json.erase("meshes");
-    f.json["nodes"] = {Json::object()};
+    f.json["nodes"] = Json::array({Json::object()});
     EXPECT_TRUE(poseAt(f.load(), 0).instances.empty());
     f.json.erase("nodes");
     f.json.erase("scenes");

@@ -175,7 +175,7 @@ TEST(GltfGeometry, TangentsAreMadeForNormalTexturesOnly) {
             f.accessor<float>({0, 0, 0, 1, 1, 0}, FLOAT, "VEC2", 2);  // u grows upwards, v to the right
         f.json["images"] = {{{"uri", twoPixels}}};
         f.json["textures"] = {{{"source", 0}}};
-        f.json["materials"] = {Json::object()};
+        f.json["materials"] = Json::array({Json::object()});
         if (normalTexture) f.json["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
         const Scene scene = f.load();
         for (const glm::vec4& t : f.only(scene).tangents) {

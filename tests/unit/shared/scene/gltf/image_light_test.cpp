@@ -44,7 +44,7 @@ GltfFile withCube(Json light = Json::object()) {
     for (const auto& [key, value] : valid.items())
         if (!light.contains(key)) light[key] = value;
     f.json["extensionsUsed"] = {"EXT_lights_image_based"};
-    f.json["extensions"]["EXT_lights_image_based"]["lights"] = {light};
+    f.json["extensions"]["EXT_lights_image_based"]["lights"] = Json::array({light});
     f.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
     return f;
 }

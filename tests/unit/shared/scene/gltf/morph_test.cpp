@@ -17,7 +17,7 @@ struct MorphFile : GltfFile {
         attributes["TEXCOORD_0"] = accessor<float>({0, 1, 1, 1, 0, 0}, FLOAT, "VEC2", 2);
         attributes["TEXCOORD_1"] = accessor<float>({0, 1, 1, 1, 0, 0}, FLOAT, "VEC2", 2);
         attributes["COLOR_0"] = accessor<float>({1, 1, 1, 0, 0, 0, 0, 1, 0}, FLOAT, "VEC3", 3);
-        primitive()["targets"] = {Json::object()};
+        primitive()["targets"] = Json::array({Json::object()});
     }
     Json& target() { return primitive()["targets"][0]; }
     MorphTarget loaded() { return only(load()).targets.at(0); }

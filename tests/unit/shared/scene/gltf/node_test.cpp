@@ -169,7 +169,7 @@ TEST(GltfNode, CamerasThatCannotBeAreRepairedOrLeftOut) {
     };
     for (const Case& c : cases) {
         GltfFile f = GltfFile::triangle();
-        f.json["cameras"] = {c.camera};
+        f.json["cameras"] = Json::array({c.camera});
         f.json["nodes"][0]["camera"] = 0;
         const Scene scene = f.load();
         EXPECT_EQ(scene.cameras.size(), c.stays ? 1u : 0u) << c.note;
@@ -215,7 +215,7 @@ TEST(GltfNode, LightsThatCannotBeAreRepaired) {
         GltfFile f = GltfFile::triangle();
         Json light = {{"type", "spot"}, {"spot", Json::object()}};
         light.update(c.change);
-        f.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+        f.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
         const Json lit = {{"KHR_lights_punctual", {{"light", 0}}}};
         f.json["nodes"][0] = {{"mesh", 0}, {"children", {1}}, {"extensions", lit}};
         f.json["nodes"][1] = {{"extensions", lit}};  // the same light again, but only one note
