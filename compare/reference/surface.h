@@ -27,6 +27,13 @@ struct Surface {
     glm::dvec3 dielectric_f0{0};  // of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
     double transmission = 0;  // fraction of the light entering the base that is transmitted, not scattered
+    // KHR_materials_clearcoat: weight, perceptual roughness and unit shading normal; 0 without a coat.
+    double clearcoat = 0, clearcoat_roughness = 0;
+    glm::dvec3 clearcoat_normal{0};
+    // KHR_materials_anisotropy: strength, and the unit direction in which highlights stretch, perpendicular
+    // to `normal`, either sign; 0 where isotropic.
+    double anisotropy = 0;
+    glm::dvec3 anisotropy_direction{0};
     BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};

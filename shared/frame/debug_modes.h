@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/material.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +44,7 @@ std::string_view nameOf(Metric metric);
 inline constexpr std::array litModes{
     static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_lit_diffuse),
     static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient),
-    static_cast<int>(gpu::DEBUG_lit_environment)};
+    static_cast<int>(gpu::DEBUG_lit_environment), static_cast<int>(gpu::DEBUG_lit_clearcoat)};
 constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
@@ -58,6 +59,18 @@ constexpr bool isOfHaze(int mode) {
 constexpr bool isShaded(int mode) {
     return isLit(mode) || isOfHaze(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
            mode == static_cast<int>(gpu::DEBUG_local_visibility);
+}
+
+// LAYER_* of contract/material.h without which the channel is 0 everywhere; 0: none.
+constexpr gpu::uint layerOf(int mode) {
+    if (mode == static_cast<int>(gpu::DEBUG_lit_clearcoat)) return gpu::LAYER_CLEARCOAT;
+    if (mode >= static_cast<int>(gpu::DEBUG_clearcoat) &&
+        mode <= static_cast<int>(gpu::DEBUG_clearcoat_normal))
+        return gpu::LAYER_CLEARCOAT;
+    if (mode == static_cast<int>(gpu::DEBUG_anisotropy) ||
+        mode == static_cast<int>(gpu::DEBUG_anisotropy_direction))
+        return gpu::LAYER_ANISOTROPY;
+    return 0;
 }
 
 // 0 in a scene without ambient light and lightmaps.

@@ -18,6 +18,7 @@ struct Requirements {
     bool occlusion = false;            // an occlusion texture of non-zero strength
     bool unlit = false;                // KHR_materials_unlit: the surface emits its base colour
     bool emission = false;             // includes unlit materials
+    std::uint32_t layers = 0;          // a sum of LAYER_* of contract/material.h
     bool lightmap = false;             // a lightmap of non-zero intensity
     float max_lightmap = 0;            // the largest component of any lightmap, W/(sr m^2)
     bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default, or unlit

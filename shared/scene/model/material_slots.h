@@ -24,6 +24,10 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::specular_texture, false},
     {&Material::specular_color_texture, true},
     {&Material::lightmap_texture, true},
+    {&Material::clearcoat_texture, false},
+    {&Material::clearcoat_roughness_texture, false},
+    {&Material::clearcoat_normal_texture, false},
+    {&Material::anisotropy_texture, false},
 }};
 
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
@@ -40,6 +44,13 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
             return material.emissive != glm::vec3(0);
         case gpu::SLOT_lightmap:
             return material.lightmap_intensity != 0;
+        case gpu::SLOT_clearcoat:
+        case gpu::SLOT_clearcoat_roughness:
+            return material.clearcoat != 0;
+        case gpu::SLOT_clearcoat_normal:
+            return material.clearcoat != 0 && material.clearcoat_normal_scale != 0;
+        case gpu::SLOT_anisotropy:
+            return material.anisotropy != 0;
         default:
             return true;
     }

@@ -83,13 +83,16 @@ struct Material {
     glm::vec3 specular_color{1, 1, 1};
     float lightmap_intensity = 1;  // see contract/material.h
     float transmission = 0;        // KHR_materials_transmission, infinitely thin
+    float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;  // KHR_materials_clearcoat
+    float anisotropy = 0, anisotropy_rotation = 0;  // KHR_materials_anisotropy; rad, tangent to bitangent
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;  // KHR_materials_unlit: uses only base colour, alpha and double_sided
     // In the order of SLOT_* in contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
-        emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
+        emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,
+        clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture;
 };
 
 // Values that Material stores combined, split into the parts that animations replace.
