@@ -109,12 +109,14 @@ private:
         CaptureRequest request;
         if (rechecks()) request.modes = {lit};
         for (const int mode : options_.channels)
-            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
+            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty() &&
+                !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
-                if (isRequested(mode)) request.through_gbuffer.push_back(mode);
+                if (isRequested(mode) && !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
+                    request.through_gbuffer.push_back(mode);
         return request;
     }
 

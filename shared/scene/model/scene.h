@@ -107,6 +107,12 @@ inline bool blends(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || (m.transmission > 0 && !m.unlit);
 }
 
+// A sum of LAYER_* of contract/material.h.
+inline std::uint32_t layersOf(const Material& m) {
+    if (m.unlit) return 0;
+    return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0);
+}
+
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After
 // loading, normals and tangents are never empty.
 struct Primitive {
