@@ -61,6 +61,21 @@ double roundedFloors(const Requirements& needs) {
     return needs.areaLights() > 0 ? 100 : 1;
 }
 
+// Change of a channel per unit of a linear texel, in the channel's unit: directions have components 2 t - 1.
+double perTexel(const DebugMode& mode) {
+    switch (static_cast<gpu::uint>(mode.number)) {
+        case gpu::DEBUG_normals:
+        case gpu::DEBUG_clearcoat_normal:
+            return 2 * std::sqrt(3.0) * degreesPerRadian;
+        case gpu::DEBUG_anisotropy_direction:  // two components, in the plane of a normal with three
+            return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
+        case gpu::DEBUG_tangent_normal:
+            return 2 * std::sqrt(3.0);
+        default:
+            return 1;
+    }
+}
+
 const Image* imageOf(const std::map<int, Image>& images, int mode) {
     const auto found = images.find(mode);
     return found == images.end() ? nullptr : &found->second;
@@ -184,7 +199,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
 double DeviceBounds::operator()(std::size_t i) const {
     const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
     const double unit = mode_.metric == Metric::relative ? size : 1;
-    const double rounding = relativeRounding() * (mode_.domain == Domain::unit ? degreesPerRadian : size);
+    const double rounding = relativeRounding() * (isAngle(mode_.metric) ? degreesPerRadian : size);
     switch (kind_) {
         case Kind::id:
             return 0;
@@ -311,10 +326,7 @@ double DeviceBounds::textures(std::size_t i) const {
     // Linear texels; they mix F0.
     if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
         mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
-        most += filterRounding(across_, false) *
-                (mode_.number == static_cast<int>(gpu::DEBUG_normals) ? 2 * std::sqrt(3.0) * degreesPerRadian
-                 : mode_.number == static_cast<int>(gpu::DEBUG_tangent_normal) ? 2 * std::sqrt(3.0)
-                                                                               : 1);
+        most += filterRounding(across_, false) * perTexel(mode_);
     return most;
 }
 

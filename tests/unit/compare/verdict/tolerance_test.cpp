@@ -34,7 +34,7 @@ struct Pair {
         deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
-            if (mode.domain == Domain::unit) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
+            if (isAngle(mode.metric)) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
             if (mode.maker != MadeBy::forward_only)
                 deferred.channels[mode.number] = forward.channels[mode.number];
             if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.number);
