@@ -150,6 +150,8 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
             return Kind::place;
         case gpu::DEBUG_geometric_normal:
             return Kind::facet;
+        case gpu::DEBUG_lit_clearcoat:
+            return Kind::part;
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_local_visibility:
             return Kind::seen;
@@ -215,6 +217,7 @@ double DeviceBounds::operator()(std::size_t i) const {
             return 2 * shadingRounding * std::max(1.0, rounded_as_ / size) + shadowed_.relative(i);
         case Kind::seen:
             return 2 * shadingRounding;
+        case Kind::part:
         case Kind::list:
             return std::numeric_limits<double>::infinity();
     }
@@ -279,6 +282,8 @@ std::string DeviceBounds::because() const {
         case Kind::seen:
             return "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show another "
                    "triangle";
+        case Kind::part:
+            return "a part of lit_specular and lit_ambient, which are compared";
         case Kind::list:
             return "each device uses the cell size that is cheapest on it; lights missing from a list show "
                    "in lit";

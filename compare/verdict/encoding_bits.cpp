@@ -80,13 +80,13 @@ double octahedralBound(unsigned bits) {
     return 180 / std::numbers::pi * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + lengthBound);
 }
 
-// Lighting and the decoder know the normal n' that the G-buffer stores, not n. A unit direction d
-// perpendicular to n leaves n's plane for that of n' by projection. The angle between d and its projection
-// has the sine |d.n'|. Since d.n = 0, that is |d.(n' - (n.n') n)|, and the vector in brackets has the length
-// sin(n, n'). So the direction turns by at most the angle between the normals. Within the plane of n' it
-// then turns by at most half a step, pi / 2^(bits + 1).
+// The stored angle is that of the projection p of the unit direction d onto the plane perpendicular to the
+// decoded normal n'. The angle between d and p has the sine |d.n'|. Since d.n = 0 for the own normal n, that
+// is |d.(n' - (n.n') n)|, and the vector in brackets has the length sin(n, n'). So that angle is at most the
+// one between the normals. Half a step, pi / 2^(bits + 1), turns p within the plane, perpendicular to the arc
+// from d. The hypotenuse of a right triangle on a sphere is at most that of a flat one.
 double lineBound(unsigned bits, unsigned normal_bits) {
-    return octahedralBound(normal_bits) + 180 * std::ldexp(0.5, -static_cast<int>(bits)) +
+    return std::hypot(octahedralBound(normal_bits), 180 * std::ldexp(0.5, -static_cast<int>(bits))) +
            180 / std::numbers::pi * lineSlack;
 }
 

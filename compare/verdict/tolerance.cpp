@@ -48,10 +48,11 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
                     fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
                                 bits)};
         case StoredField::Code::line:
-            return {field.largestBound(),
-                    fmt::format("half a step of an angle in {} bits, 180 / 2^{}, plus the turn of its plane "
-                                "with the octahedral normal in {}+{} bits, degrees",
-                                bits, bits + 1, field.normal_bits, field.normal_bits)};
+            return {
+                field.largestBound(),
+                fmt::format("its plane turns with the octahedral normal in {0}+{0} bits; across that, half "
+                            "a step of an angle in {1} bits, 180 / 2^{2}; degrees",
+                            field.normal_bits, bits, bits + 1)};
         case StoredField::Code::radiance:
             return radianceTolerance(mode, pair);
     }
