@@ -96,7 +96,7 @@ TEST(Metrics, LinesHaveNoSign) {
     EXPECT_DOUBLE_EQ(lineAngle({1, 0, 0}, {-1, 0x1p-13f, 0}), std::atan(0x1p-13) * 180 / std::numbers::pi);
 }
 
-TEST(Metrics, ALineIsPerpendicularToNone) {
+TEST(Metrics, AZeroVectorIsPerpendicularToEveryLine) {
     EXPECT_EQ(lineAngle({0, 0, 0}, {0, 0, 0}), 0);
     EXPECT_EQ(lineAngle({0, 0, 0}, {0, 0, 1}), 90);
     EXPECT_EQ(lineAngle({0, 0, 1}, {0, 0, 0}), 90);

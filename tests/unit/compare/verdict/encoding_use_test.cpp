@@ -8,6 +8,8 @@
 #include "shared/contract/gbuffer.h"
 #include "tests/support/report_builder.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
