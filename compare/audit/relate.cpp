@@ -70,11 +70,12 @@ std::map<int, double> packedBounds(const Settings& settings) {
     if (settings.path != Path::deferred) return {};
     Requirements needs;
     needs.emission = true;
+    needs.layers = gpu::LAYER_CLEARCOAT;
     std::map<int, double> bounds;
     for (const int mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))
-            bounds[mode] = field->code == StoredField::Code::octahedral ? glm::radians(field->largestBound())
-                                                                        : field->largestBound();
+            bounds[mode] =
+                isAngle(debugMode(mode).metric) ? glm::radians(field->largestBound()) : field->largestBound();
     return bounds;
 }
 

@@ -13,7 +13,8 @@
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
-//   domain  unit: vectors of length 1   share: 0 to 1   positive: 0 or more   any
+//           axial     the same between lines: b and -b are equal, so at most 90 degrees
+//   domain  unit: vectors of length 1   unit_or_zero: these, or 0   share: 0 to 1   positive: 0 or more   any
 //   made by which renderers produce it:
 //           both           both paths and the reference
 //           forward_only   forward+ and the reference: the G-buffer does not store it
@@ -57,9 +58,9 @@
     X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light") \
     X(60, clearcoat,        1, absolute, scalar, share,    both,         "weight of the clear coat, 0 to 1") \
     X(61, clearcoat_roughness, 1, absolute, scalar, share, both,         "perceptual roughness of the clear coat, 0 to 1; 0 without one") \
-    X(62, clearcoat_normal, 3, angular,  vector, any,      both,         "normal of the clear coat, world; 0 without one") \
+    X(62, clearcoat_normal, 3, angular,  vector, unit_or_zero, both,         "normal of the clear coat, world; 0 without one") \
     X(63, anisotropy,       1, absolute, scalar, share,    both,         "strength of anisotropy, 0 to 1") \
-    X(64, anisotropy_direction, 3, angular, vector, any,   both,         "direction along which highlights stretch, world; 0 where isotropic")
+    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both,         "direction along which highlights stretch, world, either sign; 0 where isotropic")
 // clang-format on
 
 // name  image  component: where captures store a channel. Captures render images of four components;
