@@ -37,6 +37,8 @@ struct Use {
 
 // Degrees per unit of a unit vector 2 t - 1 of three components.
 constexpr double turned = 2 * 1.7320508 * degreesPerRadian;
+// Of two components.
+constexpr double turnedFlat = 2 * 1.4142136 * degreesPerRadian;
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
     const auto color = [](gpu::uint mode, double f) { return Use{mode, {f, f, f, 0}}; };
@@ -71,6 +73,16 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
                     color(gpu::DEBUG_specular, most(m.specular_color))};
         case gpu::SLOT_lightmap:
             return {color(gpu::DEBUG_lightmap, m.lightmap_intensity)};
+        case gpu::SLOT_clearcoat:
+            return {one(gpu::DEBUG_clearcoat, 0, m.clearcoat)};
+        case gpu::SLOT_clearcoat_roughness:
+            return {one(gpu::DEBUG_clearcoat_roughness, 1, m.clearcoat_roughness)};
+        case gpu::SLOT_clearcoat_normal:
+            return {color(gpu::DEBUG_clearcoat_normal,
+                          turned * std::max(1.0, std::abs(double{m.clearcoat_normal_scale})))};
+        case gpu::SLOT_anisotropy:
+            return {Use{gpu::DEBUG_anisotropy_direction, {turnedFlat, turnedFlat, 0, 0}},
+                    one(gpu::DEBUG_anisotropy, 2, m.anisotropy)};
         default:
             return {};
     }
