@@ -91,6 +91,8 @@ GltfFile writtenScene(const Case& flat) {
         }
         Json attributes{{"POSITION", file.addPositions(used.positions)},
                         {"NORMAL", file.add(used.normals, "VEC3", 5126)}};
+        if (flat.scene.materials[static_cast<std::size_t>(primitive.material)].anisotropy > 0)
+            attributes["TANGENT"] = file.add(used.tangents, "VEC4", 5126);
         if (!used.colors.empty()) attributes["COLOR_0"] = file.add(used.colors, "VEC4", 5126);
         gltf["meshes"].push_back(
             {{"primitives", Json::array({{{"attributes", attributes},

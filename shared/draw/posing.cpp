@@ -356,11 +356,12 @@ Posings::Posings(Device& device, Uploader& uploader, const Scene& scene, const G
 std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, SkinNormals normals,
                                           Pipelines& pipelines) {
     if (pose.boxes.empty()) return std::make_shared<const Posing>();
+    const Scene& scene = sources_.geometry.scene();
     Key key{skinning, normals, {}, pose.boxes, pose.skins, pose.weights, {}};
     for (const Instance& instance : pose.instances)
         if (instance.box >= 0) {
             key.instances.push_back(instance);
-            key.maps.push_back(normalMapOf(sources_.geometry.scene(), pose, instance));
+            key.maps.push_back(tangentMapOf(materialsOf(scene, pose), scene, instance));
         }
     std::erase_if(kept_, [](const Kept& kept) { return kept.posing.expired(); });
     for (const Kept& kept : kept_)
