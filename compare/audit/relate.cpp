@@ -7,6 +7,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
@@ -54,10 +55,7 @@ RenderOptions drawingRelated(bool packed = false) {
 
 bool hasTexture(const Material& material) {
     return std::ranges::any_of(
-        std::array{&material.base_color_texture, &material.metallic_roughness_texture,
-                   &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
-                   &material.specular_texture, &material.specular_color_texture, &material.lightmap_texture},
-        [](const TextureSlot* slot) { return slot->texture >= 0; });
+        materialSlots, [&](const MaterialSlot& slot) { return (material.*slot.texture).texture >= 0; });
 }
 
 bool anyBlends(const Scene& scene) {

@@ -119,7 +119,15 @@ GltfFile dressed() {
             {{"specularFactor", 0.5},
              {"specularTexture", texture},
              {"specularColorFactor", {1, 0.5, 1}},
-             {"specularColorTexture", texture}}}}}},
+             {"specularColorTexture", texture}}},
+           {"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.5},
+             {"clearcoatTexture", texture},
+             {"clearcoatRoughnessFactor", 0.25},
+             {"clearcoatRoughnessTexture", texture},
+             {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}}},
+           {"KHR_materials_anisotropy",
+            {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}}}}},
         {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
     m.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33648}}};
     m.json["images"] = {{{"uri", twoPixels}}};
@@ -128,10 +136,10 @@ GltfFile dressed() {
         {{"type", "perspective"},
          {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}, {"aspectRatio", 2}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}};
-    m.json["extensionsUsed"] = {"KHR_lights_punctual",  "KHR_materials_emissive_strength",
-                                "KHR_materials_ior",    "KHR_materials_specular",
-                                "KHR_materials_unlit",  "KHR_mesh_quantization",
-                                "KHR_texture_transform"};
+    m.json["extensionsUsed"] = {
+        "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+        "KHR_materials_specular", "KHR_materials_clearcoat",         "KHR_materials_anisotropy",
+        "KHR_materials_unlit",    "KHR_mesh_quantization",           "KHR_texture_transform"};
     m.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     m.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3}, {"extras", {{"diptych", {{"angle", 0.0093}}}}}},

@@ -60,6 +60,14 @@ constexpr Pattern pointerPatterns[] = {
     {"/materials/{}/extensions/KHR_materials_specular/specularFactor", AnimatedPart::specular},
     {"/materials/{}/extensions/KHR_materials_specular/specularColorFactor", AnimatedPart::specular_color},
     {"/materials/{}/extensions/KHR_materials_transmission/transmissionFactor", AnimatedPart::transmission},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatFactor", AnimatedPart::clearcoat},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor",
+     AnimatedPart::clearcoat_roughness},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale",
+     AnimatedPart::clearcoat_normal_scale, gpu::SLOT_clearcoat_normal},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyStrength", AnimatedPart::anisotropy},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyRotation",
+     AnimatedPart::anisotropy_rotation},
 };
 
 // Paths to a material's textures; one of transformPatterns follows.
@@ -71,6 +79,14 @@ constexpr Pattern texturePatterns[] = {
     {"/materials/{}/emissiveTexture", {}, gpu::SLOT_emissive},
     {"/materials/{}/extensions/KHR_materials_specular/specularTexture", {}, gpu::SLOT_specular},
     {"/materials/{}/extensions/KHR_materials_specular/specularColorTexture", {}, gpu::SLOT_specular_color},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatTexture", {}, gpu::SLOT_clearcoat},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+     {},
+     gpu::SLOT_clearcoat_roughness},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+     {},
+     gpu::SLOT_clearcoat_normal},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyTexture", {}, gpu::SLOT_anisotropy},
 };
 constexpr Pattern transformPatterns[] = {
     {"/extensions/KHR_texture_transform/offset", AnimatedPart::texture_offset},
@@ -223,13 +239,13 @@ private:
 
     void material(const tinygltf::Material& material, const Match& match, ChannelTarget& target) const {
         const bool unlit = extension(material.extensions, "KHR_materials_unlit") != nullptr;
-        const bool textured =
-            target.part == AnimatedPart::normal_scale || target.part == AnimatedPart::occlusion_strength ||
-            target.part == AnimatedPart::texture_offset || target.part == AnimatedPart::texture_rotation ||
-            target.part == AnimatedPart::texture_scale;
+        const bool transform = target.part == AnimatedPart::texture_offset ||
+                               target.part == AnimatedPart::texture_rotation ||
+                               target.part == AnimatedPart::texture_scale;
+        const bool textured = transform || target.part == AnimatedPart::normal_scale ||
+                              target.part == AnimatedPart::occlusion_strength ||
+                              target.part == AnimatedPart::clearcoat_normal_scale;
         if (textured && !hasTexture(material, match.slot)) wrong("the material has no such texture");
-        const bool transform = textured && target.part != AnimatedPart::normal_scale &&
-                               target.part != AnimatedPart::occlusion_strength;
         if (transform) target.element = match.slot;
         target.effect = !unlit || target.part == AnimatedPart::base_color ||
                         target.part == AnimatedPart::alpha_cutoff ||
@@ -237,8 +253,8 @@ private:
     }
 
     static bool hasTexture(const tinygltf::Material& material, int slot) {
-        const auto inSpecular = [&](const char* name) {
-            const tinygltf::Value* e = extension(material.extensions, "KHR_materials_specular");
+        const auto has = [&](const char* of, const char* name) {
+            const tinygltf::Value* e = extension(material.extensions, of);
             return e && e->Has(name);
         };
         switch (slot) {
@@ -253,9 +269,17 @@ private:
             case gpu::SLOT_emissive:
                 return material.emissiveTexture.index >= 0;
             case gpu::SLOT_specular:
-                return inSpecular("specularTexture");
+                return has("KHR_materials_specular", "specularTexture");
+            case gpu::SLOT_specular_color:
+                return has("KHR_materials_specular", "specularColorTexture");
+            case gpu::SLOT_clearcoat:
+                return has("KHR_materials_clearcoat", "clearcoatTexture");
+            case gpu::SLOT_clearcoat_roughness:
+                return has("KHR_materials_clearcoat", "clearcoatRoughnessTexture");
+            case gpu::SLOT_clearcoat_normal:
+                return has("KHR_materials_clearcoat", "clearcoatNormalTexture");
             default:
-                return inSpecular("specularColorTexture");
+                return has("KHR_materials_anisotropy", "anisotropyTexture");
         }
     }
 };

@@ -56,6 +56,18 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
     }
 }
 
+// The slot whose UV set and transform define generated tangents (makeTangents); SLOT_COUNT: none, TEXCOORD_0
+// as it is. Animation never changes it.
+inline std::size_t tangentSlot(const Material& material) {
+    for (const std::size_t slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
+        if ((material.*materialSlots[slot].texture).texture >= 0) return slot;
+    return gpu::SLOT_COUNT;
+}
+inline TextureSlot tangentMap(const Material& material) {
+    const std::size_t slot = tangentSlot(material);
+    return slot == gpu::SLOT_COUNT ? TextureSlot{} : material.*materialSlots[slot].texture;
+}
+
 inline bool isTransformed(const TextureSlot& slot) {
     return slot.u != glm::dvec3(1, 0, 0) || slot.v != glm::dvec3(0, 1, 0);
 }

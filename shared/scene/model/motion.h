@@ -124,6 +124,11 @@ enum class AnimatedPart {
     specular,
     specular_color,
     transmission,
+    clearcoat,
+    clearcoat_roughness,
+    clearcoat_normal_scale,
+    anisotropy,
+    anisotropy_rotation,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The seven slots: each with its name in a file and its member in Material.
+// The slots of a file: each with its name in a file and its member in Material.
 struct SlotCase {
     const char* name;
     Json (*material)(Json info);
@@ -56,6 +56,26 @@ const SlotCase slotCases[] = {
          return Json{{"extensions", {{"KHR_materials_specular", {{"specularColorTexture", info}}}}}};
      },
      &Material::specular_color_texture},
+    {"clearcoatTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", info}}}}}};
+     },
+     &Material::clearcoat_texture},
+    {"clearcoatRoughnessTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessTexture", info}}}}}};
+     },
+     &Material::clearcoat_roughness_texture},
+    {"clearcoatNormalTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", info}}}}}};
+     },
+     &Material::clearcoat_normal_texture},
+    {"anisotropyTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_anisotropy", {{"anisotropyTexture", info}}}}}};
+     },
+     &Material::anisotropy_texture},
 };
 
 Json transformed(Json transform, int texcoord = 0) {
