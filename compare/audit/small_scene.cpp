@@ -24,6 +24,7 @@ std::optional<Case> flattened(const Case& whole) {
     flat.exposure = whole.exposure;
     flat.settings.time = 0;
     flat.settings.animation.clear();
+    flat.settings.variant.clear();
     flat.settings.camera = "0";
     flat.settings.env = Settings().env;
     flat.settings.env_sun = false;

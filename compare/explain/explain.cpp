@@ -47,7 +47,7 @@ void checkExplained(const Frame& baseline, const Frame& test) {
                     lit.height));
         }
     for (const std::string_view option :
-         {"camera", "time", "animation", "env", "scene-lights", "lights", "seed"})
+         {"camera", "time", "animation", "variant", "env", "scene-lights", "lights", "seed"})
         if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
             throw std::runtime_error(
                 fmt::format("--{} {} and {}: an explanation needs two images of the same view and scene",

@@ -330,7 +330,8 @@ struct DrawingThread::State {
 
     bool isLoaded(const Subject& subject) const {
         return loaded && loaded->scene == subject.scene && loaded->reading == subject.reading &&
-               loaded->settings.env == subject.settings.env;
+               loaded->settings.env == subject.settings.env &&
+               loaded->settings.variant == subject.settings.variant;
     }
 
     // If a scene cannot be read, the previous one stays.

@@ -228,6 +228,18 @@ GltfFile packed() {
     return m;
 }
 
+// Two material variants.
+GltfFile varied() {
+    GltfFile m = GltfFile::triangle();
+    m.json["materials"] = {{{"name", "blue"}}, {{"name", "red"}}};
+    m.json["extensions"]["KHR_materials_variants"]["variants"] = m.json["materials"];
+    m.primitive()["material"] = 0;
+    Json& mappings = m.primitive()["extensions"]["KHR_materials_variants"]["mappings"];
+    for (int i = 0; i < 2; ++i) mappings.push_back({{"material", i}, {"variants", Json::array({i})}});
+    m.json["extensionsUsed"] = Json::array({"KHR_materials_variants"});
+    return m;
+}
+
 }  // namespace
 
 void writeGltfSeeds(const fs::path& out) {
@@ -236,6 +248,7 @@ void writeGltfSeeds(const fs::path& out) {
           {"dressed", dressed()},
           {"pointed", pointed()},
           {"meshopt", packed()},
+          {"variants", varied()},
           {"draco-sequential", compressed(encoded(2, {draco::MESH_SEQUENTIAL_ENCODING}))},
           {"draco-0", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 0, 8}))},
           {"draco-5", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 5, 8, true}))}}) {

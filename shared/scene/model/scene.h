@@ -215,6 +215,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
+    std::vector<std::string> variants;            // names of KHR_materials_variants; may be empty
+    int variant = -1;                             // the one drawn; -1: primitives' own materials
     std::map<int, MaterialParts> material_parts;  // materials that animations change, by index
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
