@@ -4,8 +4,10 @@
 #pragma once
 
 #include "shared/frame/setting_values.h"
+#include "shared/scene/model/axes.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -41,6 +43,14 @@ struct Surface {
     glm::dvec3 tangent{0};         // unit, world
     double handedness = 0;         // bitangent = handedness * cross(normal, tangent)
     glm::dvec3 tangent_normal{0};  // unit, tangent space
+
+    // Sets the anisotropy, with the part of `direction` that is perpendicular to `normal`; isotropic where
+    // that vanishes.
+    void stretch(double strength, const glm::dvec3& direction) {
+        anisotropy_direction = unitOr(direction - normal * glm::dot(normal, direction), glm::dvec3(0));
+        anisotropy = anisotropy_direction == glm::dvec3(0) ? 0 : strength;
+        if (!(anisotropy > 0)) anisotropy_direction = glm::dvec3(0);
+    }
 };
 
 // Fraction of light that a layer reflecting `layer` takes from the base, for each component.

@@ -318,7 +318,7 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
 // Surfaces that the reference shades in mode surface, rendered under a path's Settings.
 Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
-    capture.channels = reference::surfaceChannels();
+    capture.channels = reference::surfaceChannels(state_->views.at(viewRequest(settings)).needs.layers);
     capture.recheck = options.recheck;
     capture.runs = 0;
     capture.on_step = options.on_step;
