@@ -49,8 +49,8 @@ constexpr double leastFiltered = 1.0 / 64;
 constexpr double irradianceNodes = 0.02, windowKnown = 0.01;
 
 // The normal whose mirror direction the split sum takes. An anisotropic lobe's is bent toward the plane of
-// the viewer and the direction across the lobe (McAuley 2015,
-// "Rendering the World of Far Cry 4"); the bend fades as the lobe becomes isotropic or rough.
+// the viewer and the direction across the lobe (McAuley 2015, "Rendering the World of Far Cry 4"); the
+// bend fades as the lobe becomes isotropic or rough.
 glm::dvec3 bentNormal(const Surface& s, const Widths& widths) {
     if (widths.isotropic()) return s.normal;
     const glm::dvec3 aside = glm::cross(widths.y, s.to_viewer),
