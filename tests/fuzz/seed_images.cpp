@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Small images of every format that the readers support.
 #include "tests/fuzz/seeds.h"
+#include "tests/support/webp_builder.h"
 
 #include <cstdio>  // jpeglib.h asks for its FILE
 
@@ -106,6 +107,17 @@ void writeJpegSeeds(const fs::path& out) {
                       jpegOf(colors, progressive));
 }
 
+void writeWebpSeeds(const fs::path& out) {
+    for (const bool opaque : {false, true}) {
+        const WebpPixels pixels = colourfulWebp(20, 20, opaque);
+        const std::string name = opaque ? "opaque.webp" : "alpha.webp";
+        writeSeed(out, "texture", "lossless-" + name, losslessWebp(pixels));
+        writeSeed(out, "texture", "lossy-" + name, lossyWebp(pixels, 40));
+        writeSeed(out, "texture", "animated-" + name, animatedWebp(pixels));
+    }
+    writeSeed(out, "texture", "plain.webp", losslessWebp(plainWebp(20, 20, {1, 2, 3, 255})));
+}
+
 void writeHdrSeeds(const fs::path& out) {
     using namespace std::string_literals;
     const auto head = [](const std::string& resolution) {
@@ -166,6 +178,7 @@ void writeTiffSeeds(const fs::path& out) {
 void writeImageSeeds(const fs::path& out) {
     writePngSeeds(out);
     writeJpegSeeds(out);
+    writeWebpSeeds(out);
     writeHdrSeeds(out);
     writePfmSeeds(out);
     writeTiffSeeds(out);

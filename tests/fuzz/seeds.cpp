@@ -37,9 +37,10 @@ std::string selfContained(const fs::path& file) {
                 std::error_code error;
                 if (uri.starts_with("data:") || !fs::is_regular_file(beside, error)) continue;
                 const std::string ending = beside.extension();
-                const std::string type = ending == ".png"   ? "image/png"
-                                         : ending == ".jpg" ? "image/jpeg"
-                                                            : "application/octet-stream";
+                const std::string type = ending == ".png"    ? "image/png"
+                                         : ending == ".jpg"  ? "image/jpeg"
+                                         : ending == ".webp" ? "image/webp"
+                                                             : "application/octet-stream";
                 object["uri"] = "data:" + type + ";base64," + base64(contentsOf(beside));
             }
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -89,7 +90,7 @@ int copySeeds(const fs::path& assets, const fs::path& out) {
             writeSeed(out, "gltf", name, selfContained(file));
         else if (ending == ".glb")
             writeSeed(out, "gltf", name, contentsOf(file));
-        else if (ending == ".jpg")
+        else if (ending == ".jpg" || ending == ".webp")
             writeSeed(out, "texture", name, contentsOf(file));
         else if (ending == ".exr")
             writeSeed(out, "exr", name, contentsOf(file));

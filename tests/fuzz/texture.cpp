@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fuzzes the PNG and JPEG images inside glTF files.
+// Fuzzes the PNG, JPEG and WebP images inside glTF files.
 #include "shared/scene/image/decode.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                               std::ssize(image.rgba16) == (header.deep ? 4 * pixels : 0),
                           "a number for every component");
             const bool png = header.kind == ImageHeader::Kind::png;  // bit depth, color type, interlacing
-            fuzz::observe(png ? std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28] : 1);
+            fuzz::observe(png ? std::size_t{data[24]} * 64 + std::size_t{data[25]} * 8 + data[28]
+                              : static_cast<std::size_t>(header.kind));
         },
         fuzz::Behind::a_library);
     return 0;

@@ -48,8 +48,8 @@ struct LightExtras {
 //   materials[i].extras.diptych.lightmap: { "index": a texture, "texCoord": 0 or 1 (1), "intensity": F (1)
 //   }
 //
-// The texture's image is PNG or JPEG (sRGB), or OpenEXR, Radiance HDR or PFM (linear). Its colour times
-// intensity is irradiance over pi, W/(sr m^2).
+// The texture's image is PNG, JPEG or WebP (sRGB), or OpenEXR, Radiance HDR or PFM (linear). Its colour
+// times intensity is irradiance over pi, W/(sr m^2).
 struct MaterialExtras {
     struct Lightmap {
         int texture = -1, texcoord = 1;

@@ -131,7 +131,7 @@ private:
                 fmt::format("{} reads TEXCOORD_{}: left out, only two UV sets are supported", who, texcoord));
         else if (scene_.textures[static_cast<std::size_t>(texture)].image < 0)
             scene_.notes.push_back(
-                fmt::format("{}: texture {} has no PNG or JPEG image: left out", who, texture));
+                fmt::format("{}: texture {} has no PNG, JPEG or WebP image: left out", who, texture));
         else
             result.texture = texture;
         result.texcoord = texcoord == 1 ? 1 : 0;

@@ -132,8 +132,9 @@ constexpr Property buffer[] = {text("uri"), required(whole("byteLength", 0, maxS
 constexpr Property image[] = {text("uri"), index("bufferView", "bufferViews"), text("mimeType"), name()};
 constexpr Property sampler[] = {whole("magFilter"), whole("minFilter"), whole("wrapS"), whole("wrapT"),
                                 name()};
-// Unsupported image formats: only their presence is kept.
-constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), object("EXT_texture_webp", {}),
+constexpr Property webp[] = {index("source", "images")};
+// Only the presence of unsupported image formats is kept.
+constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), object("EXT_texture_webp", webp),
                                           object("EXT_texture_avif", {})};
 constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name(),
                                 extensions(textureExtensions)};

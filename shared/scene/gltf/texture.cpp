@@ -107,7 +107,9 @@ std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene
         const tinygltf::Texture& t = model.textures[i];
         const std::string who = fmt::format("texture {}", i);
         Texture texture;
-        texture.image = checkedIndex(t.source, model.images.size(), who, "image");
+        const tinygltf::Value* webp = extension(t.extensions, "EXT_texture_webp");
+        texture.image = checkedIndex(webp ? indexIn(*webp, "source", t.source, who) : t.source,
+                                     model.images.size(), who, "image");
         std::string& fault = faults.emplace_back();
         const int sampler = checkedIndex(t.sampler, model.samplers.size(), who, "sampler");
         try {
@@ -123,7 +125,7 @@ std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene
 }
 
 const char* otherImageOf(const tinygltf::Texture& texture) {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif"})
         if (extension(texture.extensions, name)) return name;
     return nullptr;
 }

@@ -22,14 +22,21 @@ bool beginsWith(std::span<const unsigned char> encoded, std::span<const unsigned
            std::equal(signature.begin(), signature.end(), encoded.begin());
 }
 
-// Names the format of a file that is neither PNG nor JPEG, by its first bytes; empty if unknown. Sources:
-// W3C, GIF89a; Google, WebP container; Khronos, KTX and KTX 2.0; Adobe, TIFF 6.0; ISO/IEC 23008-12 and
-// AOM, AVIF; Microsoft, BITMAPFILEHEADER and DDS.
-std::string_view otherKind(std::span<const unsigned char> encoded) {
-    const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+std::string_view textOf(std::span<const unsigned char> encoded) {
+    return {reinterpret_cast<const char*>(encoded.data()), encoded.size()};
+}
+
+// Google, WebP container specification: RIFF, four bytes of length, WEBP.
+bool isWebp(std::string_view text) {
+    return text.starts_with("RIFF") && text.size() >= 12 && text.substr(8, 4) == "WEBP";
+}
+
+// Names the format of a file that is not supported, by its first bytes; empty if unknown. Sources: W3C,
+// GIF89a; Khronos, KTX and KTX 2.0; Adobe, TIFF 6.0; ISO/IEC 23008-12 and AOM, AVIF; Microsoft,
+// BITMAPFILEHEADER and DDS.
+std::string_view otherKind(std::string_view text) {
     const auto brand = [&](std::string_view name) { return text.substr(4, 8) == name; };
     if (text.starts_with("GIF87a") || text.starts_with("GIF89a")) return "GIF";
-    if (text.starts_with("RIFF") && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "WebP";
     if (text.starts_with("\xabKTX 20\xbb\r\n\x1a\n")) return "KTX2";
     if (text.starts_with("\xabKTX 11\xbb\r\n\x1a\n")) return "KTX";
     if (text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4)))
@@ -42,18 +49,22 @@ std::string_view otherKind(std::span<const unsigned char> encoded) {
     return {};
 }
 
+ImageHeader uncheckedHeader(std::span<const unsigned char> encoded) {
+    constexpr std::array<unsigned char, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    constexpr std::array<unsigned char, 3> jpeg{0xff, 0xd8, 0xff};
+    if (beginsWith(encoded, png)) return codec::readPngHeader(encoded);
+    if (beginsWith(encoded, jpeg)) return codec::readJpegHeader(encoded);
+    if (isWebp(textOf(encoded))) return codec::readWebpHeader(encoded);
+    const std::string_view kind = otherKind(textOf(encoded));
+    throw std::runtime_error(kind.empty()
+                                 ? "is not PNG, JPEG or WebP"
+                                 : fmt::format("is {}; only PNG, JPEG and WebP are supported", kind));
+}
+
 }  // namespace
 
 ImageHeader imageHeader(std::span<const unsigned char> encoded) {
-    constexpr std::array<unsigned char, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    constexpr std::array<unsigned char, 3> jpeg{0xff, 0xd8, 0xff};
-    const bool isPng = beginsWith(encoded, png);
-    if (!isPng && !beginsWith(encoded, jpeg)) {
-        const std::string_view kind = otherKind(encoded);
-        throw std::runtime_error(kind.empty() ? "is not PNG or JPEG"
-                                              : fmt::format("is {}; only PNG and JPEG are supported", kind));
-    }
-    const ImageHeader header = isPng ? codec::readPngHeader(encoded) : codec::readJpegHeader(encoded);
+    const ImageHeader header = uncheckedHeader(encoded);
     const std::int64_t width = header.width, height = header.height;
     if (width < 1 || height < 1 || width > maxSide || height > maxSide)
         throw std::runtime_error(
@@ -77,7 +88,17 @@ TextureImage decodeImage(std::span<const unsigned char> encoded) {
         image.rgba.resize(header.bytes());
         pixels = image.rgba.data();
     }
-    (header.kind == ImageHeader::Kind::png ? codec::decodePng : codec::decodeJpeg)(encoded, header, pixels);
+    switch (header.kind) {
+        case ImageHeader::Kind::png:
+            codec::decodePng(encoded, header, pixels);
+            break;
+        case ImageHeader::Kind::jpeg:
+            codec::decodeJpeg(encoded, header, pixels);
+            break;
+        case ImageHeader::Kind::webp:
+            codec::decodeWebp(encoded, header, pixels);
+            break;
+    }
     return image;
 }
 

@@ -7,7 +7,7 @@ namespace diptych {
 
 // The header of an encoded image, read before any pixel is decoded.
 struct ImageHeader {
-    enum class Kind { png, jpeg };
+    enum class Kind { png, jpeg, webp };
     Kind kind = Kind::png;
     std::int64_t width = 0, height = 0;
     bool deep = false;                 // 16 bits per component

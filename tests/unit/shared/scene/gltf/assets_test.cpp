@@ -48,6 +48,19 @@ TEST(GltfAssets, ScenesHaveTheirTabledSizes) {
     }
 }
 
+TEST(GltfAssets, RequiredWebpTexturesAreRead) {
+    const std::filesystem::path file = assets / "layered/WebpBoxTextured/box-textured-separate.gltf";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "NO ASSETS at " << file << ": real files are not tried";
+    const Scene scene = loadScene(file.string());
+    ASSERT_EQ(scene.images.size(), 1u);
+    EXPECT_EQ(scene.images[0].name, "cesium logo.webp");
+    EXPECT_EQ(scene.images[0].width, 128);
+    EXPECT_EQ(scene.images[0].height, 128);
+    EXPECT_EQ(scene.images[0].rgba.size(), 4u * 128 * 128);
+    EXPECT_EQ(scene.materials.at(0).base_color_texture.texture, 0);
+}
+
 TEST(GltfAssets, RequiredSpecularGlossinessIsRefusedByName) {
     if (!std::filesystem::exists(assets))
         GTEST_SKIP() << "NO ASSETS at " << assets << ": real files are not tried";

@@ -180,7 +180,7 @@ TEST(GltfImageLight, WhatIsWrongLeavesItOutWithANote) {
          [](GltfFile&) { std::filesystem::remove(testFolder() / "face3.png"); }},
         {"light 0: image 1: has no uri or bufferView",
          [](GltfFile& f) { f.json["images"][1] = Json::object(); }},
-        {"light 0: image 4: is not PNG or JPEG",
+        {"light 0: image 4: is not PNG, JPEG or WebP",
          [](GltfFile& f) { f.json["images"][4]["uri"] = "data:image/png;base64,AAAA"; }},
         {"light 0: image 2: has 2 x 1 pixels", [](GltfFile& f) { f.json["images"][2]["uri"] = twoPixels; }},
         {"light 0: image 1: has 4 pixels per side, but the first face 16",

@@ -91,7 +91,7 @@ TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     }));
 
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    EXPECT_THROW(file.load(), std::runtime_error) << "glTF's own slots read PNG and JPEG";
+    EXPECT_THROW(file.load(), std::runtime_error) << "glTF's own slots read PNG, JPEG and WebP";
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Textures of materials: slots, samplers, transforms, images.
 #include "shared/image/limits.h"
+#include "tests/fuzz/base64.h"
 #include "tests/support/gltf_material_builder.h"
+#include "tests/support/webp_builder.h"
 
 #include <array>
 #include <cmath>
@@ -201,7 +203,7 @@ TEST(GltfTexture, ModesThatAreNoneAreRefused) {
 TEST(GltfTexture, BrokenImagesInUseAreRefused) {
     for (const auto& [uri, expected] :
          {std::pair{"missing.png", "image 0: missing.png: no such file"},
-          std::pair{"scene.gltf", "image 0 (scene.gltf): is not PNG or JPEG"},
+          std::pair{"scene.gltf", "image 0 (scene.gltf): is not PNG, JPEG or WebP"},
           std::pair{"data:image/png;base64,iVBORw0KGgoAAAAN", "image 0: does not decode"}}) {
         GltfFile f = GltfFile::triangle();
         f.primitive()["material"] = 0;
@@ -221,7 +223,7 @@ TEST(GltfTexture, ImagesInBufferViewsAreChecked) {
     f.json["images"] = {{{"bufferView", 0}, {"mimeType", "image/png"}}};
     f.json["textures"] = {{{"source", 0}}};
     f.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
-    EXPECT_NE(f.error().find("image 0: is not PNG or JPEG"), std::string::npos) << f.error();
+    EXPECT_NE(f.error().find("image 0: is not PNG, JPEG or WebP"), std::string::npos) << f.error();
     f.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 30}, {"byteLength", 4000}});
     f.json["images"][0]["bufferView"] = 1;
     EXPECT_NE(f.error().find("bufferView 1: 4000 bytes at offset 30 end past buffer 0 (36 bytes)"),
@@ -229,8 +231,8 @@ TEST(GltfTexture, ImagesInBufferViewsAreChecked) {
         << f.error();
 }
 
-TEST(GltfTexture, BasisuAndWebpAreRefusedByNameWhereRequired) {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
+TEST(GltfTexture, BasisuAndAvifAreRefusedByNameWhereRequired) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif"}) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
         f.json["extensionsUsed"] = f.json["extensionsRequired"] = {name};
         EXPECT_TRUE(f.error().ends_with(std::string(": extensionsRequired: ") + name +
@@ -242,7 +244,7 @@ TEST(GltfTexture, BasisuAndWebpAreRefusedByNameWhereRequired) {
 // If such an extension is optional, a PNG or JPEG is the fallback. A texture without a fallback makes its
 // material undrawable.
 TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"}) {
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif"}) {
         GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
         f.json["extensionsUsed"] = {name};
         f.json["images"].push_back({{"uri", "picture.ktx2"}});  // never opened
@@ -262,7 +264,55 @@ TEST(GltfTexture, FallbacksOfOtherImagesAreRead) {
     GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}, {"emissiveFactor", {1, 1, 1}}});
     f.json["textures"][0].erase("source");
     EXPECT_TRUE(mentions(f.load().notes,
-                         "material 0: emissiveTexture: texture 0 has no PNG or JPEG image: left out"));
+                         "material 0: emissiveTexture: texture 0 has no PNG, JPEG or WebP image: left out"));
+}
+
+// EXT_texture_webp: its image is used, also where a PNG is the fallback. A file, a data URI and a bufferView
+// hold the same image.
+TEST(GltfTexture, WebpImagesReplaceTheirFallbacks) {
+    const WebpPixels written = colourfulWebp(3, 2, false);
+    const std::string webp = losslessWebp(written);
+    for (const bool fallback : {false, true})
+        for (const char* where : {"file", "data", "view"}) {
+            GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
+            f.json["extensionsUsed"] = f.json["extensionsRequired"] = Json::array({"EXT_texture_webp"});
+            if (where == std::string("file")) {
+                std::ofstream(testFolder() / "a picture.webp", std::ios::binary) << webp;
+                f.json["images"].push_back({{"uri", "a%20picture.webp"}});
+            } else if (where == std::string("data")) {
+                f.json["images"].push_back({{"uri", "data:image/webp;base64," + fuzz::base64(webp)}});
+            } else {
+                f.accessor<char>({webp.begin(), webp.end()}, BYTE, "SCALAR", 1);
+                f.json["images"].push_back(
+                    {{"bufferView", f.json["bufferViews"].size() - 1}, {"mimeType", "image/webp"}});
+            }
+            f.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
+            if (!fallback) f.json["textures"][0].erase("source");
+            const Scene scene = f.load();
+            EXPECT_EQ(scene.materials[0].emissive_texture.texture, 0) << where;
+            ASSERT_EQ(scene.images.size(), 1u) << where << ": the fallback is not read";
+            EXPECT_EQ(scene.images[0].width, 3) << where;
+            EXPECT_EQ(scene.images[0].rgba, written.rgba) << where;
+        }
+}
+
+TEST(GltfTexture, BrokenWebpImagesAreRefused) {
+    GltfFile f = withMaterial({{"emissiveTexture", {{"index", 0}}}});
+    f.json["extensionsUsed"] = Json::array({"EXT_texture_webp"});
+    f.json["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", 1}}}};
+    EXPECT_NE(f.error().find("texture 0: EXT_texture_webp: source names image 1, but the file has 1"),
+              std::string::npos)
+        << f.error();
+    const std::string still = losslessWebp(colourfulWebp(3, 2, false));
+    for (const auto& [webp, expected] :
+         {std::pair{still.substr(0, 18), "image 1: does not decode: it ends early"},
+          {animatedWebp(colourfulWebp(3, 2, false)),
+           "image 1: is an animated WebP, which is not supported; use a still image"}}) {
+        f.json["images"][1] = {{"uri", "data:image/webp;base64," + fuzz::base64(webp)}};
+        EXPECT_TRUE(f.error().ends_with(expected)) << f.error();
+    }
+    f.json["textures"][0]["extensions"]["EXT_texture_webp"] = Json::object();
+    EXPECT_EQ(f.load().images.at(0).width, 2) << "without a source, the fallback is read";
 }
 
 // Each image is far below the limit, but together they exceed it.
