@@ -147,21 +147,22 @@ TEST(ReferenceAnisotropy, TheAlbedoIsTheBrdfsIntegral) {
 
 // The estimator's mean is the albedo only if directions are distributed as their density says.
 TEST(ReferenceAnisotropy, SamplesFollowTheirDensity) {
-    for (const double roughness : {0.045, 0.2, 0.6})
-        for (const double angle : {0.0, 0.8, 1.4})
+    for (const double roughness : {0.045, 0.4})
+        for (const double angle : {0.0, 1.4})
             for (const double azimuth : {0.0, 0.7, pi / 2}) {
                 const Surface s = stretchedMirror(roughness, 0.6, angle, azimuth);
                 const Brdf brdf(s);
                 const LobeSampler lobe(brdf);
-                constexpr int steps = 300;
-                double mean = 0;
-                for (int i = 0; i < steps; ++i)
-                    for (int j = 0; j < steps; ++j) {
-                        const glm::dvec3 l = lobe({(i + 0.5) / steps, (j + 0.5) / steps});
+                constexpr int out = 1200, around = 200;  // weights grow towards the lobe's outside
+                double sum = 0;
+                for (int i = 0; i < out; ++i)
+                    for (int j = 0; j < around; ++j) {
+                        const glm::dvec3 l = lobe({(i + 0.5) / out, (j + 0.5) / around});
                         const double density = lobe.density(l);
-                        if (density > 0) mean += brdf.lobe(l).g / density / (steps * steps);
+                        if (density > 0) sum += brdf.lobe(l).g / density;
                     }
-                EXPECT_NEAR(mean, specularAlbedo(s).g, 2e-3) << roughness << " " << angle << " " << azimuth;
+                EXPECT_NEAR(sum / (out * around), specularAlbedo(s).g, 5e-4)
+                    << roughness << " " << angle << " " << azimuth;
             }
 }
 
