@@ -32,15 +32,6 @@ double distribution(const Widths& w, const glm::dvec3& half, double n_dot_h) {
     return 1 / (std::numbers::pi * w.along * w.across * square(k));
 }
 
-// The width in the plane of the normal and a direction: Heitz 2014, equation 80.
-double widthTowards(const Widths& w, const glm::dvec3& direction) {
-    if (w.isotropic()) return w.across;
-    const double x = glm::dot(w.x, direction), y = glm::dot(w.y, direction);
-    const double square_length = square(x) + square(y);
-    if (!(square_length > 0)) return w.across;
-    return std::sqrt((square(w.along * x) + square(w.across * y)) / square_length);
-}
-
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72.
 double lambda(double alpha, double cosine) {
     const double tangent2 = (1 - square(cosine)) / square(cosine);
@@ -58,6 +49,14 @@ glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double weight) {
 
 }  // namespace
 
+double widthTowards(const Widths& w, const glm::dvec3& direction) {
+    if (w.isotropic()) return w.across;
+    const double x = glm::dot(w.x, direction), y = glm::dot(w.y, direction);
+    const double square_length = square(x) + square(y);
+    if (!(square_length > 0)) return w.across;
+    return std::sqrt((square(w.along * x) + square(w.across * y)) / square_length);
+}
+
 // The extension's text: alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha.
 Widths widthsOf(const Surface& s) {
     const double alpha = square(std::max(s.roughness, least_roughness));
@@ -67,9 +66,13 @@ Widths widthsOf(const Surface& s) {
 }
 
 Surface isotropic(const Surface& surface) {
+    return isotropic(surface, widthsOf(surface).mean());
+}
+
+Surface isotropic(const Surface& surface, double width) {
     if (!(surface.anisotropy > 0)) return surface;
     Surface s = surface;
-    s.roughness = std::sqrt(widthsOf(surface).mean());
+    s.roughness = std::sqrt(width);
     s.anisotropy = 0;
     s.anisotropy_direction = glm::dvec3(0);
     return s;

@@ -31,9 +31,13 @@ struct Widths {
 };
 Widths widthsOf(const Surface& surface);
 
+// The width in the plane of the normal and a direction: Heitz 2014, equation 80.
+double widthTowards(const Widths& widths, const glm::dvec3& direction);
+
 // The same surface with an isotropic lobe of the mean width. It replaces an anisotropic one in
 // multiple-scattering terms and in the paths' approximations.
 Surface isotropic(const Surface& surface);
+Surface isotropic(const Surface& surface, double width);
 
 // The clear coat as a surface of its own: a GGX lobe with F = 1.
 Surface coatOf(const Surface& surface);

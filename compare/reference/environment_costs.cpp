@@ -208,7 +208,9 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
     Compensation single = compensation;
     single.between = glm::dvec3(0);
     const glm::dvec3 base = diffuseAlbedo(surface, compensation),
-                     lobe = specularAlbedo(isotropic(surface), single), between = compensation.between;
+                     lobe =
+                         specularAlbedo(isotropic(surface, widthTowards(widths, surface.to_viewer)), single),
+                     between = compensation.between;
     // For lobes much wider than a cell, the change across a cell falls by the square of their ratio.
     const double coarse =
         range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * widths.across * widths.across));

@@ -125,9 +125,8 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
-// Normal about which a stretched lobe is mirrored: between the surface's and the one that would mirror the
-// view in the plane along the lobe (Revie 2012, "Implementing Fur Using Deferred Shading", GPU Pro 2; with
-// the weight of KHR_materials_anisotropy).
+// Normal about which a stretched lobe is mirrored: bent from the surface's to the plane of the view and the
+// direction across (McAuley 2015, "Rendering the World of Far Cry 4"), less for rough lobes.
 vec3 bentNormal(Brdf b, vec3 n, vec3 v, float strength) {
     vec3 bent = v - b.across * b.viewed.y;
     float length2 = dot(bent, bent), weight = 1.0 - strength * (1.0 - sqrt(b.alphas.y));

@@ -26,6 +26,7 @@ struct Brdf {
     vec3 along, across;  // unit: where highlights stretch, and perpendicular to it and the normal
     vec2 alphas;         // GGX widths along and across
     vec2 viewed;         // components of the view vector
+    float seen;          // width towards the viewer; of an isotropic lobe, alpha
 };
 
 // Light that a base loses to a layer that reflects `layer`: each component, or the largest.
@@ -46,8 +47,12 @@ void stretch(inout Brdf b, Surface s, vec3 v) {
     if (b.anisotropic) {
         b.alpha2 = b.alphas.x * b.alphas.y;
         b.alpha = sqrt(b.alpha2);
+        // Heitz 2014, equation 80.
         vec2 wide = b.viewed * b.alphas;
-        b.smith_v = sqrt(dot(wide, wide) + b.n_dot_v * b.n_dot_v);
+        float sideways = dot(b.viewed, b.viewed);
+        float seen2 = sideways > 1e-8 ? dot(wide, wide) / sideways : b.alphas.y * b.alphas.y;
+        b.seen = sqrt(seen2);
+        b.smith_v = sqrt(b.n_dot_v * b.n_dot_v * (1.0 - seen2) + seen2);
     }
 }
 
@@ -69,6 +74,7 @@ Brdf makeBrdf(Surface s, vec3 v) {
     b.anisotropic = false;
     b.along = b.across = vec3(0.0);
     b.alphas = b.viewed = vec2(0.0);
+    b.seen = b.alpha;
     if (hasLayer(LAYER_ANISOTROPY)) stretch(b, s, v);
     return b;
 }
