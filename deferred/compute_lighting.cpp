@@ -88,7 +88,7 @@ void addComputeLighting(PassList& passes, const FrameInputs& inputs, const Frame
             addDispatch(passes, pass, inputs, frame, batch,
                         {.shader = Shader::deferred_light_batch_comp, .targets = {sums[0], sums[1]}});
         },
-        SumsBy::storage);
+        SumsBy::storage, inputs.gbuffer.layers);
     const bool stored = inputs.lit_format == litFormat, several = frame.groups.valid();
     const ImageRef target = stored ? lit
                                    : passes.image({.name = "lit of compute",

@@ -6,7 +6,9 @@
 #include "deferred/sample_groups.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/background.h"
+#include "shared/draw/forward_draws.h"
 #include "shared/draw/light_batches.h"
+#include "shared/draw/pipeline_keys.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
 #include "shared/draw/resolve.h"
@@ -14,7 +16,9 @@
 #include "shared/transparent/transparent.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <vector>
 
 namespace diptych {
 
@@ -84,21 +88,82 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
     Pass& pass = readGeometry(passes, passes.draw("G-buffer"), inputs).depth(images.depth, Load::clear);
     for (const ImageRef image : images.gbuffer)
         if (image.valid()) pass.color(image, Load::clear);
-    pass.record(
-        recordDraws(inputs, [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
+    pass.record(recordDraws(inputs, inputs.draws.storedSolids(),
+                            [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
+}
+
+// Adds the depth of solids that are shaded after lighting. Lighting shades their pixels in vain.
+void addDepthOfApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
+    if (inputs.draws.apartSolids().empty()) return;
+    readGeometry(passes, passes.draw("depth of layers"), inputs)
+        .depth(images.depth, Load::keep)
+        .record(recordDraws(inputs, inputs.draws.apartSolids(), depthKey));
+}
+
+// Shades solids that the G-buffer does not store; `target` declares the attachments of the last pass.
+void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images,
+              const std::function<Pass&()>& target,
+              const std::function<PipelineKey(const DrawItem&, const LightBatch&)>& keyOf) {
+    const auto add = [&](Pass& pass, const LightBatch& batch, const auto& key) {
+        pass.depthTest(images.depth);
+        inputs.shadow.read(pass);
+        addForwardDraws(pass, passes, inputs, images, {inputs.draws.apartSolids()}, batch,
+                        [&](const DrawItem& item) { return key(item, batch); });
+    };
+    const LightBatch last = addEarlierBatches(
+        passes, inputs,
+        [&](Pass& pass, const LightBatch& batch, const auto&) {
+            add(pass, batch, [&](const DrawItem& item, const LightBatch& of) {
+                return forwardBatchKey(inputs, item, of);
+            });
+        },
+        SumsBy::attachments, inputs.layers);
+    add(target(), last, keyOf);
+}
+
+void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images, ImageRef lit) {
+    if (inputs.draws.apartSolids().empty()) return;
+    addApart(
+        passes, inputs, images, [&]() -> Pass& { return passes.draw("shade layers").color(lit, Load::keep); },
+        [&](const DrawItem& item, const LightBatch& batch) { return forwardKey(inputs, item, batch); });
+}
+
+// Continues a capture of the last pass, whose images are the last of `images`.
+void addApartCapture(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
+                     const CaptureGroup& group, std::vector<CapturedImage>& images) {
+    if (inputs.draws.apartSolids().empty()) return;
+    const std::size_t before = passes.size() - 1;
+    std::vector<CapturedImage*> of_group;
+    for (CapturedImage& image : images)
+        if (image.pass == before) of_group.push_back(&image);
+    const auto target = [&]() -> Pass& {
+        Pass& pass = passes.draw("capture layers");
+        ImageRef last;
+        for (const CapturedImage* image : of_group) {
+            if (image->image.index != last.index) pass.color(image->image, Load::keep);
+            last = image->image;
+        }
+        return pass;
+    };
+    addApart(passes, inputs, frame, target, [&](const DrawItem& item, const LightBatch& batch) {
+        return forwardCaptureKey(inputs, item, group, batch);
+    });
+    for (CapturedImage* image : of_group) image->pass = passes.size() - 1;
 }
 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
-    return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
+    const auto add = [&](Pass& pass, const LightBatch& batch, const auto&) {
         addDeferredLighting(passes, pass, inputs, frame,
                             {Shader::deferred_light_batch_frag, lightingVariant(inputs),
-                             partialSumFormats(inputs), inputs.samples},
+                             partialSumFormats(inputs.gbuffer.layers), inputs.samples},
                             batch);
-    });
+    };
+    return addEarlierBatches(passes, inputs, add, SumsBy::attachments, inputs.gbuffer.layers);
 }
 
-// Adds background, blended surfaces, resolve and shadow page marks to lit opaque surfaces.
+// Adds the solids apart, background, blended surfaces, resolve and shadow page marks to lit opaque surfaces.
 void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, ImageRef lit) {
+    addApart(passes, inputs, images, lit);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
     images.lit_samples = lit;
@@ -106,14 +171,15 @@ void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, I
     inputs.shadow.addMarks(passes, inputs, images.depth);
 }
 
-// Whether no opaque surface is in view: then the frame has no G-buffer and no lighting pass.
-bool hasNothingSolid(const FrameInputs& inputs) {
-    return inputs.draws.solids().empty();
+// Whether nothing in view is stored: then the frame has no G-buffer and no lighting pass.
+bool storesNothing(const FrameInputs& inputs) {
+    return inputs.draws.storedSolids().empty();
 }
 void addCleared(PassList& passes, const FrameInputs& inputs, FrameImages& images) {
     const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
     passes.draw("clear").color(lit, Load::clear).depth(images.depth, Load::clear).record([](VkCommandBuffer) {
     });
+    addDepthOfApart(passes, inputs, images);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     addRest(passes, inputs, images, lit);
 }
@@ -125,7 +191,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     addGeometryPasses(passes, inputs);
     inputs.shadow.addPasses(passes, inputs);
     images.depth = sceneDepth(passes, inputs);
-    if (hasNothingSolid(inputs)) {
+    if (storesNothing(inputs)) {
         addCleared(passes, inputs, images);
         return images;
     }
@@ -135,6 +201,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
         images.gbuffer[i] = sampledImage(passes, inputs, gbufferAttachmentNames[i], format);
     }
     addGBuffer(passes, inputs, images, false);
+    addDepthOfApart(passes, inputs, images);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     const FurtherGroups further = addGroups(passes, inputs, images);
     const FrameImages shaded = forLighting(images);
@@ -162,13 +229,13 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInputs& inputs,
                                               const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    const bool solid = !hasNothingSolid(inputs);
+    const bool stored = !storesNothing(inputs);
     // The frame's own G-buffer stores geometric normals only if shadows need them.
-    if (solid && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
-                     request.modes.end())
+    if (stored && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
+                      request.modes.end())
         addGBuffer(passes, inputs, frame, true);
     const FrameImages shaded = forLighting(frame);
-    const LightBatch last = solid ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
+    const LightBatch last = stored ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
     for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
@@ -177,12 +244,13 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
             images.push_back(image);
         Variant variant = lightingVariant(inputs);
         variant.set(gpu::FEATURE_captures, group.images);
-        if (solid)
+        if (stored)
             addDeferredLighting(passes, pass, inputs, shaded,
                                 {Shader::deferred_capture_frag, variant, group.formats, inputs.samples},
                                 last);
         else
             pass.record([](VkCommandBuffer) {});
+        addApartCapture(passes, inputs, frame, group, images);
         addTransparentCapture(passes, inputs, frame.depth, images);
     }
     return images;

@@ -2,6 +2,7 @@
 #include "forward_plus/forward_plus.h"
 
 #include "shared/draw/background.h"
+#include "shared/draw/forward_draws.h"
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 #include "shared/draw/resolve.h"
@@ -16,34 +17,10 @@ namespace diptych {
 
 namespace {
 
-// Descriptor set for the pre-pass depth. Null if fragments use their own depth: without a pre-pass, or if
-// both have the same bits.
-std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const FrameInputs& inputs,
-                                                  const FrameImages& images) {
-    // Under MSAA a fragment is shaded between its samples, where no depth is stored.
-    if (inputs.samples > 1 || !inputs.prepass) return nullptr;
-    if (!inputs.device.profile().fetches_depth && !inputs.depth.inSteps()) return nullptr;
-    return std::make_shared<const DescriptorSets>(gbufferSet(passes, inputs, images));
-}
-
-// Draws whose fragments are shaded.
 void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
                     const LightBatch& batch, const KeyOf& keyOf) {
-    const auto stored = storedDepth(passes, inputs, images);
-    if (stored) pass.samples(images.depth, inFragment);
-    batch.read(pass);
-    inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
-    readGeometry(passes, pass, inputs);
-    pass.takes(shadingMs(passes, inputs, batch));
-    pass.record(recordDraws(
-        inputs,
-        [&](const DrawItem& item) {
-            PipelineKey key = keyOf(item);
-            key.variant.set(gpu::FEATURE_stored_depth, stored != nullptr);
-            return key;
-        },
-        batch, stored));
+    addForwardDraws(pass, passes, inputs, images, {inputs.draws.solids(), inputs.prepass}, batch, keyOf);
 }
 
 }  // namespace
@@ -56,7 +33,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     if (inputs.prepass)
         readGeometry(passes, passes.draw("depth pre-pass"), inputs)
             .depth(images.depth, Load::clear)
-            .record(recordDraws(inputs, depthKey));
+            .record(recordDraws(inputs, inputs.draws.solids(), depthKey));
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     // Without a pre-pass the first shading pass writes depth.
     bool drawn = inputs.prepass;
@@ -74,7 +51,8 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
     };
     const LightBatch last = addEarlierBatches(
         passes, inputs,
-        [&](Pass& pass, const LightBatch& batch, const auto&) { addShading(pass, batch, forwardBatchKey); });
+        [&](Pass& pass, const LightBatch& batch, const auto&) { addShading(pass, batch, forwardBatchKey); },
+        SumsBy::attachments, inputs.layers);
     const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
     addShading(passes.draw("shade").color(lit, Load::clear), last, forwardKey);
     addBackground(passes, inputs, images.depth, lit);
@@ -93,13 +71,15 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
         const auto keyOf = [&](PipelineKey key) {
             return encoded ? throughGBuffer(std::move(key), inputs) : key;
         };
-        const LightBatch last =
-            addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
+        const LightBatch last = addEarlierBatches(
+            passes, inputs,
+            [&](Pass& pass, const LightBatch& batch, const auto&) {
                 pass.depthTest(frame.depth);
                 addShadedDraws(pass, passes, inputs, frame, batch, [&](const DrawItem& item) {
                     return keyOf(forwardBatchKey(inputs, item, batch));
                 });
-            });
+            },
+            SumsBy::attachments, inputs.layers);
         for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);

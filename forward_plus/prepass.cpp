@@ -72,7 +72,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
     PassList passes(inputs.device, std::max(1u, width / part), std::max(1u, height / part));
     const Queries queries(inputs.device);
     const ImageRef depth = sceneDepth(passes, inputs);
-    const auto draws = recordDraws(inputs, depthKey);
+    const auto draws = recordDraws(inputs, inputs.draws.solids(), depthKey);
     readGeometry(passes, passes.draw("count fragments"), inputs)
         .depth(depth, Load::clear)
         .record([&](VkCommandBuffer commands) {

@@ -32,6 +32,7 @@ constexpr std::size_t channelCount = channelModes.size();
 Settings litBy(Settings settings) {
     settings.path = Path::deferred;
     settings.gbuffer = GBufferEncoding::full;
+    settings.layers = Layers::gbuffer;
     if (settings.assign == Assignment::per_object) settings.assign = Assignment::every;
     settings.msaa = 1;
     return settings;

@@ -117,6 +117,13 @@ const Materials& SharedResources::materials(TexturePrecision precision) {
 
 namespace {
 
+// What the G-buffer stores and deferred lighting reads.
+Requirements storedNeeds(const Requirements& needs, const Settings& settings) {
+    Requirements stored = needs;
+    if (settings.layers == Layers::forward) stored.layers = 0;
+    return stored;
+}
+
 void checkAttachments(const Device& device, const GBufferLayout& gbuffer, const Settings& settings) {
     const auto needed =
         std::ranges::count_if(gbuffer.formats, [](VkFormat f) { return f != VK_FORMAT_UNDEFINED; });
@@ -137,7 +144,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       posed_materials(posedMaterials(device, shared, materials_at_rest, seen.pose)),
       materials(posed_materials ? *posed_materials : materials_at_rest),
       lights(lightsOf(scene, settings)),
-      draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency)),
+      draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency,
+                         settings.path == Path::deferred && settings.layers == Layers::forward)),
       culling(device, shared.pipelines, shared.layouts, shared.geometry, scene.pose, scene.view,
               settings.msaa, settings.cull, draws),
       posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),
@@ -152,7 +160,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
              {scene.pose, shared.geometry, materials, scene.view, draws, lights, scene.lights},
              buffers.sets(), settings),
       fragments(device, draws, settings),
-      gbuffer(gbufferLayout(settings.gbuffer, scene.needs, settings.msaa > 1)),
+      gbuffer(gbufferLayout(settings.gbuffer, storedNeeds(scene.needs, settings), settings.msaa > 1)),
       inputs{
           .device = device,
           .layouts = shared.layouts,
@@ -168,9 +176,10 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .frame_set = buffers.set(),
           .placeholders = buffers.placeholders(),
           .lists = buffers.lists(),
-          .variant = sceneVariant(scene.needs, lights, scene.view, gbuffer, settings),
+          .variant = sceneVariant(storedNeeds(scene.needs, settings), lights, scene.view, gbuffer, settings),
           .gbuffer = gbuffer,
           .lighting = settings.lighting,
+          .layers = scene.needs.layers,
           .depth = depthStorage(settings.depth_format),
           .lit_format = litFormatOf(settings.lit_format),
           .shadow = shadow,

@@ -21,10 +21,10 @@ bool hasPlace(const Light& light) {
 }
 
 // Properties of a scene: diffuse or specular surfaces, an environment, windowed spherical harmonics,
-// skinned or morphed vertices, blended materials, textured materials.
+// skinned or morphed vertices, blended materials, textured materials, layers.
 struct Reflectors {
     bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true,
-         textured = true;
+         textured = true, layered = true;
 };
 bool readsTextures(const Material& material) {
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
@@ -33,7 +33,7 @@ bool readsTextures(const Material& material) {
 }
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, scene->environment.has_value(), true, false, false, false};
+    Reflectors found{false, false, scene->environment.has_value(), true, false, false, false, false};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
@@ -43,6 +43,7 @@ Reflectors reflectorsOf(const Scene* scene) {
                                           : scene->materials[static_cast<std::size_t>(primitive.material)];
             found.blended = found.blended || blends(material);
             found.textured = found.textured || readsTextures(material);
+            found.layered = found.layered || layersOf(material) != 0;
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
             found.base = found.base || material.metallic < 1 || textured;
@@ -70,6 +71,7 @@ public:
         if (lights.empty()) reset("pixel-lights", "there is no light");
         if (!any([](const Light& light) { return isArea(light.kind); }))
             reset("area-lights", "there is no area light");
+        if (!surfaces.layered) reset("layers", "no material has a layer");
         if (!surfaces.textured) reset("textures", "no material reads a texture");
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");

@@ -11,8 +11,10 @@
 namespace diptych {
 namespace {
 
+// The costs are sums over the lobes of the base and of the clear coat, so they bound the coat's part too.
 bool isSpecular(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit_specular);
+    return mode.number == static_cast<int>(gpu::DEBUG_lit_specular) ||
+           mode.number == static_cast<int>(gpu::DEBUG_lit_clearcoat);
 }
 bool isDiffuse(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);

@@ -138,12 +138,14 @@ void add(DrawList& list, DrawItem item, const PlacedPrimitive& placed, const glm
 void sort(DrawList& list) {
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
         const auto key = [](const DrawItem& i) {
-            return std::tie(i.masked, i.distance, i.variant, i.range.material, i.range.first_index,
+            return std::tie(i.apart, i.masked, i.distance, i.variant, i.range.material, i.range.first_index,
                             i.mirrored);
         };
         return key(a) < key(b);
     });
     list.solid = list.items.size();
+    list.stored = static_cast<std::size_t>(
+        std::ranges::count_if(list.items, [](const DrawItem& item) { return !item.apart; }));
 }
 
 // Renumbers the draws in the order of the items: instances of one draw call need consecutive indices.
@@ -252,7 +254,7 @@ glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
 }
 
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view, Transparency transparency) {
+                      const View& view, Transparency transparency, bool layers_apart) {
     DrawList list;
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t blendedTriangles = 0;
@@ -272,6 +274,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
             continue;
         }
         DrawItem item = itemOf(placed, materials);
+        item.apart = layers_apart && !item.blended && item.variant.get(gpu::FEATURE_layers) != 0;
         item.triangle = triangle;
         item.instance = i;
         item.depths = viewDepths(fromCamera, -view.backward(), range);

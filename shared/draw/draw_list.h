@@ -50,6 +50,7 @@ struct DrawItem {
     bool mirrored = false;                  // the transform reverses the winding of front faces
     bool masked = false;
     bool blended = false;
+    bool apart = false;  // the deferred path draws it after lighting
     Sides sides = Sides::of_material;
     int distance = 0;  // of the farthest corner, quantized; a sort key
     ViewDepths depths;
@@ -62,6 +63,7 @@ struct DrawList {
     std::vector<gpu::Draw> draws;
     std::vector<DrawItem> items;  // blended ones come last
     std::size_t solid = 0;        // number of items that are not blended
+    std::size_t stored = 0;       // number of those before the ones that are drawn apart
     std::vector<IndexRange> runs;
     // Transparency::triangles: blended triangles, sorted; else empty.
     std::vector<std::uint32_t> sorted_indices;
@@ -69,6 +71,9 @@ struct DrawList {
     std::uint32_t culled = 0;     // number of culled instances
     std::uint64_t triangles = 0;  // triangles in view; in a caster list, drawn triangles
     std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
+    // The solids that the deferred path's G-buffer stores, and those that it draws after lighting.
+    std::span<const DrawItem> storedSolids() const { return std::span(items).first(stored); }
+    std::span<const DrawItem> apartSolids() const { return solids().subspan(stored); }
     std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
 };
 
@@ -91,8 +96,10 @@ glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
 //  - list: near to far, which saves work in the fragment lists
 //  - off: none
 //  - others: in scene order
+// `layers_apart`: solids whose materials have layers come after all others.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view, Transparency transparency = Transparency::sorted);
+                      const View& view, Transparency transparency = Transparency::sorted,
+                      bool layers_apart = false);
 
 // A box in a clip space where w is 1 everywhere.
 struct ClipBox {

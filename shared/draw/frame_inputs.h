@@ -38,6 +38,7 @@ struct FrameInputs {
     Variant variant;  // features of scene and view: light types, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
     Lighting lighting = Lighting::fragment;  // deferred path
+    gpu::uint layers = 0;                    // LAYER_* of the scene, wherever they are drawn
     DepthStorage depth{};
     VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // format of the image's radiance
     ShadowMaps& shadow;

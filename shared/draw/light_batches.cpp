@@ -26,14 +26,14 @@ std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, cons
 
 namespace {
 
-bool isCoated(const FrameInputs& inputs) {
-    return (inputs.variant.get(gpu::FEATURE_layers) & gpu::LAYER_CLEARCOAT) != 0;
+bool isCoated(gpu::uint layers) {
+    return (layers & gpu::LAYER_CLEARCOAT) != 0;
 }
 
 }  // namespace
 
-std::vector<VkFormat> partialSumFormats(const FrameInputs& inputs) {
-    return std::vector<VkFormat>(isCoated(inputs) ? 3 : 2, litFormat);
+std::vector<VkFormat> partialSumFormats(gpu::uint layers) {
+    return std::vector<VkFormat>(isCoated(layers) ? 3 : 2, litFormat);
 }
 
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
@@ -50,7 +50,8 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
     return pixels * (costs.surface + costs.light * lights * std::max(1.0, each)) * 1e-6;
 }
 
-LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn) {
+LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn,
+                             gpu::uint layers) {
     const gpu::uint entries = inputs.longest_list, most = inputs.device.profile().list_entries_per_draw;
     if (entries <= most) return {};
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
@@ -64,7 +65,7 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
                                  .life = Life::transient});
         };
         PartialSumImages images{sum("partial diffuse sum"), sum("partial specular sum")};
-        if (!stored && isCoated(inputs)) images[2] = sum("partial clear coat sum");
+        if (!stored && isCoated(layers)) images[2] = sum("partial clear coat sum");
         Pass& pass = stored ? passes.compute(name) : passes.draw(name);
         if (!stored)
             for (const ImageRef image : images)

@@ -36,15 +36,15 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
 // sum. Lists of up to DeviceProfile::list_entries_per_draw entries are one batch, BATCH_WHOLE, without an
 // extra draw. `add` declares what the pass reads, including depth and the earlier sums, and records the draw
 // of one batch, which writes attachments of partialSumFormats(). With SumsBy::storage it is a dispatch, which
-// stores to the first two images and declares them.
+// stores to the first two images and declares them. `layers`: LAYER_* of the surfaces that are drawn.
 enum class SumsBy { attachments, storage };
 using AddBatch = std::function<void(Pass&, const LightBatch&, const PartialSumImages& sums)>;
-LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add,
-                             SumsBy drawn = SumsBy::attachments);
+LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn,
+                             gpu::uint layers);
 
 // SET_PARTIAL_SUMS of these images, written when the pass is prepared.
 std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, const FrameInputs& inputs,
                                               const PartialSumImages& images);
-std::vector<VkFormat> partialSumFormats(const FrameInputs& inputs);
+std::vector<VkFormat> partialSumFormats(gpu::uint layers);
 
 }  // namespace diptych

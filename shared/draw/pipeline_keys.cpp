@@ -72,8 +72,8 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_light_batch_frag;
-    key.colors = partialSumFormats(inputs);
-    key.variant.set(gpu::FEATURE_gbuffer_layers, inputs.variant.get(gpu::FEATURE_gbuffer_layers));
+    key.colors = partialSumFormats(inputs.layers);
+    key.variant.set(gpu::FEATURE_gbuffer_layers, inputs.layers);
     return key;
 }
 
@@ -88,6 +88,9 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
 }
 
 PipelineKey throughGBuffer(PipelineKey key, const FrameInputs& inputs) {
+    // The deferred path does not store these either.
+    const bool stored = inputs.variant.get(gpu::FEATURE_gbuffer_layers) == inputs.layers;
+    if (!stored && key.variant.get(gpu::FEATURE_layers) != 0) return key;
     key.variant.take(inputs.variant, featuresSetBy(FeatureSource::gbuffer));
     key.variant.set(gpu::FEATURE_encoded_surface);
     return key;

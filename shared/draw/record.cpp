@@ -272,14 +272,14 @@ void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const Dra
 
 }  // namespace
 
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
-                                                 const LightBatch& batch,
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, std::span<const DrawItem> items,
+                                                 const KeyOf& keyOf, const LightBatch& batch,
                                                  std::shared_ptr<const DescriptorSets> gbuffer) {
-    return [&inputs, batch, gbuffer = std::move(gbuffer),
-            pipelines = pipelinesOf(inputs, inputs.draws.solids(), keyOf, true)](VkCommandBuffer commands) {
+    return [&inputs, items, batch, gbuffer = std::move(gbuffer),
+            pipelines = pipelinesOf(inputs, items, keyOf, true)](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, gbuffer.get());
-        recordItems(commands, inputs, {inputs.draws.solids(), inputs.draws.runs, inputs.draw_buffer, true},
-                    pipelines, [&](const DrawItem& item) {
+        recordItems(commands, inputs, {items, inputs.draws.runs, inputs.draw_buffer, true}, pipelines,
+                    [&](const DrawItem& item) {
                         gpu::DrawConstants constants = constantsOf(inputs, item);
                         constants.light_first = batch.first;
                         constants.light_end = batch.end;

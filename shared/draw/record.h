@@ -10,12 +10,12 @@
 
 namespace diptych {
 
-// Records the draws of all opaque items in list order, each with the pipeline of its key. Missing
-// pipelines are compiled at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read stored depth.
-// `inputs` must outlive the returned function.
+// Records the draws of opaque items, a part of DrawList::solids(), in list order, each with the pipeline of
+// its key. Missing pipelines are compiled at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read
+// stored depth. `inputs` must outlive the returned function.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
-std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, const KeyOf& keyOf,
-                                                 const LightBatch& batch = {},
+std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, std::span<const DrawItem> items,
+                                                 const KeyOf& keyOf, const LightBatch& batch = {},
                                                  std::shared_ptr<const DescriptorSets> gbuffer = {});
 // The same for blended items. `gbuffer`: SET_GBUFFER of shaders that read TRANSPARENCY_BINDINGS.
 std::function<void(VkCommandBuffer)> recordBlended(const FrameInputs& inputs, const KeyOf& keyOf,

@@ -165,6 +165,13 @@ template <>
 inline constexpr auto enum_names<Lighting> =
     std::to_array<EnumName<Lighting>>({{Lighting::fragment, "fragment"}, {Lighting::compute, "compute"}});
 
+// How the deferred path draws materials with layers: into the G-buffer, or by the forward shader after
+// deferred lighting.
+enum class Layers { gbuffer, forward };
+template <>
+inline constexpr auto enum_names<Layers> =
+    std::to_array<EnumName<Layers>>({{Layers::gbuffer, "gbuffer"}, {Layers::forward, "forward"}});
+
 enum class ShadingPrecision { fp32, fp16 };
 template <>
 inline constexpr auto enum_names<ShadingPrecision> = std::to_array<EnumName<ShadingPrecision>>(

@@ -23,6 +23,7 @@ struct Settings {
     bool cull = true;
     GBufferEncoding gbuffer = GBufferEncoding::standard;
     Lighting lighting = Lighting::fragment;
+    Layers layers = Layers::gbuffer;
     DepthFormat depth_format = DepthFormat::d32f;
     LitFormat lit_format = LitFormat::fp32;
     ShadingPrecision shading_precision = ShadingPrecision::fp32;

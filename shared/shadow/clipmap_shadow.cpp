@@ -90,7 +90,7 @@ void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
     const ImageRef depth = sceneDepth(passes, inputs);
     readGeometry(passes, passes.draw("depth of shadow pages"), inputs)
         .depth(depth, Load::clear)
-        .record(recordDraws(inputs, depthKey));
+        .record(recordDraws(inputs, inputs.draws.solids(), depthKey));
     addMarkPasses(passes, inputs, depth, OF_PREPARING);
     passes.run();
     std::vector<gpu::uint> marks = readMarks();

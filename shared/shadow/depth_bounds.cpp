@@ -55,7 +55,7 @@ void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
                     seen = passes.buffer("depth bounds, read back", seen_);
     readGeometry(passes, passes.draw(name), inputs)
         .depth(depth, Load::clear)
-        .record(recordDraws(inputs, depthKey));
+        .record(recordDraws(inputs, inputs.draws.solids(), depthKey));
     passes.copy(name).uses(bounds, access::transferWrite).record([this](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, bounds_.handle(), offsetof(gpu::DepthBounds, deepest), 4,
                         gpu::DEEPEST_OF_NOTHING);

@@ -73,6 +73,42 @@ TEST(Layers, PackedPassesByItsBits) {
     }
 }
 
+// Surfaces with layers that the forward shader draws after deferred lighting equal forward+'s, whatever the
+// G-buffer's encoding; the others are decoded as ever.
+TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
+    Scene scene = litByAll();
+    for (std::size_t i = 0; i < scene.materials.size(); i += 3)
+        scene.materials[i].clearcoat = scene.materials[i].anisotropy = 0;
+    const Requirements needs = requirements(scene, poseAt(scene, 0));
+    Renderer renderer(device(), scene, pipelines());
+    std::vector<Settings> all = settingsOfLayers();
+    all.push_back(inAllLight(GBufferEncoding::full));
+    all.back().assign = Assignment::clustered;
+    for (Settings& settings : all) {
+        settings.layers = Layers::forward;
+        const std::vector<Frame> full = bothPaths(renderer, settings);
+        expectSameChannels(full[0], full[1], 30);
+        EXPECT_EQ(full[0].counters.unreproduced_pixels, 0u);
+        settings.gbuffer = GBufferEncoding::compact;
+        const std::vector<Frame> packed = bothPaths(renderer, settings);
+        std::size_t layered = 0, differing = 0;
+        const Image &ids = packed[0].channels.at(8), &deferred = packed[0].channels.at(lit),
+                    &forward = packed[1].channels.at(lit);
+        for (std::size_t i = 0; i < ids.pixels(); ++i) {
+            if (ids.data[i] < 0 || layersOf(scene.materials[static_cast<std::size_t>(ids.data[i])]) == 0)
+                continue;
+            ++layered;
+            differing += !std::equal(deferred.pixel(i), deferred.pixel(i) + 3, forward.pixel(i));
+        }
+        EXPECT_GT(layered, 1000u);
+        if (settings.msaa == 1) EXPECT_EQ(differing, 0u);
+        const Report report = makeReport(
+            packed, {needs, needs}, {device().info().name, device().info().driver, device().info().type}, {});
+        for (const ChannelDiff& channel : report.comparisons[0].channels)
+            EXPECT_NE(channel.verdict, Verdict::fail) << channel.mode->name << ": " << channel.reason;
+    }
+}
+
 // The same balls in the same scene, which has layers elsewhere.
 TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
     Scene plain = litByAll(), zero = plain;

@@ -30,6 +30,7 @@ Settings everythingChanged() {
     s.cull = false;
     s.gbuffer = GBufferEncoding::full;
     s.lighting = Lighting::compute;
+    s.layers = Layers::forward;
     s.depth_format = DepthFormat::d16;
     s.lit_format = LitFormat::b10g11r11;
     s.shading_precision = ShadingPrecision::fp16;
@@ -386,6 +387,7 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"gbuffer", "compact"},
         {"gbuffer", "full"},
         {"lighting", "compute"},
+        {"layers", "forward"},
         {"size", "1x1"},
         {"size", "16384x1"},
         {"camera", "0"},
