@@ -52,6 +52,8 @@ private:
     glm::dvec4 baseColor(const Hit& hit, const PixelRay* ray) const;
     // Fills the normal, and the tangent frame and tangent-space normal of a normal map.
     void shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    // Fills the dielectric layer, and the base colour and roughness of specular-glossiness.
+    void reflect(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;
     const std::vector<Material>& materials_;

@@ -29,7 +29,7 @@
     X(11, double_sided,               item,    PASSES_SURFACE)                                              \
     /* the scene emits light */                                                                             \
     X(12, emission,                   frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
-    /* KHR_materials_specular, _ior, _unlit in the scene */                                                 \
+    /* KHR_materials_specular, _ior, _pbrSpecularGlossiness, _unlit in the scene */                         \
     X(13, dielectric_specular,        frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     X(14, directional_lights,         frame,   PASSES_SHADE)    /* the scene has some */                    \
     X(15, point_lights,               frame,   PASSES_SHADE)                                                \
@@ -113,7 +113,9 @@
     X(59, smooth_cones,               frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     X(60, squared_window,             frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     /* read lights and lists by address: they exceed the device's largest texel buffer */                   \
-    X(61, addressed_lights,           frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)
+    X(61, addressed_lights,           frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)                 \
+    /* KHR_materials_pbrSpecularGlossiness (material.h) */                                                  \
+    X(62, specular_glossiness,        item,    PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -124,6 +124,8 @@ enum class AnimatedPart {
     specular,
     specular_color,
     transmission,
+    specular_f0,  // KHR_materials_pbrSpecularGlossiness: specularFactor
+    glossiness,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale
