@@ -64,7 +64,7 @@ void addLitOf(PassList& passes, const FrameInputs& inputs, const FrameImages& fr
                      .samples(stored, inFragment)
                      .samples(frame.depth, inFragment)
                      .depthTest(frame.depth);
-    const std::array<ImageRef, 2> images{stored, stored};
+    const PartialSumImages images{stored, stored};
     LightBatch read{.images = images, .sums = partialSumSet(passes, pass, inputs, images)};
     const VkPipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
@@ -84,9 +84,9 @@ void addComputeLighting(PassList& passes, const FrameInputs& inputs, const Frame
                         gpu::uint groups, ImageRef lit) {
     const LightBatch last = addEarlierBatches(
         passes, inputs,
-        [&](Pass& pass, const LightBatch& batch, const std::array<ImageRef, 2>& sums) {
+        [&](Pass& pass, const LightBatch& batch, const PartialSumImages& sums) {
             addDispatch(passes, pass, inputs, frame, batch,
-                        {.shader = Shader::deferred_light_batch_comp, .targets = sums});
+                        {.shader = Shader::deferred_light_batch_comp, .targets = {sums[0], sums[1]}});
         },
         SumsBy::storage);
     const bool stored = inputs.lit_format == litFormat, several = frame.groups.valid();

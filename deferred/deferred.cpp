@@ -91,10 +91,8 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
 LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const FrameImages& frame) {
     return addEarlierBatches(passes, inputs, [&](Pass& pass, const LightBatch& batch, const auto&) {
         addDeferredLighting(passes, pass, inputs, frame,
-                            {Shader::deferred_light_batch_frag,
-                             lightingVariant(inputs),
-                             {litFormat, litFormat},
-                             inputs.samples},
+                            {Shader::deferred_light_batch_frag, lightingVariant(inputs),
+                             partialSumFormats(inputs), inputs.samples},
                             batch);
     });
 }

@@ -8,6 +8,7 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/model/material_slots.h"
 
 #include <fmt/format.h>
 
@@ -88,12 +89,9 @@ bool isNearBlended(const Image& blended, std::size_t pixel) {
 
 // Keeps only the properties of a material that decide where its surface is visible.
 void leaveShape(Material& material) {
-    for (TextureSlot* slot :
-         {&material.metallic_roughness_texture, &material.normal_texture, &material.occlusion_texture,
-          &material.emissive_texture, &material.specular_texture, &material.specular_color_texture,
-          &material.lightmap_texture})
-        *slot = {};
-    if (material.alpha_mode == AlphaMode::opaque) material.base_color_texture = {};
+    const TextureSlot color = material.base_color_texture;
+    for (const MaterialSlot& slot : materialSlots) material.*slot.texture = {};
+    if (material.alpha_mode != AlphaMode::opaque) material.base_color_texture = color;
 }
 
 RenderOptions drawing(std::vector<int> channels) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/relations.h"
 
+#include "shared/scene/model/material_slots.h"
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -61,11 +63,7 @@ void mirror(Related& related, const Subject&) {
     related.own_base = true;
     for (Case* of : {&related.base, &related.changed})
         for (Material& material : of->scene.materials)
-            for (TextureSlot* slot :
-                 {&material.base_color_texture, &material.metallic_roughness_texture,
-                  &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
-                  &material.specular_texture, &material.specular_color_texture, &material.lightmap_texture})
-                *slot = {};
+            for (const MaterialSlot& slot : materialSlots) material.*slot.texture = {};
     const glm::dmat3 mirrored({-1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     placeAll(related.changed, glm::dmat4(mirrored));
     related.map.turn = mirrored;

@@ -7,6 +7,7 @@
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
 
@@ -54,10 +55,7 @@ RenderOptions drawingRelated(bool packed = false) {
 
 bool hasTexture(const Material& material) {
     return std::ranges::any_of(
-        std::array{&material.base_color_texture, &material.metallic_roughness_texture,
-                   &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
-                   &material.specular_texture, &material.specular_color_texture, &material.lightmap_texture},
-        [](const TextureSlot* slot) { return slot->texture >= 0; });
+        materialSlots, [&](const MaterialSlot& slot) { return (material.*slot.texture).texture >= 0; });
 }
 
 bool anyBlends(const Scene& scene) {
@@ -70,11 +68,12 @@ std::map<int, double> packedBounds(const Settings& settings) {
     if (settings.path != Path::deferred) return {};
     Requirements needs;
     needs.emission = true;
+    needs.layers = gpu::LAYER_CLEARCOAT;
     std::map<int, double> bounds;
     for (const int mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))
-            bounds[mode] = field->code == StoredField::Code::octahedral ? glm::radians(field->largestBound())
-                                                                        : field->largestBound();
+            bounds[mode] =
+                isAngle(debugMode(mode).metric) ? glm::radians(field->largestBound()) : field->largestBound();
     return bounds;
 }
 

@@ -26,12 +26,21 @@ constexpr auto lightMode = static_cast<int>(gpu::DEBUG_lit),
                viewDepth = static_cast<int>(gpu::DEBUG_depth),
                facet = static_cast<int>(gpu::DEBUG_geometric_normal);
 constexpr auto normalMode = static_cast<int>(gpu::DEBUG_normals),
-               roughnessMode = static_cast<int>(gpu::DEBUG_roughness);
+               roughnessMode = static_cast<int>(gpu::DEBUG_roughness),
+               coatNormalMode = static_cast<int>(gpu::DEBUG_clearcoat_normal),
+               coatRoughnessMode = static_cast<int>(gpu::DEBUG_clearcoat_roughness);
 constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any pixel
-constexpr std::array compared{
-    lightMode,     static_cast<int>(gpu::DEBUG_albedo),   normalMode, static_cast<int>(gpu::DEBUG_metallic),
-    roughnessMode, static_cast<int>(gpu::DEBUG_emission), idMode,     viewDepth,
-    facet};
+constexpr std::array compared{lightMode,
+                              static_cast<int>(gpu::DEBUG_albedo),
+                              normalMode,
+                              static_cast<int>(gpu::DEBUG_metallic),
+                              roughnessMode,
+                              static_cast<int>(gpu::DEBUG_emission),
+                              idMode,
+                              viewDepth,
+                              facet,
+                              coatNormalMode,
+                              coatRoughnessMode};
 
 // Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
 // steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
@@ -99,7 +108,7 @@ public:
         if (tolerance_.equality == Equality::rounding) findFiltered(result);
         double most = -1;
         for (const int mode : compared) {
-            if (!given_.channels.contains(mode) || !changed_.channels.contains(mode)) continue;
+            if (!isKnown(mode)) continue;
             Image used;
             result.channels.push_back(channel(mode, used));
             const ChannelResult& of = result.channels.back();
@@ -114,6 +123,11 @@ public:
 private:
     const Image& given(int mode) const { return given_.channels.at(mode); }
     const Image& changed(int mode) const { return changed_.channels.at(mode); }
+
+    // Scenes without clear coats lack their channels.
+    bool isKnown(int mode) const {
+        return given_.channels.contains(mode) && changed_.channels.contains(mode);
+    }
 
     // Largest change of a channel, in either image, to neighbouring pixels of the same material, or to all
     // if none has it.
@@ -140,17 +154,22 @@ private:
                tolerance_.textured[static_cast<std::size_t>(id)];
     }
 
-    // Difference of shading normals, radians, beyond the packing error; normals are compared separately.
-    double normalApart(std::size_t pixel) const {
-        const auto packed = tolerance_.packed.find(normalMode);
-        return std::max(0.0, apart(given(normalMode).pixel(pixel), changed(normalMode).pixel(pixel), 3) -
+    // Difference of normals of a lobe, radians, beyond the packing error; normals are compared separately.
+    double normalApart(int mode, std::size_t pixel) const {
+        const auto packed = tolerance_.packed.find(mode);
+        return std::max(0.0, apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), 3) -
                                  (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
-    // Largest relative change of light per radian. ln D of GGX changes by 2 / alpha if the half vector is
-    // alpha away; cosines, Smith's and Fresnel's factors by some 4.
-    double lightPerNormal(std::size_t pixel) const {
-        const double roughness = given(roughnessMode).data[pixel];
-        return 2 / std::max(roughness * roughness, leastAlpha) + 4;
+    // Largest relative change of a lobe's light by the change of its normal. Per radian ln D of GGX changes
+    // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
+    double lightByNormal(int normals, int roughnesses, std::size_t pixel) const {
+        const double roughness = given(roughnesses).data[pixel];
+        return (2 / std::max(roughness * roughness, leastAlpha) + 4) * normalApart(normals, pixel);
+    }
+    double lightByNormals(std::size_t pixel) const {
+        const bool coated = isKnown(coatNormalMode) && isKnown(coatRoughnessMode);
+        return lightByNormal(normalMode, roughnessMode, pixel) +
+               (coated ? lightByNormal(coatNormalMode, coatRoughnessMode, pixel) : 0);
     }
 
     // Tolerance of `rounding` for the largest component, without steps of a texture filter.
@@ -166,7 +185,7 @@ private:
         if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
         if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
             allowed += 2 * packed->second * (mode == static_cast<int>(gpu::DEBUG_emission) ? size : 1);
-        if (mode == lightMode) allowed += size * lightPerNormal(pixel) * normalApart(pixel);
+        if (mode == lightMode) allowed += size * lightByNormals(pixel);
         if (mode == lightMode && tolerance_.packed_light)
             allowed += double{tolerance_.packed_light->data[pixel]};
         return allowed;
@@ -227,7 +246,7 @@ private:
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (given(viewDepth).data[i] != changed(viewDepth).data[i]) continue;
             aside_[i] = std::ranges::any_of(compared, [&](int mode) {
-                return mode != lightMode &&
+                return mode != lightMode && isKnown(mode) &&
                        apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
             });
             result.aside += aside_[i];
@@ -242,7 +261,7 @@ private:
             ++textured;
             filtered_[i] = std::ranges::any_of(compared, [&](int mode) {
                 return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
-                       !isFilteredAlike(mode, i);
+                       isKnown(mode) && !isFilteredAlike(mode, i);
             });
             result.filtered += filtered_[i];
         }
@@ -262,7 +281,7 @@ private:
         if (tolerance_.equality == Equality::rounding) {
             allowed = allowedByRounding(mode, pixel);
             if (isTextured(pixel))
-                allowed += tolerance_.filter_step * (mode == normalMode ? 2 : 1) *
+                allowed += tolerance_.filter_step * (mode == normalMode || mode == coatNormalMode ? 2 : 1) *
                            std::max({1.0, largest(p, a.components), largest(q, a.components)});
             return apart(p, q, a.components);
         }
@@ -375,7 +394,7 @@ Frame mappedBack(const Frame& changed, const PictureMap& map) {
         Image image = cut(found->second, map);
         if (mode == lightMode || mode == static_cast<int>(gpu::DEBUG_emission)) divide(image, map.light);
         if (mode == viewDepth) divide(image, map.length);
-        if (mode == normalMode || mode == facet)
+        if (mode == normalMode || mode == facet || mode == coatNormalMode)
             if (map.turn != glm::dmat3(1)) turnBack(image, glm::transpose(map.turn));
         if (mode == idMode && !map.ids.empty())
             for (float& id : image.data)

@@ -3,6 +3,7 @@
 
 #include "compare/files/gltf_file.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/text/json_text.h"
 
@@ -23,6 +24,7 @@ std::optional<Case> flattened(const Case& whole) {
     flat.exposure = whole.exposure;
     flat.settings.time = 0;
     flat.settings.animation.clear();
+    flat.settings.variant.clear();
     flat.settings.camera = "0";
     flat.settings.env = Settings().env;
     flat.settings.env_sun = false;
@@ -33,11 +35,7 @@ std::optional<Case> flattened(const Case& whole) {
     scene.cameras = {whole.camera()};
     scene.materials = pose.materials.empty() ? whole.scene.materials : pose.materials;
     for (Material& material : scene.materials)
-        for (TextureSlot* slot :
-             {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-              &material.occlusion_texture, &material.emissive_texture, &material.specular_texture,
-              &material.specular_color_texture, &material.lightmap_texture})
-            *slot = {};
+        for (const MaterialSlot& slot : materialSlots) material.*slot.texture = {};
     for (const Instance& instance : pose.instances) {
         if (instance.deformed()) return {};
         Primitive primitive = primitiveOf(whole.scene, instance);
@@ -94,6 +92,8 @@ GltfFile writtenScene(const Case& flat) {
         }
         Json attributes{{"POSITION", file.addPositions(used.positions)},
                         {"NORMAL", file.add(used.normals, "VEC3", 5126)}};
+        if (flat.scene.materials[static_cast<std::size_t>(primitive.material)].anisotropy > 0)
+            attributes["TANGENT"] = file.add(used.tangents, "VEC4", 5126);
         if (!used.colors.empty()) attributes["COLOR_0"] = file.add(used.colors, "VEC4", 5126);
         gltf["meshes"].push_back(
             {{"primitives", Json::array({{{"attributes", attributes},

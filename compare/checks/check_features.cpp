@@ -21,8 +21,9 @@ namespace diptych {
 namespace {
 
 constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour", "metallic-roughness", "normal",          "occlusion",
-    "emission",    "specular",           "specular colour", "lightmap"};
+    "base colour",       "metallic-roughness", "normal",   "occlusion",  "emission",
+    "specular",          "specular colour",    "lightmap", "clear coat", "clear coat roughness",
+    "clear coat normal", "anisotropy"};
 
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
@@ -172,7 +173,9 @@ CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materi
         add(CheckFeature::deep_image, isDeep(scene, slot));
     });
     add(CheckFeature::orientation, readsSlot(m, gpu::SLOT_base_color) || readsSlot(m, gpu::SLOT_emissive));
-    add(CheckFeature::normal_map, readsSlot(m, gpu::SLOT_normal));
+    add(CheckFeature::normal_map, readsSlot(m, gpu::SLOT_normal) || readsSlot(m, gpu::SLOT_clearcoat_normal));
+    add(CheckFeature::clearcoat, !m.unlit && m.clearcoat > 0);
+    add(CheckFeature::anisotropy, !m.unlit && m.anisotropy > 0);
     add(CheckFeature::vertex_colors,
         std::ranges::any_of(primitive.colors, [](const glm::vec4& c) { return c != glm::vec4(1); }));
     add(CheckFeature::alpha_mask, m.alpha_mode == AlphaMode::mask);
@@ -258,6 +261,12 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
                 "Bumps rise out of the surface and are lit from the same side as the flat parts beside them "
                 "({}).",
                 primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
+        case CheckFeature::clearcoat:
+            return "A clear coat reflects over it: its highlight lies on that of the base and follows the "
+                   "coat's own normals and roughness.";
+        case CheckFeature::anisotropy:
+            return fmt::format("Highlights are stretched along the surface, as on brushed metal ({}).",
+                               primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
         case CheckFeature::vertex_colors:
             return "Vertex colours tint it: gradients are smooth; ticks stand out, crosses do not.";
         case CheckFeature::alpha_mask:

@@ -19,6 +19,8 @@ namespace diptych {
     X(second_texcoord, "second UV set")           \
     X(sampler, "samplers")                        \
     X(normal_map, "normal maps")                  \
+    X(clearcoat, "clear coats")                   \
+    X(anisotropy, "anisotropy")                   \
     X(vertex_colors, "vertex colours")            \
     X(alpha_mask, "alpha masks")                  \
     X(blend, "blending")                          \

@@ -25,6 +25,8 @@ struct ScenePlan {
     Requirements needs;
     std::vector<Requirements::Line> lines;
     std::vector<std::string> notes;  // deviations from the glTF file
+    std::vector<std::string> variants;
+    int variant = -1;  // the drawn one; -1: none
     std::vector<PathPlan> paths;
     std::vector<FrameWork> work;         // with --estimate
     std::vector<CompiledPath> compiled;  // with --compile-on
@@ -80,6 +82,17 @@ void print(const ScenePlan& plan, const FrameWork& work) {
         printOut("    estimate, {}\n", bench::inWords(estimate));
 }
 
+bool isDrawn(const ScenePlan& plan, std::size_t variant) {
+    return static_cast<int>(variant) == plan.variant;
+}
+
+Json variantsJson(const ScenePlan& plan) {
+    Json variants = Json::array();
+    for (std::size_t i = 0; i < plan.variants.size(); ++i)
+        variants.push_back({{"name", plan.variants[i]}, {"drawn", isDrawn(plan, i)}});
+    return variants;
+}
+
 Json jsonOf(const ScenePlan& plan) {
     Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
     for (const auto& line : plan.lines)
@@ -114,6 +127,7 @@ Json jsonOf(const ScenePlan& plan) {
               {"modelled", modelled},
               {"left_out", leftOut},
               {"notes", plan.notes},
+              {"variants", variantsJson(plan)},
               {"paths", paths},
               {"work", work}};
     if (plan.compiler != nullptr) json["compiled"] = compiledJson(plan.compiled, *plan.compiler);
@@ -140,6 +154,12 @@ void print(const ScenePlan& plan) {
         for (const auto& line : plan.lines)
             if (line.modelled == modelled) printOut("    {:<26} {}\n", line.what, line.why);
     }
+    if (!plan.variants.empty())
+        printOut("  material variants{}\n",
+                 plan.variant < 0 ? "; none is drawn: primitives have their own materials" : "");
+    for (std::size_t i = 0; i < plan.variants.size(); ++i)
+        printOut("    {:<26} {}\n", fmt::format("{} {}", i, plan.variants[i]),
+                 isDrawn(plan, i) ? "drawn" : fmt::format("--variant {} draws it", i));
     for (const PathPlan& path : plan.paths) {
         printOut("  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
                  path.shared_bytes_per_pixel > 0
@@ -181,6 +201,8 @@ int runPlan(const Options& options) {
             view.needs,
             planLines(view, settings.front()),
             describedFrame(scene, view, settings.front()).notes,
+            scene.variants,
+            scene.variant,
             planPaths(device, views, settings),
             options.estimate ? countWork(device, views, settings) : std::vector<FrameWork>{},
             compiler ? compilePaths(device, *compiler, views, settings) : std::vector<CompiledPath>{},

@@ -172,7 +172,7 @@ int runView(const Options& given) {
     if (std::filesystem::is_directory(view.subject.scene))
         throw std::runtime_error(fmt::format(
             "{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene));
-    checkScene(view.subject.scene);
+    checkScene(view.subject.scene, view.subject.settings.variant);
     say(options, "on " + Device(deviceOptions(options)).info().name);
     view.watch = options.view.watch;
     view.out = options.out;

@@ -91,6 +91,7 @@ PictureChoice pictureChoice(const Options& options) {
 RenderOptions renderOptions(const Options& options) {
     RenderOptions render;
     render.channels = options.channels;
+    render.named = !options.channels.empty();
     if (render.channels.empty())
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
     render.requested = render.channels;

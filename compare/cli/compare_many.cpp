@@ -126,7 +126,8 @@ private:
     // Detects unreadable scenes before the long rendering starts.
     void checkHeaders() {
         for (const shards::Item* item : items_.mine)
-            if (!parts_.contains(item)) attempt(item, [&] { checkScene(item->scene); });
+            if (!parts_.contains(item))
+                attempt(item, [&] { checkScene(item->scene, options_.settings.variant); });
     }
 
     void compareAll() {

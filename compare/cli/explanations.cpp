@@ -41,8 +41,11 @@ struct Drawing {
     Renderer renderer;
 };
 
-bool hasAll(const Frame& frame, const std::vector<int>& channels) {
-    return std::ranges::all_of(channels, [&](int mode) { return frame.channels.contains(mode); });
+// `layers`: those of the scene (Requirements::layers); the channels of others are not needed.
+bool hasAll(const Frame& frame, const std::vector<int>& channels, std::uint32_t layers) {
+    return std::ranges::all_of(channels, [&](int mode) {
+        return frame.channels.contains(mode) || (layerOf(mode) != 0 && (layers & layerOf(mode)) == 0);
+    });
 }
 
 // Another renderer's file declares no lighting Settings: assume ours.
@@ -118,7 +121,8 @@ Explained explained(const Options& options, Device& device, Drawing& drawing, co
     RenderOptions render = renderOptions(options);
     render.channels = channels;
     render.runs = 0;
-    if ((!external && !hasAll(right, channels)) || (!file && !hasAll(left, channels))) {
+    const std::uint32_t layers = drawing.views.at(viewRequest((file ? right : left).settings)).needs.layers;
+    if ((!external && !hasAll(right, channels, layers)) || (!file && !hasAll(left, channels, layers))) {
         if (!file) again[0] = drawing.renderer.draw(left.settings, render);
         if (!external) again[1] = drawing.renderer.draw(right.settings, render);
     }

@@ -3,6 +3,7 @@
 
 #include "compare/explain/frame_images.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/frame/debug_modes.h"
 
 #include <algorithm>
 
@@ -22,6 +23,16 @@ constexpr std::string_view carried[] = {
     "alpha-to-coverage", "spp", "reference-mode"};
 // clang-format on
 
+// A channel of a layer that neither Frame has is 0 in both.
+bool isSame(const Frame& baseline, const Frame& test, int mode) {
+    if (layerOf(mode) != 0) {
+        const bool known = baseline.channels.contains(mode);
+        if (known != test.channels.contains(mode)) return false;
+        if (!known) return true;
+    }
+    return sameBits(channelOf(baseline, mode), channelOf(test, mode));
+}
+
 }  // namespace
 
 std::span<const std::string_view> settingsInChannels() {
@@ -32,7 +43,7 @@ ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Frame
     : renderer_(renderer), frames_{&baseline, &test}, images_(device, baseline.settings.size) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
         const int mode = surfaceChannels()[c];
-        const auto same = [&](int of) { return sameBits(channelOf(baseline, of), channelOf(test, of)); };
+        const auto same = [&](int of) { return isSame(baseline, test, of); };
         const bool alike = same(mode) && (mode != lightmapMode || same(lightmappedMode));
         for (std::size_t side = 0; side < (alike ? 1u : 2u); ++side) images_.set(side, c, *frames_.at(side));
         if (!alike) differing_.push_back(c);

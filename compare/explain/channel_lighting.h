@@ -32,8 +32,8 @@ constexpr std::uint32_t allChannelsOf(std::size_t side) {
 // All constructor arguments must outlive it.
 class ChannelLighting {
 public:
-    // Uploads the channels of both Frames, which must have one size. Throws std::runtime_error, one line,
-    // if a channel is missing.
+    // Uploads the channels of both Frames, which must have one size. A missing channel of a layer is 0.
+    // Throws std::runtime_error, one line, if another is missing.
     ChannelLighting(Device& device, Renderer& renderer, const Frame& baseline, const Frame& test);
 
     // Indices into surfaceChannels() of the channels that differ in any bit; ascending.

@@ -38,6 +38,7 @@ void checkExplained(const Frame& baseline, const Frame& test) {
     channelOf(test, gpu::DEBUG_lit);
     for (const Frame* const frame : {&baseline, &test})
         for (const int mode : explainedChannels()) {
+            if (layerOf(mode) != 0 && !frame->channels.contains(mode)) continue;
             const Image& image = channelOf(*frame, mode);
             if (image.width != lit.width || image.height != lit.height)
                 throw std::runtime_error(fmt::format(
@@ -46,7 +47,7 @@ void checkExplained(const Frame& baseline, const Frame& test) {
                     lit.height));
         }
     for (const std::string_view option :
-         {"camera", "time", "animation", "env", "scene-lights", "lights", "seed"})
+         {"camera", "time", "animation", "variant", "env", "scene-lights", "lights", "seed"})
         if (baseline.settings.valueOf(option) != test.settings.valueOf(option))
             throw std::runtime_error(
                 fmt::format("--{} {} and {}: an explanation needs two images of the same view and scene",

@@ -48,6 +48,11 @@ constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),
                                numberOf(gpu::DEBUG_dielectric_f0),
                                numberOf(gpu::DEBUG_dielectric_f90),
                                numberOf(gpu::DEBUG_specular),
+                               numberOf(gpu::DEBUG_anisotropy),
+                               numberOf(gpu::DEBUG_anisotropy_direction),
+                               numberOf(gpu::DEBUG_clearcoat),
+                               numberOf(gpu::DEBUG_clearcoat_roughness),
+                               numberOf(gpu::DEBUG_clearcoat_normal),
                                numberOf(gpu::DEBUG_occlusion),
                                numberOf(gpu::DEBUG_emission),
                                numberOf(gpu::DEBUG_lightmap),
@@ -63,6 +68,7 @@ constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),
                                numberOf(gpu::DEBUG_lit_specular),
                                numberOf(gpu::DEBUG_lit_ambient),
                                numberOf(gpu::DEBUG_lit_environment),
+                               numberOf(gpu::DEBUG_lit_clearcoat),
                                numberOf(gpu::DEBUG_transmittance),
                                numberOf(gpu::DEBUG_lit_haze),
                                numberOf(gpu::DEBUG_lit)};
@@ -96,9 +102,12 @@ const Image* imageOf(const Frame& frame, int mode) {
     return found == frame.channels.end() ? nullptr : &found->second;
 }
 
-RenderOptions drawingOf(const Stage& progress) {
+// Every channel but those of layers that the scene does not have.
+RenderOptions drawingOf(const Requirements& needs, const Stage& progress) {
     RenderOptions drawing;
-    for (const DebugMode& mode : debugModes()) drawing.channels.push_back(mode.number);
+    for (const DebugMode& mode : debugModes())
+        if (layerOf(mode.number) == 0 || (needs.layers & layerOf(mode.number)) != 0)
+            drawing.channels.push_back(mode.number);
     drawing.runs = 0;
     drawing.through_gbuffer = true;
     drawing.progress = progress;
@@ -121,8 +130,8 @@ public:
           query_(query),
           scene_(views.scene()),
           view_(views.at(viewRequest(query.baseline))),
-          frames_{renderer.draw(query.baseline, drawingOf(query.progress.part(0, 0.3))),
-                  renderer.draw(query.test, drawingOf(query.progress.part(0.3, 0.6)))},
+          frames_{renderer.draw(query.baseline, drawingOf(view_.needs, query.progress.part(0, 0.3))),
+                  renderer.draw(query.test, drawingOf(view_.needs, query.progress.part(0.3, 0.6)))},
           covered_(coverage(frames_[0], frames_[1])),
           this_one_(pixelAlone(covered_, query)),
           pair_{frames_[0], frames_[1], view_.needs, covered_, query.device.bitExact(),

@@ -115,10 +115,11 @@ Image fromRightToLeft(const Image& image) {
     return turned;
 }
 
-// Built-in scenes and "?scene=" names are not files that another renderer can read.
-bool isFile(const std::string& scene) {
+// Whether the scene is all that its file selects: no built-in scene, and neither another scene (?scene=) nor
+// a material variant of the file, which another renderer would not choose.
+bool isFile(const Scene& scene) {
     std::error_code error;
-    return !scene.starts_with("builtin:") && fs::is_regular_file(scene, error);
+    return scene.variant < 0 && !scene.name.starts_with("builtin:") && fs::is_regular_file(scene.name, error);
 }
 
 class JobWriter {
@@ -170,7 +171,7 @@ public:
 
 private:
     Json scene(const SceneView& passed, std::vector<std::string>& notes) const {
-        const bool copied = renderer_.posed || !isFile(scene_.name);
+        const bool copied = renderer_.posed || !isFile(scene_);
         Json json{{"name", scene_.name},
                   {"file", copied ? (folder_ / "scene.glb").string() : fs::absolute(scene_.name).string()},
                   {"copy", copied},

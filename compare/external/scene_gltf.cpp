@@ -199,8 +199,24 @@ private:
             put(written["extensions"]["KHR_materials_specular"], "specularColorTexture",
                 gpu::SLOT_specular_color);
         }
+        putLayers(written["extensions"], material, put);
         if (readsSlot(material, gpu::SLOT_lightmap)) left_out_.add("lightmap", ": glTF has no lightmaps");
         file_.json["materials"].push_back(std::move(written));
+    }
+
+    // Textures of the layers that gltfMaterial() has written.
+    template <class Put>
+    static void putLayers(Json& extensions, const Material& material, const Put& put) {
+        if (extensions.contains("KHR_materials_clearcoat")) {
+            Json& coat = extensions["KHR_materials_clearcoat"];
+            put(coat, "clearcoatTexture", gpu::SLOT_clearcoat);
+            put(coat, "clearcoatRoughnessTexture", gpu::SLOT_clearcoat_roughness);
+            put(coat, "clearcoatNormalTexture", gpu::SLOT_clearcoat_normal);
+            if (coat.contains("clearcoatNormalTexture"))
+                coat["clearcoatNormalTexture"]["scale"] = material.clearcoat_normal_scale;
+        }
+        if (extensions.contains("KHR_materials_anisotropy"))
+            put(extensions["KHR_materials_anisotropy"], "anisotropyTexture", gpu::SLOT_anisotropy);
     }
 
     // Empty if the image cannot be written.

@@ -134,14 +134,21 @@ Json gltfMaterial(const Material& material) {
     if (material.unlit) extensions["KHR_materials_unlit"] = Json::object();
     if (material.transmission > 0)
         extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
+    if (material.clearcoat > 0)
+        extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clearcoat},
+                                                 {"clearcoatRoughnessFactor", material.clearcoat_roughness}};
+    if (material.anisotropy > 0)
+        extensions["KHR_materials_anisotropy"] = {{"anisotropyStrength", material.anisotropy},
+                                                  {"anisotropyRotation", material.anisotropy_rotation}};
     written["extensions"] = std::move(extensions);
     return written;
 }
 
 std::vector<std::string> gltfMaterialExtensions() {
-    return {"KHR_materials_ior",   "KHR_materials_specular",
-            specularGlossiness,    "KHR_materials_emissive_strength",
-            "KHR_materials_unlit", "KHR_materials_transmission"};
+    return {"KHR_materials_ior",       "KHR_materials_specular",
+            specularGlossiness,        "KHR_materials_emissive_strength",
+            "KHR_materials_unlit",     "KHR_materials_transmission",
+            "KHR_materials_clearcoat", "KHR_materials_anisotropy"};
 }
 
 Json gltfCamera(const Camera& camera, double aspect) {

@@ -321,7 +321,7 @@ std::string mapText(const std::vector<PictureChannel>& reference, const std::vec
 
 Metric metricOf(const std::string& name, const PictureChannel& channel) {
     const DebugMode* mode = modeOf(name, channel.channels.size());
-    if (mode && (mode->metric == Metric::angular || mode->metric == Metric::exact)) return mode->metric;
+    if (mode && (isAngle(mode->metric) || mode->metric == Metric::exact)) return mode->metric;
     return channel.kind == ChannelKind::id ? Metric::exact : Metric::absolute;
 }
 

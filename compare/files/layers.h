@@ -49,7 +49,7 @@ Image takeUncertainty(PictureFile& file);
 struct MatchedChannel {
     std::string name;
     ChannelKind kind = ChannelKind::scalar;
-    Metric metric = Metric::absolute;  // from the debug mode if angular or exact
+    Metric metric = Metric::absolute;  // from the debug mode if an angle or exact
     std::string reference_type, test_type;
     std::vector<std::string> channels;  // names in the reference
     StoredPicture reference, test;

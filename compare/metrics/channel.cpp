@@ -238,7 +238,7 @@ Coverage coverage(const Frame& a, const Frame& b) {
 PixelError::PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage)
     : metric_(metric), components_(baseline.components) {
     if (metric == Metric::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
-    if (metric == Metric::angular && components_ != 3)
+    if (isAngle(metric) && components_ != 3)
         throw std::runtime_error(fmt::format("angles need vectors of 3 components, not {}", components_));
 }
 
@@ -252,6 +252,8 @@ double PixelError::operator()(const float* test, const float* baseline) const {
             return difference;
         case Metric::angular:
             return finite(test, components_) ? angle(test, baseline) : infinity;
+        case Metric::axial:
+            return finite(test, components_) ? lineAngle(test, baseline) : infinity;
         case Metric::exact:
             return 1;
     }

@@ -29,9 +29,9 @@ bool isBlack(const PictureRows& picture, const Coverage& coverage);
 // Fraction of covered pixels that are not 0; 0 if none is covered.
 double litShare(const PictureRows& picture, const Coverage& coverage);
 
-// Statistics over the covered pixels, in the channel's unit (angular: degrees); 0 if none is covered. All
-// may be infinite: a NaN or infinity has infinite error against anything else, which no tolerance accepts.
-// So has any difference from a baseline that is 0 everywhere (relative).
+// Statistics over the covered pixels, in the channel's unit (angular, axial: degrees); 0 if none is
+// covered. All may be infinite: a NaN or infinity has infinite error against anything else, which no
+// tolerance accepts. So has any difference from a baseline that is 0 everywhere (relative).
 struct ChannelStats {
     double max = 0, mean = 0, rmse = 0;
     double p99 = 0, p999 = 0;        // nearest rank: the ceil(p N)-th smallest of N errors
@@ -47,6 +47,7 @@ struct ChannelStats {
 //             (Rec.709 weights for colours, magnitude for scalars and vectors)
 //   absolute  |a-b|
 //   angular   atan2(|a x b|, a.b), degrees; 0 between two zero vectors, 180 if one of them is zero
+//   axial     the smaller angle of a to b and of a to -b, degrees; likewise, 90 if one of them is zero
 //   exact     1 if any component differs
 // Two NaNs are equal, and so are equal infinities.
 class PixelError {

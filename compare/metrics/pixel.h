@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -52,6 +53,13 @@ inline double angle(const float* a, const float* b) {
     if (aIsZero || bIsZero) return aIsZero == bIsZero ? 0 : 180;
     const double cross = std::hypot(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx);
     return std::atan2(cross, ax * bx + ay * by + az * bz) * 180 / std::numbers::pi;
+}
+
+// Degrees between two lines, each along a finite 3-vector of either sign: 0 to 90; 0 between two zero
+// vectors, 90 if one is zero.
+inline double lineAngle(const float* a, const float* b) {
+    const std::array<float, 3> turned{-b[0], -b[1], -b[2]};
+    return std::min({angle(a, b), angle(a, turned.data()), 90.0});
 }
 
 // Difference of the lengths of two finite 3-vectors.

@@ -34,11 +34,12 @@ struct BandSums {
 class StandardPass {
 public:
     StandardPass(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-                 const Coverage& coverage)
+                 const Coverage& coverage, Metric metric)
         : reference_(reference),
           test_(test),
           coverage_(coverage),
           angles_(kind == ChannelKind::vector && reference.components == 3),
+          lines_(metric == Metric::axial),
           floor_(PixelError(Metric::relative, kind, reference, coverage).floor()) {}
 
     bool angles() const { return angles_; }
@@ -97,7 +98,7 @@ private:
 
     const PictureRows &reference_, &test_;
     const Coverage& coverage_;
-    bool angles_;
+    bool angles_, lines_;
     double floor_;
 };
 
@@ -158,7 +159,7 @@ void StandardPass::add(int y, Row& row, BandSums& sums) const {
         const float *t = row.test + 3 * x, *r = row.reference + 3 * x;
         // They differ only in a non-finite component, which is 0 here.
         if (std::equal(t, t + 3, r)) continue;
-        const double degrees = angle(t, r);
+        const double degrees = lines_ ? lineAngle(t, r) : angle(t, r);
         sums.angles += degrees;
         sums.mostDegrees = std::max(sums.mostDegrees, degrees);
         sums.mostLength = std::max(sums.mostLength, lengthsApart(t, r));
@@ -230,10 +231,10 @@ std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& te
 }  // namespace
 
 StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-                                Range range, const Coverage& coverage) {
+                                Range range, const Coverage& coverage, Metric metric) {
     checkPair(reference, test, coverage);
     StandardMetrics m;
-    const StandardPass pass(reference, test, kind, coverage);
+    const StandardPass pass(reference, test, kind, coverage, metric);
     const BandSums sums = pass.run();
     m.pixels = coverage.count;
     m.different = sums.different;

@@ -31,7 +31,7 @@ struct StandardMetrics {
     // Over pixels: |t-r| / max(|r|, 1e-3 mean), |.| the pixel's largest component, mean as in PixelError.
     // Percentiles use the nearest rank, up to float rounding.
     double relative_max = 0, relative_mean = 0, relative_p99 = 0, relative_p999 = 0;
-    // Degrees; 0 except for ChannelKind::vector with 3 components.
+    // Degrees, between lines if the metric is axial; 0 except for ChannelKind::vector with 3 components.
     double angle_max = 0, angle_mean = 0;
     double length_max = 0;  // | |t| - |r| |; likewise
 
@@ -54,6 +54,6 @@ struct StandardMetrics {
 // over the pixels, each with a few dozen rows per thread. The result does not depend on the number of
 // threads.
 StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
-                                Range range, const Coverage& coverage);
+                                Range range, const Coverage& coverage, Metric metric = Metric::angular);
 
 }  // namespace diptych

@@ -84,7 +84,7 @@ std::string breakable(std::string_view name) {
 }
 
 const char* unitOf(const DebugMode& mode) {
-    return mode.metric == Metric::angular ? "\u00b0" : "";
+    return isAngle(mode.metric) ? "\u00b0" : "";
 }
 
 std::string cameraTitle(const Frame& frame) {

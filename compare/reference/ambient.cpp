@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/ambient.h"
 
+#include "shared/scene/model/axes.h"
+
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
@@ -80,9 +83,10 @@ public:
     // There are three ranges: up to the first ring that reflects light from below the horizon, from there
     // to the lobe's width, and up to the first ring that reflects only such light.
     glm::dvec3 lobe() const {
+        if (!brdf_.widths().isotropic()) return stretchedLobe();
         const double view = std::acos(std::min(brdf_.toViewer().z, 1.0)), right = std::numbers::pi / 2;
         const double whole = std::tan((right - view) / 2), none = std::tan((right + view) / 2);
-        const double alpha = brdf_.alpha(), width = std::clamp(alpha, whole, none);
+        const double alpha = brdf_.widths().across, width = std::clamp(alpha, whole, none);
         glm::dvec3 sum(0);
         const auto add = [&](double tangent, double step) {
             sum += ring(std::atan(tangent)) * (step / (1 + tangent * tangent));
@@ -105,9 +109,56 @@ private:
     static Surface framed(Surface s) {
         constexpr double least = 1e-4;  // n.v, as in the material (README.md, "The model")
         const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
+        if (s.anisotropy > 0) {
+            const glm::dvec3 along = s.anisotropy_direction;
+            const glm::dvec3 x = unitOr(s.to_viewer - s.normal * glm::dot(s.normal, s.to_viewer), along);
+            s.anisotropy_direction =
+                glm::normalize(glm::dvec3(glm::dot(along, x), glm::dot(along, glm::cross(s.normal, x)), 0));
+        }
         s.normal = {0, 0, 1};
         s.to_viewer = {std::sqrt(1 - cosine * cosine), 0, cosine};
         return s;
+    }
+
+    // The anisotropic lobe: integrates over slopes of half vectors, divided by the widths, by sectors.
+    // Sectors end where half vectors begin to turn away from the viewer, and at both axes of the lobe.
+    glm::dvec3 stretchedLobe() const {
+        const Widths& w = brdf_.widths();
+        const glm::dvec3 v = brdf_.toViewer();
+        constexpr double pi = std::numbers::pi, right = pi / 2;
+        const double start = std::atan2(w.across * glm::dot(w.y, v), w.along * glm::dot(w.x, v)) - right;
+        std::array<double, 7> ends{start, start + pi, start + 2 * pi};
+        for (int i = 0; i < 4; ++i)
+            ends[static_cast<std::size_t>(3 + i)] = right * (std::ceil(start / right) + i);
+        std::ranges::sort(ends);
+        glm::dvec3 sum(0);
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+            eachPoint(ends[i], ends[i + 1],
+                      [&](double turn, double step) { sum += alongSlope(turn) * step; });
+        return sum;
+    }
+
+    // Integrates over the half vectors of one direction of the stretched slopes, by the angle whose tangent
+    // is their length. Light from above the horizon has slopes in a circle around the viewer's with the
+    // radius 1 / n.v; its end is a root of a quadratic equation.
+    glm::dvec3 alongSlope(double turn) const {
+        const Widths& w = brdf_.widths();
+        const glm::dvec3 v = brdf_.toViewer();
+        const glm::dvec3 slope = w.x * (w.along * std::cos(turn)) + w.y * (w.across * std::sin(turn));
+        const double a = glm::dot(slope, slope), b = glm::dot(slope, v) / v.z, root = std::sqrt(b * b + a);
+        const double last = std::atan(b > 0 ? (b + root) / a : 1 / (root - b));
+        glm::dvec3 sum(0);
+        eachPoint(0, 1, [&](double t, double step) {
+            const double left = 1 - t, angle = last * (1 - left * left * left);  // denser at the horizon
+            const double r = std::tan(angle), cosine = 1 / std::sqrt(1 + r * r * a);
+            const glm::dvec3 h = (slope * r + glm::dvec3(0, 0, 1)) * cosine;
+            const double v_dot_h = glm::dot(v, h);
+            // dl = 4 v.h dh; dh = cosine^3 dslope; dr = (1 + r^2) dangle
+            sum += brdf_.lobe(2 * v_dot_h * h - v) *
+                   (4 * v_dot_h * cosine * cosine * cosine * w.along * w.across * r * (1 + r * r) * 3 * last *
+                    left * left * step);
+        });
+        return sum;
     }
 
     // Integrates over the half vectors of one ring (`angle` from the normal) whose light is above the

@@ -21,10 +21,15 @@ double square(double x) {
 }
 
 // GGX, 1/sr; 0 for microfacets that face down. Walter et al. 2007, "Microfacet Models for Refraction
-// through Rough Surfaces", equation 33.
-double distribution(double alpha, double n_dot_h) {
+// through Rough Surfaces", equation 33; anisotropic: Burley 2012, "Physically-Based Shading at Disney",
+// equation 13.
+double distribution(const Widths& w, const glm::dvec3& half, double n_dot_h) {
     if (!(n_dot_h > 0)) return 0;
-    return square(alpha) / (std::numbers::pi * square(square(n_dot_h) * (square(alpha) - 1) + 1));
+    if (w.isotropic())
+        return square(w.across) / (std::numbers::pi * square(square(n_dot_h) * (square(w.across) - 1) + 1));
+    const double k =
+        square(glm::dot(w.x, half) / w.along) + square(glm::dot(w.y, half) / w.across) + square(n_dot_h);
+    return 1 / (std::numbers::pi * w.along * w.across * square(k));
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72.
@@ -44,6 +49,54 @@ glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double weight) {
 
 }  // namespace
 
+double widthTowards(const Widths& w, const glm::dvec3& direction) {
+    if (w.isotropic()) return w.across;
+    const double x = glm::dot(w.x, direction), y = glm::dot(w.y, direction);
+    const double square_length = square(x) + square(y);
+    if (!(square_length > 0)) return w.across;
+    return std::sqrt((square(w.along * x) + square(w.across * y)) / square_length);
+}
+
+// The extension's text: alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha.
+Widths widthsOf(const Surface& s) {
+    const double alpha = square(std::max(s.roughness, least_roughness));
+    if (!(s.anisotropy > 0)) return {alpha, alpha};
+    return {alpha + (1 - alpha) * square(s.anisotropy), alpha, s.anisotropy_direction,
+            glm::cross(s.normal, s.anisotropy_direction)};
+}
+
+Surface isotropic(const Surface& surface) {
+    return isotropic(surface, widthsOf(surface).mean());
+}
+
+Surface isotropic(const Surface& surface, double width) {
+    if (!(surface.anisotropy > 0)) return surface;
+    Surface s = surface;
+    s.roughness = std::sqrt(width);
+    s.anisotropy = 0;
+    s.anisotropy_direction = glm::dvec3(0);
+    return s;
+}
+
+Surface coatOf(const Surface& s) {
+    Surface coat;
+    coat.position = s.position;
+    coat.to_viewer = s.to_viewer;
+    coat.normal = s.clearcoat_normal;
+    coat.geometric_normal = s.geometric_normal;
+    coat.albedo = glm::dvec3(1);
+    coat.metallic = 1;
+    coat.roughness = s.clearcoat_roughness;
+    coat.occlusion = s.occlusion;
+    return coat;
+}
+
+// KHR_materials_clearcoat: Schlick's Fresnel of an index of 1.5 at the coat's normal.
+double coatWeight(const Surface& s) {
+    if (!(s.clearcoat > 0)) return 0;
+    return s.clearcoat * (0.04 + 0.96 * schlick(std::abs(glm::dot(s.clearcoat_normal, s.to_viewer))));
+}
+
 Brdf::Brdf(const Surface& s, const Compensation& compensation)
     : compensation_(compensation),
       normal_(s.normal),
@@ -54,9 +107,9 @@ Brdf::Brdf(const Surface& s, const Compensation& compensation)
       metallic_(s.metallic),
       scattered_(1 - s.transmission),
       dielectric_f90_(s.dielectric_f90),
-      alpha_(square(std::max(s.roughness, least_roughness))),
+      widths_(widthsOf(s)),
       n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)),
-      lambda_v_(lambda(alpha_, n_dot_v_)) {}
+      lambda_v_(lambda(widthTowards(widths_, s.to_viewer), n_dot_v_)) {}
 
 Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     Reflected f = evaluate(to_light);
@@ -75,8 +128,8 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double weight = schlick(glm::dot(to_viewer_, half));
 
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.
-    const double masking = 1 / (1 + lambda_v_ + lambda(alpha_, n_dot_l));
-    const double lobe = distribution(alpha_, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
+    const double masking = 1 / (1 + lambda_v_ + lambda(widthTowards(widths_, to_light), n_dot_l));
+    const double lobe = distribution(widths_, half, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
     const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
     const glm::dvec3 metal = fresnel(albedo_, 1, weight);
     // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
@@ -90,7 +143,9 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
 glm::dvec3 transmitted(const Surface& s) {
     const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
     const glm::dvec3 layer = fresnel(s.dielectric_f0, s.dielectric_f90, schlick(cosine));
-    return s.albedo * (1.0 - lostToLayer(s.base_layer, layer)) * (s.transmission * (1 - s.metallic));
+    const glm::dvec3 base =
+        s.albedo * (1.0 - lostToLayer(s.base_layer, layer)) * (s.transmission * (1 - s.metallic));
+    return base * (1 - coatWeight(s));
 }
 
 }  // namespace diptych::reference

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B,
-// KHR_materials_ior and KHR_materials_specular.
+// KHR_materials_ior, _specular, _clearcoat and
+// _anisotropy.
 #pragma once
 
 #include "compare/reference/surface.h"
 
+#include <cmath>
 #include <optional>
 
 namespace diptych::reference {
@@ -19,9 +21,32 @@ struct Compensation {
     std::optional<glm::dvec3> base;
 };
 
+// Widths of a GGX lobe, roughness^2. KHR_materials_anisotropy widens it along one direction.
+struct Widths {
+    double along = 1, across = 1;
+    glm::dvec3 x{0}, y{0};  // unit, in the surface: along and across; 0 if isotropic
+
+    bool isotropic() const { return along == across; }
+    double mean() const { return isotropic() ? across : std::sqrt(along * across); }
+};
+Widths widthsOf(const Surface& surface);
+
+// The width in the plane of the normal and a direction: Heitz 2014, equation 80.
+double widthTowards(const Widths& widths, const glm::dvec3& direction);
+
+// The same surface with an isotropic lobe of the mean width. It replaces an anisotropic one in
+// multiple-scattering terms and in the paths' approximations.
+Surface isotropic(const Surface& surface);
+Surface isotropic(const Surface& surface, double width);
+
+// The clear coat as a surface of its own: a GGX lobe with F = 1.
+Surface coatOf(const Surface& surface);
+// Fraction of light that the clear coat reflects instead of the material; 0 without a coat.
+double coatWeight(const Surface& surface);
+
 // Fraction of light from straight behind a thin surface that reaches the viewer, for each component. It is
 // the light that the layer admits and the base neither scatters nor absorbs (KHR_materials_transmission
-// without its roughness).
+// without its roughness), and lets through a clear coat.
 glm::dvec3 transmitted(const Surface& surface);
 
 class Brdf {
@@ -35,7 +60,7 @@ public:
 
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }
-    double alpha() const { return alpha_; }  // GGX width, roughness^2
+    const Widths& widths() const { return widths_; }
 
 private:
     Reflected evaluate(const glm::dvec3& to_light) const;
@@ -44,7 +69,9 @@ private:
     glm::dvec3 normal_, to_viewer_;
     glm::dvec3 albedo_, dielectric_f0_;
     BaseLayer base_layer_;
-    double metallic_, scattered_, dielectric_f90_, alpha_, n_dot_v_, lambda_v_;
+    double metallic_, scattered_, dielectric_f90_;
+    Widths widths_;
+    double n_dot_v_, lambda_v_;
 };
 
 }  // namespace diptych::reference

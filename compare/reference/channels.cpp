@@ -31,6 +31,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return pixel.shading.ambient;
         case gpu::DEBUG_lit_environment:
             return pixel.shading.environment.diffuse + pixel.shading.environment.specular;
+        case gpu::DEBUG_lit_clearcoat:
+            return pixel.shading.clearcoat;
         case gpu::DEBUG_lit_haze:
             return pixel.haze.scattered;
         case gpu::DEBUG_shadow_visibility:
@@ -83,6 +85,16 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return s.dielectric_f0;
         case gpu::DEBUG_lightmapped:
             return glm::dvec3(s.lightmapped);
+        case gpu::DEBUG_clearcoat:
+            return glm::dvec3(s.clearcoat);
+        case gpu::DEBUG_clearcoat_roughness:
+            return glm::dvec3(s.clearcoat_roughness);
+        case gpu::DEBUG_clearcoat_normal:
+            return s.clearcoat_normal;
+        case gpu::DEBUG_anisotropy:
+            return glm::dvec3(s.anisotropy);
+        case gpu::DEBUG_anisotropy_direction:
+            return s.anisotropy_direction;
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -104,6 +116,14 @@ Surface Captured::surface(std::size_t pixel, const PixelRays& rays, int material
     s.material = material;
     s.lightmapped = hasLightmap(materials_.at(static_cast<std::size_t>(s.material)));
     s.dielectric_f0 = value(gpu::DEBUG_dielectric_f0, pixel);
+    if (isCaptured(gpu::DEBUG_clearcoat)) {
+        s.clearcoat = value(gpu::DEBUG_clearcoat, pixel).x;
+        s.clearcoat_roughness = value(gpu::DEBUG_clearcoat_roughness, pixel).x;
+        if (s.clearcoat > 0)
+            s.clearcoat_normal = unitOr(value(gpu::DEBUG_clearcoat_normal, pixel), s.to_viewer);
+    }
+    if (isCaptured(gpu::DEBUG_anisotropy))
+        s.stretch(value(gpu::DEBUG_anisotropy, pixel).x, value(gpu::DEBUG_anisotropy_direction, pixel));
     return s;
 }
 

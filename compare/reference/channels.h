@@ -17,7 +17,8 @@ namespace diptych::reference {
 // The components of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel);
 
-// Decodes surfaces from a path's captured channels.
+// Decodes surfaces from a path's captured channels. Without the channels of a layer (layerOf() of
+// shared/frame/debug_modes.h) no surface has it.
 class Captured {
 public:
     Captured(const std::map<int, Image>& channels, const std::vector<Material>& materials)
@@ -29,6 +30,7 @@ public:
     Surface surface(std::size_t pixel, const PixelRays& rays, int material) const;
 
 private:
+    bool isCaptured(gpu::uint mode) const { return channels_.contains(static_cast<int>(mode)); }
     glm::dvec3 value(gpu::uint mode, std::size_t pixel) const;
 
     const std::map<int, Image>& channels_;

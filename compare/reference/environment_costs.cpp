@@ -6,6 +6,7 @@
 #include "compare/reference/lobe_sampler.h"
 #include "shared/scene/model/axes.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -46,6 +47,17 @@ constexpr double leastFiltered = 1.0 / 64;
 // Fractions of the peak: the error of interpolating irradiance linearly between nodes where a light sets,
 // and the effect of an error of 1 % in the window.
 constexpr double irradianceNodes = 0.02, windowKnown = 0.01;
+
+// The normal whose mirror direction the split sum takes. An anisotropic lobe's is bent toward the plane of
+// the viewer and the direction across the lobe (McAuley 2015, "Rendering the World of Far Cry 4"); the
+// bend fades as the lobe becomes isotropic or rough.
+glm::dvec3 bentNormal(const Surface& s, const Widths& widths) {
+    if (widths.isotropic()) return s.normal;
+    const glm::dvec3 aside = glm::cross(widths.y, s.to_viewer),
+                     bent = unitOr(glm::cross(aside, widths.y), s.normal);
+    const double kept = std::pow(1 - s.anisotropy * (1 - std::sqrt(widths.across)), 4);
+    return unitOr(glm::mix(bent, s.normal, kept), s.normal);
+}
 
 }  // namespace
 
@@ -187,16 +199,21 @@ double EnvironmentApproximation::range(const glm::dvec3& direction, double reach
 
 EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const Compensation& compensation,
                                                  const Reflected& exact, std::uint64_t seed) const {
-    const glm::dvec3 n = surface.normal,
-                     mirrored = glm::normalize(n * (2 * glm::dot(n, surface.to_viewer)) - surface.to_viewer);
-    const double alpha = Brdf(surface).alpha();
+    const Widths widths = widthsOf(surface);
+    const glm::dvec3 n = surface.normal, middle = bentNormal(surface, widths),
+                     mirrored = glm::normalize(middle * (2 * glm::dot(middle, surface.to_viewer)) -
+                                               surface.to_viewer);
+    const double alpha = widths.mean();
     const Means means = meansOf(n, mirrored, alpha, seed);
     Compensation single = compensation;
     single.between = glm::dvec3(0);
-    const glm::dvec3 base = diffuseAlbedo(surface, compensation), lobe = specularAlbedo(surface, single),
+    const glm::dvec3 base = diffuseAlbedo(surface, compensation),
+                     lobe =
+                         specularAlbedo(isotropic(surface, widthTowards(widths, surface.to_viewer)), single),
                      between = compensation.between;
     // For lobes much wider than a cell, the change across a cell falls by the square of their ratio.
-    const double coarse = range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * alpha * alpha));
+    const double coarse =
+        range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * widths.across * widths.across));
     double filtered = coarse;
     if (alpha < leastFiltered) {
         const Means first = meansOf(n, mirrored, leastFiltered, streamOf(seed, 1));

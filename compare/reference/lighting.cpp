@@ -47,15 +47,19 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     if (!(length > 1e-9)) return split(radius > 0.1);
     const glm::dvec3 half = sum / length;
     const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
-    const double apart =
-        glm::length(glm::cross(brdf.normal(), half));  // sine of the angle between half vector and normal
-    return split(turn > std::max(brdf.alpha(), apart - turn));
+    // Sine of the angle between half vector and normal; in an anisotropic lobe, across the lobe.
+    const Widths& widths = brdf.widths();
+    const double apart = widths.isotropic() ? glm::length(glm::cross(brdf.normal(), half))
+                                            : std::abs(glm::dot(widths.y, half));
+    return split(turn > std::max(widths.across, apart - turn));
 }
 
 // Random stream of a surface's random walks; no light has this index.
 constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
 // Streams of the environment's errors and of occlusion.
 constexpr std::uint64_t costsStream = ~std::uint64_t{2}, surroundingsStream = ~std::uint64_t{3};
+// Stream of a clear coat's lights.
+constexpr std::uint64_t coatStream = ~std::uint64_t{4};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -145,7 +149,25 @@ void Lighting::takeCosts() {
 }
 
 Shading Lighting::operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
-    const Compensation compensation = compensationOf(surface, multiscatter_);
+    const Shading base = layer(surface, multiscatter_, visible, seed);
+    if (!(surface.clearcoat > 0)) return base;
+    const double weight = coatWeight(surface);
+    Shading coat = layer(coatOf(surface), Multiscatter::off, visible, streamOf(seed, coatStream)) * weight;
+    coat.clearcoat = coat.reflected.specular + coat.ambient;
+    coat += base * (1 - weight);
+    return coat;
+}
+
+Reflected Lighting::reflectance(const Surface& surface, const glm::dvec3& to_light) const {
+    const Reflected base = Brdf(surface, compensationOf(surface, multiscatter_))(to_light);
+    if (!(surface.clearcoat > 0)) return base;
+    const double weight = coatWeight(surface);
+    return base * (1 - weight) + Brdf(coatOf(surface))(to_light) * weight;
+}
+
+Shading Lighting::layer(const Surface& surface, Multiscatter multiscatter, const Visibility& visible,
+                        std::uint64_t seed) const {
+    const Compensation compensation = compensationOf(surface, multiscatter);
     const Brdf brdf(surface, compensation);
     Shading sum;
     for (const Punctual& p : punctual_) {
@@ -180,7 +202,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
         sum.ambient = diffuseAlbedo(surface, compensation) * (ambient_ + surface.lightmap);
     const glm::dvec3 base = sum.ambient;
     if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface, compensation) * ambient_;
-    if (multiscatter_ == Multiscatter::walk) {
+    if (multiscatter == Multiscatter::walk) {
         const MoreReflections more = between(surface, visible, sum.all(), streamOf(seed, betweenStream));
         sum += more.shading;
         sum.reflected.diffuse *= more.base;
@@ -304,7 +326,7 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
 // the specular lobe, which may be narrower than a block.
 Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,
                                     std::uint64_t seed) const {
-    const LobeSampler lobes(brdf.normal(), brdf.toViewer(), brdf.alpha());
+    const LobeSampler lobes(brdf);
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
         // If the horizon or a lobe crosses a block, other directions may reflect more than its middle.
         const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);

@@ -35,6 +35,7 @@ struct Shading {
     EnvironmentCosts costs{};
     Surroundings surroundings{};
     Reflected environment{};  // the environment's part of `reflected`
+    glm::dvec3 clearcoat{0};  // the clear coat's part of `reflected` and `ambient`
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -44,11 +45,12 @@ struct Shading {
         costs += other.costs;
         surroundings += other.surroundings;
         environment += other.environment;
+        clearcoat += other.clearcoat;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b, a.uncertainty * b,  a.ambient * b,
-                a.costs * b,     a.surroundings * b, a.environment * b};
+        return {a.reflected * b,    a.uncertainty * b, a.ambient * b,  a.costs * b,
+                a.surroundings * b, a.environment * b, a.clearcoat * b};
     }
 };
 
@@ -76,8 +78,9 @@ public:
     // the shaded surface.
     Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
 
-    // The surface's BRDF with its multiple-scattering terms.
-    Brdf brdf(const Surface& surface) const { return Brdf(surface, compensationOf(surface, multiscatter_)); }
+    // Radiance towards the viewer under unit irradiance from one direction, 1/sr: f(l, v) n.l of the
+    // material with its multiple-scattering terms, and of its clear coat.
+    Reflected reflectance(const Surface& surface, const glm::dvec3& to_light) const;
 
 private:
     struct Punctual {
@@ -89,6 +92,9 @@ private:
         Emitter emitter;
         bool casts;
     };
+    // The light of one layer: the material under its clear coat, or the coat.
+    Shading layer(const Surface& surface, Multiscatter multiscatter, const Visibility& visible,
+                  std::uint64_t seed) const;
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
     // `lobeOnly`: nothing from the base, which is lit by a lightmap.

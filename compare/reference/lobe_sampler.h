@@ -2,6 +2,7 @@
 // Sampling of the specular lobe.
 #pragma once
 
+#include "compare/reference/brdf.h"
 #include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
@@ -17,31 +18,52 @@ namespace diptych::reference {
 // Samples reflected directions, with half vectors distributed as D (n.h); Walter et al. 2007, equation 35.
 class LobeSampler {
 public:
-    // `normal`, `to_viewer`: unit; `alpha`: GGX's width.
+    // An isotropic lobe. `normal`, `to_viewer`: unit; `alpha`: GGX's width.
     LobeSampler(const glm::dvec3& normal, const glm::dvec3& to_viewer, double alpha)
-        : normal_(normal),
-          to_viewer_(to_viewer),
-          alpha2_(alpha * alpha),
-          x_(perpendicularTo(normal)),
-          y_(glm::cross(normal, x_)) {}
+        : LobeSampler(normal, to_viewer, Widths{alpha, alpha}) {}
+    explicit LobeSampler(const Brdf& brdf) : LobeSampler(brdf.normal(), brdf.toViewer(), brdf.widths()) {}
 
     // u in [0, 1)^2. Returns a unit vector, which may be below the horizon.
     glm::dvec3 operator()(const glm::dvec2& u) const {
-        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x));
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
-        const glm::dvec3 h = x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + normal_ * cosine;
+        const glm::dvec3 h = widths_.isotropic() ? around(u) : stretched(u);
         return glm::normalize(2 * glm::dot(to_viewer_, h) * h - to_viewer_);
     }
     double density(const glm::dvec3& l) const {  // 1/sr
         const glm::dvec3 h = glm::normalize(l + to_viewer_);
         const double n_dot_h = glm::dot(normal_, h), v_dot_h = std::abs(glm::dot(to_viewer_, h));
         if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
+        if (!widths_.isotropic()) {
+            const double x = glm::dot(x_, h) / widths_.along, y = glm::dot(y_, h) / widths_.across,
+                         k = x * x + y * y + n_dot_h * n_dot_h;
+            return n_dot_h / (std::numbers::pi * widths_.along * widths_.across * k * k * 4 * v_dot_h);
+        }
         const double k = n_dot_h * n_dot_h * (alpha2_ - 1) + 1;
         return alpha2_ * n_dot_h / (std::numbers::pi * k * k * 4 * v_dot_h);
     }
 
 private:
+    LobeSampler(const glm::dvec3& normal, const glm::dvec3& to_viewer, const Widths& widths)
+        : normal_(normal),
+          to_viewer_(to_viewer),
+          widths_(widths),
+          alpha2_(widths.across * widths.across),
+          x_(widths.isotropic() ? perpendicularTo(normal) : widths.x),
+          y_(glm::cross(normal, x_)) {}
+
+    glm::dvec3 around(const glm::dvec2& u) const {
+        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x));
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
+        return x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + normal_ * cosine;
+    }
+    // Slopes of width 1, stretched by both widths.
+    glm::dvec3 stretched(const glm::dvec2& u) const {
+        const double r = std::sqrt(u.x / (1 - u.x)), phi = 2 * std::numbers::pi * u.y;
+        return glm::normalize(x_ * (widths_.along * r * std::cos(phi)) +
+                              y_ * (widths_.across * r * std::sin(phi)) + normal_);
+    }
+
     glm::dvec3 normal_, to_viewer_;
+    Widths widths_;
     double alpha2_;
     glm::dvec3 x_, y_;
 };

@@ -29,6 +29,12 @@ bool isCutOut(const Material& m, double alpha) {
     return static_cast<float>(alpha) < m.alpha_cutoff;
 }
 
+// The unit normal on the side of the ray; the triangle's for a vector of length 0.
+glm::dvec3 facing(const Hit& hit, const glm::dvec3& n, const Surface& s) {
+    const double length = glm::length(n);
+    return !(length > 0) ? s.geometric_normal : hit.front ? n / length : -n / length;
+}
+
 }  // namespace
 
 const Material& Materials::material(const Hit& hit) const {
@@ -96,14 +102,11 @@ double Materials::coverage(const Hit& hit, const PixelRay& ray) const {
     return std::clamp(baseColor(hit, &ray).a, 0.0, 1.0);
 }
 
-// glTF 2.0, 3.7.2.1 and 3.9.3: normals transform by the inverse transpose, tangents like the surface; the
-// bitangent is w cross(normal, tangent). Both are interpolated without normalisation, as MikkTSpace
-// requires. On a back face the normal is flipped.
-void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const {
+// glTF 2.0, 3.7.2.1: normals transform by the inverse transpose, tangents like the surface. Both are
+// interpolated without normalisation, as MikkTSpace requires.
+Materials::Frame Materials::frameAt(const Hit& hit) const {
     const Primitive& primitive = geometry_.primitive(hit.id);
     const glm::dmat3 world(geometry_.instance(hit.id).world_from_object);
-    const glm::dvec3 facing =
-        glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
     // The cofactor matrix is the inverse transpose times the determinant; it exists for singular matrices
     // too.
     const double handedness = glm::determinant(world) < 0 ? -1 : 1;
@@ -115,27 +118,65 @@ void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) con
     const auto normalAt = [&](std::uint32_t i) {
         return posed ? posed->normals[i] : unitOrZero(cofactors * glm::dvec3(primitive.normals[i]));
     };
-    glm::dvec3 n = mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric);
+    const auto tangentAt = [&](std::uint32_t i) {
+        return posed ? posed->tangents[i] : unitOrZero(world * glm::dvec3(primitive.tangents[i]));
+    };
+    return {mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric),
+            mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric),
+            handedness * double{primitive.tangents[v[0]].w} * (posed ? posed->bitangents : 1)};
+}
+
+glm::dvec3 Materials::mapped(const Hit& hit, const TextureSlot& slot, float scale,
+                             const PixelRay& ray) const {
+    const glm::dvec3 t = glm::dvec3(lookUp(hit, slot, false, &ray)) * 2.0 - 1.0;
+    return t * glm::dvec3(double{scale}, double{scale}, 1);
+}
+
+// glTF 2.0, 3.9.3; on a back face the normal is flipped.
+void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const {
     const Material& m = material(hit);
+    glm::dvec3 n = frame.normal;
     if (!m.unlit && m.normal_texture.texture >= 0) {
-        const auto tangentAt = [&](std::uint32_t i) {
-            return posed ? posed->tangents[i] : unitOrZero(world * glm::dvec3(primitive.tangents[i]));
-        };
-        const glm::dvec3 tangent =
-            mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric);
-        const double sign = handedness * double{primitive.tangents[v[0]].w} * (posed ? posed->bitangents : 1);
-        glm::dvec3 t = glm::dvec3(lookUp(hit, m.normal_texture, false, &ray)) * 2.0 - 1.0;
-        t.x *= double{m.normal_scale};
-        t.y *= double{m.normal_scale};
-        n = t.x * tangent + t.y * sign * glm::cross(n, tangent) + t.z * n;
+        const glm::dvec3 t = mapped(hit, m.normal_texture, m.normal_scale, ray);
+        n = frame.world(t);
         if (m.normal_scale != 0) {  // a scale of 0 disables the map: the paths do not read it
-            s.tangent = unitOrZero(tangent);
-            s.handedness = sign;
+            s.tangent = unitOrZero(frame.tangent);
+            s.handedness = frame.sign;
             s.tangent_normal = unitOrZero(t);
         }
     }
-    const double length = glm::length(n);
-    s.normal = !(length > 0) ? facing : hit.front ? n / length : -n / length;
+    s.normal = facing(hit, n, s);
+}
+
+// KHR_materials_clearcoat: strength from red, roughness from green; the base's normal map does not apply.
+void Materials::coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const {
+    const Material& m = material(hit);
+    s.clearcoat = double{m.clearcoat} * lookUp(hit, m.clearcoat_texture, false, &ray).r;
+    if (!(s.clearcoat > 0)) return;
+    s.clearcoat_roughness =
+        double{m.clearcoat_roughness} * lookUp(hit, m.clearcoat_roughness_texture, false, &ray).g;
+    const bool has_map = m.clearcoat_normal_texture.texture >= 0 && m.clearcoat_normal_scale != 0;
+    const glm::dvec3 n =
+        has_map ? frame.world(mapped(hit, m.clearcoat_normal_texture, m.clearcoat_normal_scale, ray))
+                : frame.normal;
+    s.clearcoat_normal = facing(hit, n, s);
+}
+
+// KHR_materials_anisotropy: direction from red and green, strength from blue.
+void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const {
+    const Material& m = material(hit);
+    glm::dvec2 direction(1, 0);
+    double strength = double{m.anisotropy};
+    if (m.anisotropy_texture.texture >= 0) {
+        const glm::dvec3 texel(lookUp(hit, m.anisotropy_texture, false, &ray));
+        direction = glm::dvec2(texel) * 2.0 - 1.0;
+        strength *= texel.b;
+    }
+    const double cosine = std::cos(double{m.anisotropy_rotation}),
+                 sine = std::sin(double{m.anisotropy_rotation});
+    const glm::dvec3 turned(cosine * direction.x - sine * direction.y,
+                            sine * direction.x + cosine * direction.y, 0);
+    s.stretch(strength, frame.world(turned));
 }
 
 Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
@@ -144,7 +185,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.position = hit.position;
     s.geometric_normal =
         glm::dot(hit.geometric_normal, ray.direction) > 0 ? -hit.geometric_normal : hit.geometric_normal;
-    shadeNormal(hit, ray, s);
+    const Frame frame = frameAt(hit);
+    shadeNormal(hit, ray, frame, s);
     s.material = geometry_.primitive(hit.id).material;
     s.texcoord = footprint(hit, TextureSlot{}, nullptr).uv;
     const glm::dvec3 color(baseColor(hit, &ray));
@@ -165,6 +207,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
     reflect(hit, ray, s);
     s.transmission = double{m.transmission};
+    if (m.clearcoat > 0) coat(hit, ray, frame, s);
+    if (m.anisotropy > 0) stretch(hit, ray, frame, s);
     return s;
 }
 

@@ -6,6 +6,8 @@
 #include "compare/reference/surface.h"
 #include "compare/reference/texture.h"
 
+#include <glm/geometric.hpp>
+
 namespace diptych::reference {
 
 // A camera ray and its differences to the rays of the next pixels to the right and below. Origins are
@@ -50,10 +52,24 @@ private:
     Footprint footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const;
     glm::dvec4 lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const;
     glm::dvec4 baseColor(const Hit& hit, const PixelRay* ray) const;
+    // The frame of normal maps, world space, interpolated without normalisation.
+    struct Frame {
+        glm::dvec3 normal, tangent;
+        double sign;  // bitangent = sign * cross(normal, tangent)
+        glm::dvec3 bitangent() const { return sign * glm::cross(normal, tangent); }
+        glm::dvec3 world(const glm::dvec3& t) const {
+            return t.x * tangent + t.y * bitangent() + t.z * normal;
+        }
+    };
+    Frame frameAt(const Hit& hit) const;
+    // A normal map's value, tangent space, not normalised.
+    glm::dvec3 mapped(const Hit& hit, const TextureSlot& slot, float scale, const PixelRay& ray) const;
     // Fills the normal, and the tangent frame and tangent-space normal of a normal map.
-    void shadeNormal(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    void shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
     // Fills the dielectric layer, and the base colour and roughness of specular-glossiness.
     void reflect(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    void coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
+    void stretch(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
 
     const Scene& scene_;
     const std::vector<Material>& materials_;

@@ -62,14 +62,14 @@ Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) co
 }
 
 Between::Between(const Surface& surface)
-    : surface_(surface),
-      facets_(Brdf(surface).alpha()),
+    : surface_(isotropic(surface)),
+      facets_(widthsOf(surface_).across),
       x_(perpendicularTo(surface.normal)),
       y_(glm::cross(surface.normal, x_)) {
     from_ = {glm::dot(x_, surface.to_viewer), glm::dot(y_, surface.to_viewer),
              std::max(glm::dot(surface.normal, surface.to_viewer), leastView)};
     from_ = glm::normalize(from_);
-    Surface white = surface;
+    Surface white = surface_;
     white.albedo = glm::dvec3(1);
     white.metallic = 1;
     share_ = std::max(1 - specularAlbedo(white).g, 0.0);

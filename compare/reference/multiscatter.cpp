@@ -43,9 +43,10 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
 
 }  // namespace
 
-Compensation compensationOf(const Surface& surface, Multiscatter multiscatter) {
+Compensation compensationOf(const Surface& given, Multiscatter multiscatter) {
     if (multiscatter == Multiscatter::off) return {};
     if (multiscatter == Multiscatter::walk) return {.base = glm::dvec3(1)};
+    const Surface surface = isotropic(given);
     Surface white = surface, metal = surface, dielectric = surface;
     white.albedo = glm::dvec3(1);
     white.metallic = metal.metallic = 1;

@@ -4,6 +4,7 @@
 #include "compare/reference/key.h"
 #include "compare/reference/material.h"
 #include "compare/reference/request.h"
+#include "shared/scene/model/material_slots.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -56,10 +57,9 @@ void addScene(Key& key, const Request& request) {
         key.add(m.alpha_cutoff);
         key.add(m.transmission);
         key.add(m.lightmap_intensity);
-        for (const TextureSlot* slot :
-             {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.occlusion_texture,
-              &m.emissive_texture, &m.specular_texture, &m.specular_color_texture, &m.lightmap_texture})
-            addSlot(*slot);
+        key.add(glm::vec3(m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale));
+        key.add(glm::vec2(m.anisotropy, m.anisotropy_rotation));
+        for (const MaterialSlot& slot : materialSlots) addSlot(m.*slot.texture);
     }
     for (const Texture& texture : scene.textures) {
         key.add(texture.image);
@@ -84,7 +84,7 @@ void addScene(Key& key, const Request& request) {
 
 // Increase the version number whenever the reference itself renders differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 14;
+    constexpr int version = 15;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));

@@ -26,6 +26,11 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
+// Radiance of the material's emission through its clear coat, W/(sr m^2).
+glm::dvec3 emitted(const Surface& s) {
+    return s.emission * (1 - coatWeight(s));
+}
+
 }  // namespace
 
 bool isLocal(const Light& light) {
@@ -68,11 +73,11 @@ Pixel PixelRenderer::withDecoded(int x, int y, Pixel pixel) const {
     s.position = standing->surface.position;
     s.to_viewer = standing->surface.to_viewer;
     s.base_layer = request_.base_layer;
-    const glm::dvec3 own = pixel.shading.all() + standing->surface.emission;
+    const glm::dvec3 own = pixel.shading.all() + emitted(standing->surface);
     Visibility visible;
     if (request_.shadows() || request_.surroundings) visible = visibilityFrom(standing->foot);
     pixel.shading = lighting_(s, visible, seed);
-    pixel.lit += (pixel.shading.all() + s.emission - own) * pixel.haze.transmittance * (1 - pixel.hidden);
+    pixel.lit += (pixel.shading.all() + emitted(s) - own) * pixel.haze.transmittance * (1 - pixel.hidden);
     return pixel;
 }
 
@@ -152,7 +157,7 @@ void PixelRenderer::takeShadow(Pixel& pixel, const Surface& s, const Foot& foot,
     pixel.edge_distance =
         partly ? 0 : edgeDistance(sees, foot.place, foot.geometric_normal, to_light, 2 * scene_radius_);
     const glm::dvec3 irradiance = incident(*sun_, {}, {}).irradiance;
-    pixel.sun_radiance = (lighting_.brdf(s)(to_light) * irradiance).size();
+    pixel.sun_radiance = (lighting_.reflectance(s, to_light) * irradiance).size();
     pixel.sun_irradiance = std::max(glm::dot(s.normal, to_light), 0.0) * luminance(irradiance);
 }
 
@@ -177,7 +182,7 @@ void PixelRenderer::takeLocalShadows(Pixel& pixel, const Surface& s, const Foot&
         const double edge =
             edgeDistance(sees, foot.place, foot.geometric_normal, here.to_light, here.distance);
         pixel.local_edge = std::min(pixel.local_edge, edge / here.distance);
-        pixel.local_radiance += (lighting_.brdf(s)(here.to_light) * here.irradiance).size();
+        pixel.local_radiance += (lighting_.reflectance(s, here.to_light) * here.irradiance).size();
     }
     if (all > 0) pixel.local_visibility = seen / all;
 }
@@ -261,7 +266,7 @@ Pixel PixelRenderer::renderCaptured(int x, int y, std::uint64_t seed) const {
         takeShadows(pixel, s, foot, seed);
     }
     pixel.shading = lighting_(s, visible, seed);
-    pixel.lit = pixel.shading.all() + s.emission;
+    pixel.lit = pixel.shading.all() + emitted(s);
     takeHaze(pixel, s);
     pixel.surface = s;
     const double end = pixel.depth;
@@ -274,7 +279,7 @@ Pixel PixelRenderer::shaded(const Hit& hit, const PixelRay& ray, std::uint64_t s
     pixel.depth = depth;
     pixel.shading = lighting_(s, visibilityFrom(foot), seed);
     takeShadows(pixel, s, foot, seed);
-    pixel.lit = pixel.shading.all() + s.emission;
+    pixel.lit = pixel.shading.all() + emitted(s);
     takeHaze(pixel, s);
     pixel.surface = s;
     return pixel;

@@ -50,11 +50,12 @@ public:
             if (!request.shadow_edges && isOfShadows(mode.number)) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.number);
             Image& image = picture_.channels[mode.number];
-            if (copied) {
+            if (copied && request.surfaces->contains(mode.number)) {
                 image = request.surfaces->at(mode.number);
                 continue;
             }
             image = Image(request.view.width, request.view.height, mode.width);
+            if (copied) continue;  // of a layer that no surface has: 0
             drawn_.push_back(&mode);
             floats_ += mode.width;
         }
@@ -203,10 +204,11 @@ private:
 
 }  // namespace
 
-std::vector<int> surfaceChannels() {
+std::vector<int> surfaceChannels(std::uint32_t layers) {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isShaded(mode.number) && isMadeByReference(mode)) modes.push_back(mode.number);
+        if (!isShaded(mode.number) && isMadeByReference(mode) && (layerOf(mode.number) & ~layers) == 0)
+            modes.push_back(mode.number);
     return modes;
 }
 
@@ -220,7 +222,8 @@ PixelLight drawPixel(const Request& request, int x, int y) {
         if (!isMadeByReference(mode)) continue;
         glm::dvec3& value = result.channels[mode.number] = channelValue(mode.number, pixel);
         if (request.mode == ReferenceMode::scene || isShaded(mode.number)) continue;
-        // Not shaded: copied from the capture.
+        // Not shaded: copied from the capture, or 0 of a layer that no surface has.
+        if (!request.surfaces->contains(mode.number)) continue;
         const Image& image = request.surfaces->at(mode.number);
         for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(place)[c]};
     }

@@ -7,6 +7,7 @@
 #include "compare/reference/request.h"
 #include "shared/image/image.h"
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct Picture {
 };
 
 // The channels that mode surface takes as input: captured by a path without any encoding, at one sample.
-std::vector<int> surfaceChannels();
+// `layers`: of the scene's materials, Requirements::layers; the channels of other layers are not needed.
+std::vector<int> surfaceChannels(std::uint32_t layers);
 
 // Renders the image, multithreaded. The result does not depend on the number of threads or on
 // interruptions. Throws std::runtime_error, one line, if finished tiles cannot be saved.

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "shared/frame/setting_values.h"
+#include "shared/scene/model/axes.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -27,6 +29,13 @@ struct Surface {
     glm::dvec3 dielectric_f0{0};  // of the dielectric layer alone; the BRDF mixes it with the metal's
     double dielectric_f90 = 1;
     double transmission = 0;  // fraction of the light entering the base that is transmitted, not scattered
+    // KHR_materials_clearcoat: weight, perceptual roughness and unit shading normal; 0 without a coat.
+    double clearcoat = 0, clearcoat_roughness = 0;
+    glm::dvec3 clearcoat_normal{0};
+    // KHR_materials_anisotropy: strength, and the unit direction in which highlights stretch, perpendicular
+    // to `normal`, either sign; 0 where isotropic.
+    double anisotropy = 0;
+    glm::dvec3 anisotropy_direction{0};
     BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};
@@ -34,6 +43,14 @@ struct Surface {
     glm::dvec3 tangent{0};         // unit, world
     double handedness = 0;         // bitangent = handedness * cross(normal, tangent)
     glm::dvec3 tangent_normal{0};  // unit, tangent space
+
+    // Sets the anisotropy, with the part of `direction` that is perpendicular to `normal`; isotropic where
+    // that vanishes.
+    void stretch(double strength, const glm::dvec3& direction) {
+        anisotropy_direction = unitOr(direction - normal * glm::dot(normal, direction), glm::dvec3(0));
+        anisotropy = anisotropy_direction == glm::dvec3(0) ? 0 : strength;
+        if (!(anisotropy > 0)) anisotropy_direction = glm::dvec3(0);
+    }
 };
 
 // Fraction of light that a layer reflecting `layer` takes from the base, for each component.

@@ -23,7 +23,7 @@ Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environmen
                             const glm::dvec3& ambient, const Visibility& visible, std::uint64_t seed) {
     constexpr std::uint64_t each = 32;
     const glm::dvec3 n = brdf.normal(), x = perpendicularTo(n), y = glm::cross(n, x);
-    const LobeSampler lobe(n, brdf.toViewer(), brdf.alpha());
+    const LobeSampler lobe(brdf);
     std::optional<EnvironmentLight::Sampler> bright;
     if (environment) {
         bright.emplace(*environment, [&](const glm::dvec3& middle, double reach) {

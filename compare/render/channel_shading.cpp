@@ -66,6 +66,9 @@ std::vector<float> texelsOf(const Image& image, const Fourth& fourth) {
 }
 
 std::vector<float> texelsOf(const Frame& frame, int mode) {
+    // A frame of a scene without the layer.
+    if (layerOf(mode) != 0 && !frame.channels.contains(mode))
+        return std::vector<float>(4 * channelOf(frame, gpu::DEBUG_albedo).pixels());
     const Image& image = channelOf(frame, static_cast<gpu::uint>(mode));
     if (mode == static_cast<int>(gpu::DEBUG_lightmap)) {
         const Image& has = channelOf(frame, gpu::DEBUG_lightmapped);

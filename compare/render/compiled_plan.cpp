@@ -18,12 +18,16 @@ namespace diptych {
 
 namespace {
 
-// Every channel that the path supports, and lit channels also through the encoding.
-CaptureRequest everyChannel(const Settings& settings) {
+// Every channel that the path supports of a scene with these layers, and lit channels also through the
+// encoding.
+CaptureRequest everyChannel(const Settings& settings, gpu::uint layers) {
     CaptureRequest request;
-    for (const DebugMode& mode : debugModes())
-        if (notMadeBecause(settings, mode).empty()) request.modes.push_back(mode.number);
-    if (settings.path == Path::forward_plus) request.through_gbuffer.assign(litModes.begin(), litModes.end());
+    for (const DebugMode& mode : debugModes()) {
+        if (!notMadeBecause(settings, mode).empty() || (layerOf(mode.number) & ~layers) != 0) continue;
+        request.modes.push_back(mode.number);
+        if (settings.path == Path::forward_plus && isLit(mode.number))
+            request.through_gbuffer.push_back(mode.number);
+    }
     return request;
 }
 
@@ -117,7 +121,8 @@ CompiledPath compilePath(Device& device, DeviceCompiler& compiler, SharedResourc
     compiler.takeRequests();
     PreparedFrame prepared(device, shared, scene, settings);
     const std::vector<PipelineRequest> frame = compiler.takeRequests();
-    prepared.path.capture(prepared.passes, prepared.view.inputs, prepared.images, everyChannel(settings));
+    prepared.path.capture(prepared.passes, prepared.view.inputs, prepared.images,
+                          everyChannel(settings, scene.needs.layers));
     std::vector<PipelineRequest> captures = compiler.takeRequests();
     std::erase_if(captures, [&](const PipelineRequest& request) {
         return std::ranges::any_of(frame, [&](const PipelineRequest& earlier) { return earlier == request; });

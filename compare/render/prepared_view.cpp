@@ -115,6 +115,21 @@ const Materials& SharedResources::materials(TexturePrecision precision) {
     return found->second;
 }
 
+namespace {
+
+void checkAttachments(const Device& device, const GBufferLayout& gbuffer, const Settings& settings) {
+    const auto needed =
+        std::ranges::count_if(gbuffer.formats, [](VkFormat f) { return f != VK_FORMAT_UNDEFINED; });
+    const std::uint32_t most = std::min(device.limits().maxColorAttachments, gpu::CAPTURE_ATTACHMENTS);
+    if (settings.path == Path::deferred && needed > most)
+        throw std::runtime_error(
+            fmt::format("the G-buffer of this scene needs {} attachments, and {} draws to {} at once; use "
+                        "--gbuffer standard or --msaa 1",
+                        needed, device.info().name, most));
+}
+
+}  // namespace
+
 PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneView& seen,
                            const Settings& settings)
     : scene(seen),
@@ -168,6 +183,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .alpha_to_coverage = settings.alpha_to_coverage,
       } {
     if (const auto problem = drawingProblem(device, settings)) throw std::runtime_error(*problem);
+    checkAttachments(device, gbuffer, settings);
     inputs.variant.set(gpu::FEATURE_depth_format, inputs.depth.kind);
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));

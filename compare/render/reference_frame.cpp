@@ -184,11 +184,12 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     Frame frame = describedFrame(scene, view, settings);
     frame.requested = options.requested;
     takePicture(picture, frame);
-    std::erase_if(frame.channels, [&](const auto& entry) {
-        return std::ranges::count(options.channels, entry.first) == 0 && entry.first != background;
-    });
-    std::erase_if(frame.through_gbuffer,
-                  [&](const auto& entry) { return std::ranges::count(options.channels, entry.first) == 0; });
+    const auto isUnwanted = [&](int mode) {
+        return std::ranges::count(options.channels, mode) == 0 || isLeftOut(options, view.needs.layers, mode);
+    };
+    std::erase_if(frame.channels,
+                  [&](const auto& entry) { return isUnwanted(entry.first) && entry.first != background; });
+    std::erase_if(frame.through_gbuffer, [&](const auto& entry) { return isUnwanted(entry.first); });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (picture.kept_share > 0)
         frame.notes.push_back(fmt::format(

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "compare/run/progress.h"
+#include "shared/frame/debug_modes.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,9 +25,10 @@ class Checkpoint;
 enum class Twice : std::uint8_t { none, lit, all };
 
 struct RenderOptions {
-    // Debug modes to render; forward-only ones are omitted from a deferred Frame. Empty: only time the
-    // frame.
+    // Debug modes to render; forward-only ones are omitted from a deferred Frame, those of layers that the
+    // scene lacks unless they are `requested` and named. Empty: only time the frame.
     std::vector<int> channels;
+    bool named = true;           // whether somebody named the requested channels; false: all that there are
     std::vector<int> requested;  // subset of `channels` for Frame::requested; empty: all
     int runs = 5;                // timed frames, apart from those with timed passes; 0: no times
     // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer). Forward+
@@ -52,6 +55,12 @@ struct RenderOptions {
     // checkpoints.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
+
+// Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
+inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, int mode) {
+    const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
+    return (layerOf(mode) & ~layers) != 0 && !asked;
+}
 
 // Cost of one Frame relative to rendering one frame; for progress lines.
 double framesIn(const RenderOptions& options);

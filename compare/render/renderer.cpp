@@ -109,12 +109,14 @@ private:
         CaptureRequest request;
         if (rechecks()) request.modes = {lit};
         for (const int mode : options_.channels)
-            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty())
+            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty() &&
+                !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && settings_.path == Path::forward_plus)
             for (const int mode : litModes)
-                if (isRequested(mode)) request.through_gbuffer.push_back(mode);
+                if (isRequested(mode) && !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
+                    request.through_gbuffer.push_back(mode);
         return request;
     }
 
@@ -316,7 +318,7 @@ Frame Renderer::drawReference(const Settings& settings, const RenderOptions& opt
 // Surfaces that the reference shades in mode surface, rendered under a path's Settings.
 Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& options) {
     RenderOptions capture;
-    capture.channels = reference::surfaceChannels();
+    capture.channels = reference::surfaceChannels(state_->views.at(viewRequest(settings)).needs.layers);
     capture.recheck = options.recheck;
     capture.runs = 0;
     capture.on_step = options.on_step;

@@ -22,7 +22,8 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
     std::vector<std::string> notes;
     const bool own = settings.env == "scene";
     if (!own && settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
-    Scene scene = loadScene(where, [&](double fraction, const char* step) { progress.at(fraction, step); });
+    Scene scene = loadScene(
+        where, [&](double fraction, const char* step) { progress.at(fraction, step); }, settings.variant);
     if (own && !scene.environment)
         throw std::runtime_error(
             fmt::format("--env scene: {} has no readable EXT_lights_image_based", oneLine(where)));

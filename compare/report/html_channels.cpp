@@ -261,6 +261,8 @@ private:
                 return "relative error, |a-b| / |b|";
             case Metric::angular:
                 return "angle between the two, degrees";
+            case Metric::axial:
+                return "angle between the two lines, degrees";
             case Metric::exact:
                 return "1 where the two differ";
             case Metric::absolute:

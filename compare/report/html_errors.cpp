@@ -118,7 +118,7 @@ private:
         if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
             return channel_.shown_error_name;
         if (channel_.shown_error) return "relative error";
-        return mode_.metric == Metric::angular ? "angle" : fmt::format("{} error", nameOf(mode_.metric));
+        return isAngle(mode_.metric) ? "angle" : fmt::format("{} error", nameOf(mode_.metric));
     }
 
     const ChannelDiff& channel_;

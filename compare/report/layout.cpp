@@ -27,7 +27,7 @@ bool isDrawn(const ChannelDiff& channel, std::string_view figure) {
         channel.shown_error_name == nameOf(Metric::relative) ? Metric::relative : channel.mode->metric;
     if (metric == channel.mode->metric && isOneOf({"max", "p99", "p999"})) return true;
     return (metric == Metric::relative && isOneOf({"relative_max", "relative_p99", "relative_p999"})) ||
-           (metric == Metric::angular && figure == "angle_max");
+           (isAngle(metric) && figure == "angle_max");
 }
 
 std::optional<double> errorLimit(const ChannelDiff& channel) {

@@ -61,6 +61,21 @@ double roundedFloors(const Requirements& needs) {
     return needs.areaLights() > 0 ? 100 : 1;
 }
 
+// Change of a channel per unit of a linear texel, in the channel's unit: directions have components 2 t - 1.
+double perTexel(const DebugMode& mode) {
+    switch (static_cast<gpu::uint>(mode.number)) {
+        case gpu::DEBUG_normals:
+        case gpu::DEBUG_clearcoat_normal:
+            return 2 * std::sqrt(3.0) * degreesPerRadian;
+        case gpu::DEBUG_anisotropy_direction:  // two components, in the plane of a normal with three
+            return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
+        case gpu::DEBUG_tangent_normal:
+            return 2 * std::sqrt(3.0);
+        default:
+            return 1;
+    }
+}
+
 const Image* imageOf(const std::map<int, Image>& images, int mode) {
     const auto found = images.find(mode);
     return found == images.end() ? nullptr : &found->second;
@@ -135,6 +150,8 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
             return Kind::place;
         case gpu::DEBUG_geometric_normal:
             return Kind::facet;
+        case gpu::DEBUG_lit_clearcoat:
+            return Kind::part;
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_local_visibility:
             return Kind::seen;
@@ -186,7 +203,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
 double DeviceBounds::operator()(std::size_t i) const {
     const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
     const double unit = mode_.metric == Metric::relative ? size : 1;
-    const double rounding = relativeRounding() * (mode_.domain == Domain::unit ? degreesPerRadian : size);
+    const double rounding = relativeRounding() * (isAngle(mode_.metric) ? degreesPerRadian : size);
     switch (kind_) {
         case Kind::id:
             return 0;
@@ -202,6 +219,7 @@ double DeviceBounds::operator()(std::size_t i) const {
             return 2 * shadingRounding * std::max(1.0, rounded_as_ / size) + shadowed_.relative(i);
         case Kind::seen:
             return 2 * shadingRounding;
+        case Kind::part:
         case Kind::list:
             return std::numeric_limits<double>::infinity();
     }
@@ -266,6 +284,8 @@ std::string DeviceBounds::because() const {
         case Kind::seen:
             return "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show another "
                    "triangle";
+        case Kind::part:
+            return "a part of lit_specular and lit_ambient, which are compared";
         case Kind::list:
             return "each device uses the cell size that is cheapest on it; lights missing from a list show "
                    "in lit";
@@ -323,10 +343,7 @@ double DeviceBounds::textures(std::size_t i) const {
     // Linear texels; they mix F0.
     if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
         mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
-        most += filterRounding(across_, false) *
-                (mode_.number == static_cast<int>(gpu::DEBUG_normals) ? 2 * std::sqrt(3.0) * degreesPerRadian
-                 : mode_.number == static_cast<int>(gpu::DEBUG_tangent_normal) ? 2 * std::sqrt(3.0)
-                                                                               : 1);
+        most += filterRounding(across_, false) * perTexel(mode_);
     return most;
 }
 

@@ -57,7 +57,7 @@ public:
     std::string because() const;
 
 private:
-    enum class Kind { id, step, place, facet, surface, light, seen, list };
+    enum class Kind { id, step, place, facet, surface, light, part, seen, list };
     static Kind kindOf(const DebugMode& mode);
 
     bool isBeside(std::size_t i) const;

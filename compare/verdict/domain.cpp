@@ -23,9 +23,9 @@ Outside outside(Domain domain, const float* p, int components) {
     const auto look = [&](double value, double by) {
         if (by > worst.by) worst = {by, value};
     };
-    if (domain == Domain::unit) {
+    if (domain == Domain::unit || domain == Domain::unit_or_zero) {
         const double length = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
-        look(length, std::abs(length - 1));
+        if (domain == Domain::unit || length != 0) look(length, std::abs(length - 1));
         return worst;
     }
     for (int c = 0; c < components; ++c) {
@@ -39,6 +39,8 @@ const char* faultOf(Domain domain) {
     switch (domain) {
         case Domain::unit:
             return "vectors are not of unit length";
+        case Domain::unit_or_zero:
+            return "vectors are neither 0 nor of unit length";
         case Domain::share:
             return "values are not between 0 and 1";
         case Domain::positive:

@@ -3,6 +3,7 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/frame/debug_modes.h"
 #include "shared/material/gbuffer_layout.h"
 
 #include <array>
@@ -16,6 +17,33 @@ namespace {
 // of 1 each) and a division (2.5 ULP in Vulkan), doubled for a square root and a square.
 constexpr double unormSlack = 8 * 0x1p-24;
 constexpr double squareSlack = 2 * unormSlack;
+
+// Error of atan2, sine, cosine and the plane's axes in float32, radians. Mesa's polynomial of atan is off by
+// 2^-19. Vulkan permits more (4096 ULP of atan2, 2^-11 of a sine), which no known driver uses.
+constexpr double lineSlack = 0x1p-18;
+
+unsigned normalBits(GBufferEncoding packed) {
+    return packed == GBufferEncoding::compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS;
+}
+
+// Of a channel of a layer that the scene has.
+std::optional<StoredField> layerField(int mode, GBufferEncoding packed) {
+    using enum StoredField::Code;
+    switch (static_cast<gpu::uint>(mode)) {
+        case gpu::DEBUG_clearcoat:
+            return StoredField{unorm, gpu::CLEARCOAT_BITS};
+        case gpu::DEBUG_clearcoat_roughness:
+            return StoredField{unorm, gpu::CLEARCOAT_ROUGHNESS_BITS};
+        case gpu::DEBUG_clearcoat_normal:
+            return StoredField{octahedral, gpu::CLEARCOAT_NORMAL_BITS};
+        case gpu::DEBUG_anisotropy:
+            return StoredField{unorm, gpu::ANISOTROPY_BITS};
+        case gpu::DEBUG_anisotropy_direction:
+            return StoredField{line, gpu::ANISOTROPY_ANGLE_BITS, normalBits(packed)};
+        default:
+            return {};
+    }
+}
 
 double halfStep(unsigned bits) {
     return 0.5 / static_cast<double>((1u << bits) - 1);
@@ -52,6 +80,16 @@ double octahedralBound(unsigned bits) {
     return 180 / std::numbers::pi * (3 * std::numbers::sqrt2 * (h + 8 * 0x1p-24) + lengthBound);
 }
 
+// The stored angle is that of the projection p of the unit direction d onto the plane perpendicular to the
+// decoded normal n'. The angle between d and p has the sine |d.n'|. Since d.n = 0 for the own normal n, that
+// is |d.(n' - (n.n') n)|, and the vector in brackets has the length sin(n, n'). So that angle is at most the
+// one between the normals. Half a step, pi / 2^(bits + 1), turns p within the plane, perpendicular to the arc
+// from d. The hypotenuse of a right triangle on a sphere is at most that of a flat one.
+double lineBound(unsigned bits, unsigned normal_bits) {
+    return std::hypot(octahedralBound(normal_bits), 180 * std::ldexp(0.5, -static_cast<int>(bits))) +
+           180 / std::numbers::pi * lineSlack;
+}
+
 double StoredField::largestBound() const {
     switch (code) {
         case Code::unorm:
@@ -60,6 +98,8 @@ double StoredField::largestBound() const {
             return squareBound(bits);
         case Code::octahedral:
             return octahedralBound(bits);
+        case Code::line:
+            return lineBound(bits, normal_bits);
         case Code::radiance:
             return radianceBound();
     }
@@ -69,6 +109,8 @@ double StoredField::largestBound() const {
 std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs) {
     using enum StoredField::Code;
     if (encoding == GBufferEncoding::full) return {};
+    if (layerOf(mode) != 0)
+        return (needs.layers & layerOf(mode)) != 0 ? layerField(mode, encoding) : std::nullopt;
     const bool compact = encoding == GBufferEncoding::compact;
     const GBufferLayout layout = gbufferLayout(encoding, needs);
     constexpr unsigned mantissa = gpu::EMISSION_MANTISSA_BITS;
@@ -76,7 +118,7 @@ std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const
         case gpu::DEBUG_albedo:
             return StoredField{root, gpu::ALBEDO_BITS};
         case gpu::DEBUG_normals:
-            return StoredField{octahedral, compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS};
+            return StoredField{octahedral, normalBits(encoding)};
         case gpu::DEBUG_geometric_normal:
             return StoredField{octahedral, geometricNormalBits(encoding)};
         case gpu::DEBUG_metallic:
@@ -103,13 +145,23 @@ std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const
 }
 
 std::span<const int> lightingFields() {
-    static constexpr std::array fields{
-        static_cast<int>(gpu::DEBUG_albedo),         static_cast<int>(gpu::DEBUG_normals),
-        static_cast<int>(gpu::DEBUG_metallic),       static_cast<int>(gpu::DEBUG_roughness),
-        static_cast<int>(gpu::DEBUG_emission),       static_cast<int>(gpu::DEBUG_occlusion),
-        static_cast<int>(gpu::DEBUG_position),       static_cast<int>(gpu::DEBUG_geometric_normal),
-        static_cast<int>(gpu::DEBUG_dielectric_f90), static_cast<int>(gpu::DEBUG_lightmap),
-        static_cast<int>(gpu::DEBUG_dielectric_f0),  static_cast<int>(gpu::DEBUG_lightmapped)};
+    static constexpr std::array fields{static_cast<int>(gpu::DEBUG_albedo),
+                                       static_cast<int>(gpu::DEBUG_normals),
+                                       static_cast<int>(gpu::DEBUG_metallic),
+                                       static_cast<int>(gpu::DEBUG_roughness),
+                                       static_cast<int>(gpu::DEBUG_emission),
+                                       static_cast<int>(gpu::DEBUG_occlusion),
+                                       static_cast<int>(gpu::DEBUG_position),
+                                       static_cast<int>(gpu::DEBUG_geometric_normal),
+                                       static_cast<int>(gpu::DEBUG_dielectric_f90),
+                                       static_cast<int>(gpu::DEBUG_lightmap),
+                                       static_cast<int>(gpu::DEBUG_dielectric_f0),
+                                       static_cast<int>(gpu::DEBUG_lightmapped),
+                                       static_cast<int>(gpu::DEBUG_clearcoat),
+                                       static_cast<int>(gpu::DEBUG_clearcoat_roughness),
+                                       static_cast<int>(gpu::DEBUG_clearcoat_normal),
+                                       static_cast<int>(gpu::DEBUG_anisotropy),
+                                       static_cast<int>(gpu::DEBUG_anisotropy_direction)};
     return fields;
 }
 

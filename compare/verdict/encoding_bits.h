@@ -25,14 +25,20 @@ inline constexpr double leastRadianceBound = 0x1p-25;
 // Largest angle error of an octahedral normal with `bits` per coordinate, degrees.
 double octahedralBound(unsigned bits);
 
+// Largest angle between a line and the decoded one, degrees: stored as an angle in [0, pi) with `bits` in
+// the plane perpendicular to a decoded octahedral normal with `normal_bits` per coordinate.
+double lineBound(unsigned bits, unsigned normal_bits);
+
 // Largest deviation of a decoded unit vector's length from 1: float32's normalisation.
 inline constexpr double lengthBound = 10 * 0x1p-24;
 
 // How a field of Surface is stored in fewer bits than float32.
 struct StoredField {
-    enum class Code { unorm, root, octahedral, radiance };  // root: the square root of each component
+    // root: the square root of each component; line: an angle, as for lineBound().
+    enum class Code { unorm, root, octahedral, line, radiance };
     Code code;
-    unsigned bits = 0;  // of each component or coordinate; radiance: of the mantissas
+    unsigned bits = 0;         // of each component or coordinate; radiance: of the mantissas
+    unsigned normal_bits = 0;  // line: of each coordinate of the normal
 
     double largestBound() const;  // of any value, in the channel's metric
 };

@@ -33,10 +33,12 @@ PixelUse useOf(const StoredField& field, const float* read, const float* own, in
             return componentsUse(read, own, components, [&](double x, bool end) {
                 return (end ? 0 : squareBound(x, field.bits)) + slack;
             });
-        case StoredField::Code::octahedral: {
+        case StoredField::Code::octahedral:
+        case StoredField::Code::line: {
             const bool finite = metrics::finite(read, components) && metrics::finite(own, components);
-            return pixelUse(finite ? metrics::angle(read, own) : metrics::distance(read, own, components),
-                            octahedralBound(field.bits) + slack);
+            const auto between = field.code == StoredField::Code::line ? metrics::lineAngle : metrics::angle;
+            return pixelUse(finite ? between(read, own) : metrics::distance(read, own, components),
+                            field.largestBound() + slack);
         }
         case StoredField::Code::radiance: {
             // Of the largest component.
@@ -65,10 +67,11 @@ bool isLightingField(int mode) {
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
     if (!deferred || !forward) return {};
+    const auto mine = deferred->channels.find(mode.number), theirs = forward->channels.find(mode.number);
+    if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};
     const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
     // Of every sample that both have, by pixel: deferred's and forward+'s.
-    std::vector<std::pair<const Image*, const Image*>> samples{
-        {&deferred->channels.at(mode.number), &forward->channels.at(mode.number)}};
+    std::vector<std::pair<const Image*, const Image*>> samples{{&mine->second, &theirs->second}};
     const auto read = deferred->further_samples.find(mode.number),
                own = forward->further_samples.find(mode.number);
     if (read != deferred->further_samples.end() && own != forward->further_samples.end() &&

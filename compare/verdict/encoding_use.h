@@ -13,7 +13,7 @@ namespace diptych {
 // Compares what deferred decodes of a storedField() with forward+'s value. Each pixel's bound follows from
 // that value and the number of bits alone. With MSAA every sample counts, also of the other
 // lightingFields(), which are stored exactly. `slack`: granted beside it, in the channel's metric. Empty for
-// other pairs and channels.
+// other pairs and channels, and for a channel that one of the two lacks.
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack = 0);
 
 }  // namespace diptych

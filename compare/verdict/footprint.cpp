@@ -146,7 +146,7 @@ private:
             if (!a || !b) return false;
             const double size =
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
-            const double same = (mode.domain == Domain::unit ? degreesPerRadian : size) * sameSurface +
+            const double same = (isAngle(mode.metric) ? degreesPerRadian : size) * sameSurface +
                                 (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded =
@@ -165,10 +165,17 @@ private:
             case gpu::DEBUG_roughness:
             case gpu::DEBUG_occlusion:
             case gpu::DEBUG_dielectric_f90:
+            case gpu::DEBUG_clearcoat:
+            case gpu::DEBUG_clearcoat_roughness:
+            case gpu::DEBUG_anisotropy:
                 return code;
             case gpu::DEBUG_normals:
+            case gpu::DEBUG_clearcoat_normal:
                 // Three components of 2 t - 1.
                 return 2 * std::sqrt(3.0) * code * degreesPerRadian;
+            case gpu::DEBUG_anisotropy_direction:
+                // Two components of 2 t - 1, in the plane of a normal with three.
+                return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * code * degreesPerRadian;
             case gpu::DEBUG_tangent_normal:
                 return 2 * std::sqrt(3.0) * code;
             case gpu::DEBUG_albedo:
@@ -239,11 +246,11 @@ private:
         const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
         // A fiftieth of the channel's range; two degrees for directions.
-        const double smooth = mode_.domain == Domain::unit ? 2 : 0.02 * unit;
+        const double smooth = isAngle(mode_.metric) ? 2 : 0.02 * unit;
         if (!(std::max(range, rangeAt(mode_, first ? test_ : baseline_, x, y)) <= smooth)) return -1;
         if (isLit(mode_.number) && !isSameSurface(i)) return -1;
         const double rounding =
-            mode_.domain == Domain::unit ? shadingRounding * degreesPerRadian : shadingRounding * unit;
+            isAngle(mode_.metric) ? shadingRounding * degreesPerRadian : shadingRounding * unit;
         // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
         // of what is still smooth, because only an edge exceeds that.
         const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
@@ -300,9 +307,9 @@ private:
                 const double value = image.pixel(i)[std::min(c, image.components - 1)],
                              exposed = scale * value;
                 picture.pixel(i)[c] =
-                    static_cast<float>(scale > 0 ? std::pow(exposed / (1 + exposed), 1 / 2.2)
-                                       : mode_.domain == Domain::unit ? 0.5 * value + 0.5
-                                                                      : value);
+                    static_cast<float>(scale > 0               ? std::pow(exposed / (1 + exposed), 1 / 2.2)
+                                       : isAngle(mode_.metric) ? 0.5 * value + 0.5
+                                                               : value);
             }
         return picture;
     }

@@ -34,10 +34,12 @@ void around(const Image& image, int x, int y, const Visit& visit, int radius = 1
             if (u != x || v != y) visit(u, v);
 }
 
-// Difference of two values in the unit of ranges: degrees for unit vectors, else the largest component
+// Difference of two values in the unit of ranges: degrees for directions, else the largest component
 // difference.
 inline double apart(const DebugMode& mode, const float* a, const float* b) {
-    return mode.domain == Domain::unit ? metrics::angle(a, b) : metrics::distance(a, b, mode.width);
+    return mode.metric == Metric::angular ? metrics::angle(a, b)
+           : mode.metric == Metric::axial ? metrics::lineAngle(a, b)
+                                          : metrics::distance(a, b, mode.width);
 }
 
 // Whether neighbours show the same surface, by material, position and normal; without these channels all

@@ -35,8 +35,8 @@ struct Use {
     std::array<double, 4> factor;  // of each component
 };
 
-// Degrees per unit of a unit vector 2 t - 1 of three components.
-constexpr double turned = 2 * 1.7320508 * degreesPerRadian;
+// Degrees per unit of a unit vector 2 t - 1 of three components, and of two.
+constexpr double turned = 2 * 1.7320508 * degreesPerRadian, turnedInPlane = 2 * 1.4142136 * degreesPerRadian;
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
     const auto color = [](gpu::uint mode, double f) { return Use{mode, {f, f, f, 0}}; };
@@ -56,8 +56,11 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
                     one(gpu::DEBUG_specular, 2, m.metallic)};
         case gpu::SLOT_normal: {
             const double scale = std::max(1.0, std::abs(double{m.normal_scale}));
-            return {color(gpu::DEBUG_normals, turned * scale),
-                    color(gpu::DEBUG_tangent_normal, turned / degreesPerRadian * scale)};
+            std::vector<Use> uses{color(gpu::DEBUG_normals, turned * scale),
+                                  color(gpu::DEBUG_tangent_normal, turned / degreesPerRadian * scale)};
+            // The direction stays perpendicular to the normal.
+            if (m.anisotropy != 0) uses.push_back(color(gpu::DEBUG_anisotropy_direction, turned * scale));
+            return uses;
         }
         case gpu::SLOT_occlusion:
             return {one(gpu::DEBUG_occlusion, 0, m.occlusion_strength)};
@@ -77,6 +80,16 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
         }
         case gpu::SLOT_lightmap:
             return {color(gpu::DEBUG_lightmap, m.lightmap_intensity)};
+        case gpu::SLOT_clearcoat:
+            return {one(gpu::DEBUG_clearcoat, 0, m.clearcoat)};
+        case gpu::SLOT_clearcoat_roughness:
+            return {one(gpu::DEBUG_clearcoat_roughness, 1, m.clearcoat_roughness)};
+        case gpu::SLOT_clearcoat_normal:
+            return {color(gpu::DEBUG_clearcoat_normal,
+                          turned * std::max(1.0, std::abs(double{m.clearcoat_normal_scale})))};
+        case gpu::SLOT_anisotropy:
+            return {one(gpu::DEBUG_anisotropy, 2, m.anisotropy),
+                    Use{gpu::DEBUG_anisotropy_direction, {turnedInPlane, turnedInPlane, 0, 0}}};
         default:
             return {};
     }

@@ -47,6 +47,12 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
             return {field.largestBound(),
                     fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
                                 bits)};
+        case StoredField::Code::line:
+            return {
+                field.largestBound(),
+                fmt::format("its plane turns with the octahedral normal in {0}+{0} bits; across that, half "
+                            "a step of an angle in {1} bits, 180 / 2^{2}; degrees",
+                            field.normal_bits, bits, bits + 1)};
         case StoredField::Code::radiance:
             return radianceTolerance(mode, pair);
     }
@@ -111,6 +117,13 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
             return {0, "every dielectric has F90 = 1: nothing is stored"};
         case gpu::DEBUG_dielectric_f0:
             return {0, "every dielectric has F0 = 0.04: nothing is stored"};
+        case gpu::DEBUG_clearcoat:
+        case gpu::DEBUG_clearcoat_roughness:
+        case gpu::DEBUG_clearcoat_normal:
+            return {0, "nothing in the scene has a clear coat"};
+        case gpu::DEBUG_anisotropy:
+        case gpu::DEBUG_anisotropy_direction:
+            return {0, "nothing in the scene is anisotropic"};
         case gpu::DEBUG_material_id:
             return {0, "the index is stored exactly"};
         case gpu::DEBUG_lightmapped:
@@ -233,6 +246,7 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
             return share * double{largest};
         }
         case Metric::angular:
+        case Metric::axial:
             return std::sqrt(3.0) * share * degrees;
         case Metric::exact:
             return 0;

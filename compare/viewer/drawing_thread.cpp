@@ -330,7 +330,8 @@ struct DrawingThread::State {
 
     bool isLoaded(const Subject& subject) const {
         return loaded && loaded->scene == subject.scene && loaded->reading == subject.reading &&
-               loaded->settings.env == subject.settings.env;
+               loaded->settings.env == subject.settings.env &&
+               loaded->settings.variant == subject.settings.variant;
     }
 
     // If a scene cannot be read, the previous one stays.
@@ -494,7 +495,8 @@ struct DrawingThread::State {
             std::optional<Frame> surfaces;
             if (wanted_settings.reference_mode == ReferenceMode::surface) {
                 RenderOptions capture;
-                capture.channels = reference::surfaceChannels();
+                capture.channels =
+                    reference::surfaceChannels(views->at(viewRequest(wanted_settings)).needs.layers);
                 capture.runs = 0;
                 capture.progress = stage("the reference's surfaces");
                 surfaces = renderer->draw(surfaceSettings(wanted_settings), capture);

@@ -268,6 +268,7 @@ private:
             s.camera.clear();
             s.time = 0;
             s.animation.clear();
+            s.variant.clear();
         });
         own_camera_ = "none taken yet";
         state_.pixel.reset();

@@ -4,6 +4,7 @@
 #define CONTRACT_GLSL
 
 #extension GL_EXT_demote_to_helper_invocation : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 
 #include "shaders/lib/math/arithmetic.glsl"

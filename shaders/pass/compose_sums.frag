@@ -5,8 +5,8 @@
 // Composites the mean radiance of a pixel's layers. Writes radiance, and in alpha the transmittance.
 #include "shaders/lib/contract.glsl"
 
-layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform sampler2D blended_depths;
-layout(set = SET_GBUFFER, binding = BINDING_BLENDED_SUMS) uniform sampler2D blended_sums;
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform texture2D blended_depths;
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_SUMS) uniform texture2D blended_sums;
 
 layout(location = 0) out vec4 out_lit;
 

@@ -8,9 +8,11 @@
 
 layout(location = 0) out vec4 out_diffuse;
 layout(location = 1) out vec4 out_specular;
+layout(location = 2) out vec4 out_clearcoat;  // only if the scene has clear coats
 
 void main() {
     PartialSums sums = partialSumsHere();
     out_diffuse = sums.diffuse;
     out_specular = sums.specular;
+    if (storesLayer(LAYER_CLEARCOAT)) out_clearcoat = sums.clearcoat;
 }

@@ -5,7 +5,7 @@
 // Largest value over a pixel's samples.
 #include "shaders/lib/contract.glsl"
 
-layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform sampler2DMS samples;
+layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform texture2DMS samples;
 
 layout(location = 0) out vec4 out_texel;
 

@@ -6,10 +6,10 @@
 // them the sample.
 #include "shaders/lib/contract.glsl"
 
-layout(set = SET_GBUFFER, binding = 0) uniform sampler2DMS image_0;
-layout(set = SET_GBUFFER, binding = 1) uniform sampler2DMS image_1;
-layout(set = SET_GBUFFER, binding = 2) uniform sampler2DMS image_2;
-layout(set = SET_GBUFFER, binding = 3) uniform sampler2DMS image_3;
+layout(set = SET_GBUFFER, binding = 0) uniform texture2DMS image_0;
+layout(set = SET_GBUFFER, binding = 1) uniform texture2DMS image_1;
+layout(set = SET_GBUFFER, binding = 2) uniform texture2DMS image_2;
+layout(set = SET_GBUFFER, binding = 3) uniform texture2DMS image_3;
 
 layout(location = 0) out vec4 out_0;
 layout(location = 1) out vec4 out_1;

@@ -7,7 +7,7 @@
 // dominate (Karis, "High-quality temporal supersampling", SIGGRAPH 2014).
 #include "shaders/lib/contract.glsl"
 
-layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform sampler2DMS samples;
+layout(set = SET_GBUFFER, binding = GBUFFER_ALBEDO) uniform texture2DMS samples;
 
 layout(location = 0) out vec4 out_lit;
 

@@ -66,6 +66,7 @@ void main() {
         if (on(feature_double_sided)) v_irradiance_behind = vertexIrradiance(world, -v_normal);
     }
     if (on(feature_texture_transform) || on(feature_second_texcoord))
-        for (uint slot = 0; slot < SLOT_COUNT; ++slot)
-            v_slot_texcoords[slot] = slotTexcoord(slot, v.texcoords);
+        for (uint slot = 0; slot < SLOT_COUNT; slot += 2)
+            v_slot_texcoords[slot / 2] =
+                vec4(slotTexcoord(slot, v.texcoords), slotTexcoord(slot + 1, v.texcoords));
 }

@@ -17,7 +17,8 @@ CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // sums of the preceding light batch
 CONTRACT_END
 
 // number  name  kind  contents
-//   kind  uniform_buffer, storage_buffer, texel_buffer (read as a sampler buffer), image (with its sampler)
+//   kind  uniform_buffer, storage_buffer, texel_buffer (read as a sampler buffer), image (with its sampler),
+//         fetched_image (read by texel, without a sampler)
 // clang-format off
 #define FRAME_BINDINGS(X)                                                                     \
     X(0,  VIEW,         uniform_buffer, "View")                                               \
@@ -43,8 +44,9 @@ CONTRACT_END
     X(20, HAZE,             texel_buffer, "Haze, five texels, then HazeMarch, three: haze.h")
 
 #define PARTIAL_SUM_BINDINGS(X)                                                               \
-    X(0, PARTIAL_DIFFUSE,  image, "RGBA32F, W/(sr m^2)")                                      \
-    X(1, PARTIAL_SPECULAR, image, "RGBA32F, W/(sr m^2)")
+    X(0, PARTIAL_DIFFUSE,   fetched_image, "RGBA32F, W/(sr m^2)")                             \
+    X(1, PARTIAL_SPECULAR,  fetched_image, "RGBA32F, W/(sr m^2)")                             \
+    X(2, PARTIAL_CLEARCOAT, fetched_image, "RGBA32F, W/(sr m^2); the clear coat's part of the specular sum")
 // clang-format on
 
 CONTRACT_BEGIN

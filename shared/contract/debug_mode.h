@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
-// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material) and never renumbered.
+// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material, 60.. layers) and never
+// renumbered.
 //
 // tests/architecture/README.md lists the files to change for a new channel.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
@@ -12,7 +13,8 @@
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
-//   domain  unit: vectors of length 1   share: 0 to 1   positive: 0 or more   any
+//           axial     the same between lines: b and -b are equal, so at most 90 degrees
+//   domain  unit: vectors of length 1   unit_or_zero: these, or 0   share: 0 to 1   positive: 0 or more   any
 //   made by which renderers produce it:
 //           both           both paths and the reference
 //           forward_only   forward+ and the reference: the G-buffer does not store it
@@ -46,13 +48,19 @@
     X(43, lit_haze,         3, relative, color,  any,      both,         "radiance scattered by haze in front of the surface, W/(sr m^2)") \
     X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1")       \
     X(45, lit_environment,  3, relative, color,  any,      both,         "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)") \
+    X(46, lit_clearcoat,    3, relative, color,  any,      both,         "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  positive, both,         "lightmap irradiance / pi, W/(sr m^2)") \
     X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent of the normal map, world; 0 without a normal map") \
     X(53, handedness,       1, exact,    scalar, any,      forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map") \
     X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "normal map's normal, tangent space, unit; 0 without a normal map") \
     X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer") \
-    X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light")
+    X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light") \
+    X(60, clearcoat,        1, absolute, scalar, share,    both,         "weight of the clear coat, 0 to 1") \
+    X(61, clearcoat_roughness, 1, absolute, scalar, share, both,         "perceptual roughness of the clear coat, 0 to 1; 0 without one") \
+    X(62, clearcoat_normal, 3, angular,  vector, unit_or_zero, both,         "normal of the clear coat, world; 0 without one") \
+    X(63, anisotropy,       1, absolute, scalar, share,    both,         "strength of anisotropy, 0 to 1") \
+    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both,         "direction along which highlights stretch, world, either sign; 0 where isotropic")
 // clang-format on
 
 // name  image  component: where captures store a channel. Captures render images of four components;
@@ -85,21 +93,27 @@
     X(handedness,         9, 3) \
     X(tangent_normal,    10, 0) \
     X(lightmapped,       10, 3) \
-    X(shaded_samples,    11, 0) \
-    X(lit,               12, 0) \
-    X(lit_diffuse,       13, 0) \
-    X(shadow_visibility, 13, 3) \
-    X(lit_specular,      14, 0) \
-    X(local_visibility,  14, 3) \
-    X(lit_ambient,       15, 0) \
-    X(lit_haze,          16, 0) \
-    X(transmittance,     17, 0) \
-    X(lit_environment,   18, 0)
+    X(clearcoat_normal,  11, 0) \
+    X(clearcoat,         11, 3) \
+    X(anisotropy_direction, 12, 0) \
+    X(anisotropy,        12, 3) \
+    X(clearcoat_roughness, 13, 0) \
+    X(shaded_samples,    14, 0) \
+    X(lit,               15, 0) \
+    X(lit_diffuse,       16, 0) \
+    X(shadow_visibility, 16, 3) \
+    X(lit_specular,      17, 0) \
+    X(local_visibility,  17, 3) \
+    X(lit_ambient,       18, 0) \
+    X(lit_haze,          19, 0) \
+    X(transmittance,     20, 0) \
+    X(lit_environment,   21, 0) \
+    X(lit_clearcoat,     22, 0)
 // clang-format on
 
 CONTRACT_BEGIN
-CONTRACT_CONST(uint, CAPTURE_IMAGES, 19);
-CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 12);
+CONTRACT_CONST(uint, CAPTURE_IMAGES, 23);
+CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 15);
 // Colour attachments of a capture pass; device_support.h requires as many.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
 

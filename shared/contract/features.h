@@ -114,8 +114,16 @@
     X(60, squared_window,             frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     /* read lights and lists by address: they exceed the device's largest texel buffer */                   \
     X(61, addressed_lights,           frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)                 \
+    X(62, clearcoat_texture,          item,    PASSES_SURFACE)                                              \
+    X(63, clearcoat_roughness_texture, item,   PASSES_SURFACE)                                              \
+    X(64, clearcoat_normal_texture,   item,    PASSES_SURFACE)                                              \
+    X(65, anisotropy_texture,         item,    PASSES_SURFACE)                                              \
+    /* a sum of LAYER_* of material.h: of the draw; in deferred lighting, of the scene */                   \
+    X(66, layers,                     item,    PASSES_SURFACE | PASS_LIGHTING)                              \
+    /* a sum of LAYER_*: those that the G-buffer stores */                                                  \
+    X(67, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
     /* KHR_materials_pbrSpecularGlossiness (material.h) */                                                  \
-    X(62, specular_glossiness,        item,    PASSES_SURFACE)
+    X(68, specular_glossiness,        item,    PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

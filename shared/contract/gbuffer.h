@@ -13,14 +13,19 @@
 //   ids       R32  (only if 10 bits            R32  (only if 12 bits
 //                   are too few)                   are too few)
 //   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
+//   layers    R32 to RGBA32: two words of a clear coat, oct 16.16 and      RGBA32 coat's normal, weight
+//             weight 12, roughness 12; a word of anisotropy, strength 12,  RGBA32 coat's roughness,
+//             anisotropy, angle 16. Bit 28 of the last word: the layer is there                  its
+//             direction
 //   shaded    RG32 shading depth (bits of a float) and sample mask (MSAA only)
-//   bytes     12 to 24, + 4 depth          16 to 28, + 4 depth             64 to 96, + 4 depth
+//   bytes     12 to 40, + 4 depth          16 to 44, + 4 depth             64 to 128, + 4 depth
 //
 // sqrt: the square root is stored, so 0.04, the default F0, is exactly 51/255.
 // emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
 // float if radiance exceeds the range of 9.9.9.e5.
 // lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
 // shaders/lib/surface/gbuffer.glsl distinguishes them from black.
+// layers exists if a material has a clear coat or anisotropy, with a word only for what there is.
 // specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
 // With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
 // pixel: the mean location of the samples that its triangle covers, and the depth there.
@@ -33,14 +38,16 @@
 // number  name  kind  display name
 // clang-format off
 #define GBUFFER_BINDINGS(X)                  \
-    X(0, ALBEDO,   image, "albedo")          \
-    X(1, NORMALS,  image, "normals")         \
-    X(2, PARAMS,   image, "params")          \
-    X(3, EMISSION, image, "emission")        \
-    X(4, SPECULAR, image, "specular")        \
-    X(5, IDS,      image, "material ids")    \
-    X(6, LIGHTMAP, image, "lightmap")        \
-    X(7, SHADED,   image, "shaded sample locations")
+    X(0, ALBEDO,   fetched_image, "albedo")          \
+    X(1, NORMALS,  fetched_image, "normals")         \
+    X(2, PARAMS,   fetched_image, "params")          \
+    X(3, EMISSION, fetched_image, "emission")        \
+    X(4, SPECULAR, fetched_image, "specular")        \
+    X(5, IDS,      fetched_image, "material ids")    \
+    X(6, LIGHTMAP, fetched_image, "lightmap")        \
+    X(7, LAYERS,   fetched_image, "layers")          \
+    X(8, LAYERS_2, fetched_image, "further layers")  \
+    X(9, SHADED,   fetched_image, "shaded sample locations")
 // clang-format on
 
 CONTRACT_BEGIN
@@ -72,6 +79,13 @@ CONTRACT_CONST(uint, STANDARD_ROUGHNESS_BITS, 12);
 CONTRACT_CONST(uint, STANDARD_METALLIC_BITS, 8);
 CONTRACT_CONST(uint, STANDARD_ID_BITS, 12);
 CONTRACT_CONST(uint, EMISSION_MANTISSA_BITS, 9);
+// Of layers, in both packed encodings.
+CONTRACT_CONST(uint, CLEARCOAT_BITS, 12);
+CONTRACT_CONST(uint, CLEARCOAT_ROUGHNESS_BITS, 12);
+CONTRACT_CONST(uint, CLEARCOAT_NORMAL_BITS, 16);
+CONTRACT_CONST(uint, ANISOTROPY_BITS, 12);
+// Of an angle in [0, pi) about the decoded normal: highlights stretch both ways.
+CONTRACT_CONST(uint, ANISOTROPY_ANGLE_BITS, 16);
 
 // Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
 CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);

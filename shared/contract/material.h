@@ -15,7 +15,11 @@
     X(4, emissive)               \
     X(5, specular)               \
     X(6, specular_color)         \
-    X(7, lightmap)
+    X(7, lightmap)               \
+    X(8, clearcoat)              \
+    X(9, clearcoat_roughness)    \
+    X(10, clearcoat_normal)      \
+    X(11, anisotropy)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -46,6 +50,10 @@ CONTRACT_CONST(uint, MASK_COVERS, 2);
 // base colour's alpha, as other blended surfaces do, or everything behind it.
 CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
 CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
+
+// FEATURE_layers: a sum of the layers of a draw's material, or of a scene's materials.
+CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);   // KHR_materials_clearcoat
+CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);  // KHR_materials_anisotropy
 
 // FEATURE_specular_aa filters the screen-space change of the interpolated normal or of the normal-mapped
 // one.
@@ -88,6 +96,11 @@ struct Material {
     float alpha_cutoff;
     float lightmap_intensity;
     float transmission;    // KHR_materials_transmission: transmissionFactor
+    float clearcoat;       // KHR_materials_clearcoat: the layer's weight, 0 to 1
+    float clearcoat_roughness;     // perceptual
+    float clearcoat_normal_scale;
+    float anisotropy;              // KHR_materials_anisotropy: anisotropyStrength, 0 to 1
+    vec2 anisotropy_rotation;      // cosine and sine of anisotropyRotation, from tangent to bitangent
     uint second_texcoord;  // bit SLOT_*: the slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
     vec4 texels[SLOT_COUNT];  // of slots with TEXEL_CONSTANT, as the device decodes them

@@ -20,9 +20,20 @@
     X(5,  occlusion)         \
     X(6,  lightmap)          \
     X(7,  geometric_normal)  \
-    X(9,  position)          \
-    X(10, dielectric_f0)     \
-    X(11, dielectric_f90)
+    X(8,  position)          \
+    X(9,  dielectric_f0)     \
+    X(11, dielectric_f90)    \
+    X(12, clearcoat)         \
+    X(13, clearcoat_roughness) \
+    X(20, clearcoat_normal)  \
+    X(21, anisotropy)        \
+    X(22, anisotropy_direction)
+
+// Bindings of SET_GBUFFER after those of samples, for channels alone.
+#define CHANNEL_BINDINGS(X)                                      \
+    X(20, CHANNEL_1, fetched_image, "a channel of a surface")    \
+    X(21, CHANNEL_2, fetched_image, "a channel of a surface")    \
+    X(22, CHANNEL_3, fetched_image, "a channel of a surface")
 // clang-format on
 
 CONTRACT_BEGIN

@@ -112,7 +112,7 @@ DrawItem itemOf(const PlacedPrimitive& placed, const Materials& materials) {
     item.variant = materials.variant(range.material);
     if (range.vertex_color) item.variant.set(gpu::FEATURE_vertex_color);
     if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
-        flattens(placed.world_from_object))
+        item.variant.get(gpu::FEATURE_clearcoat_normal_texture) != 0 || flattens(placed.world_from_object))
         item.variant.set(gpu::FEATURE_vanishing_normals);
     item.blended = materials.blends(range.material);
     item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;

@@ -6,6 +6,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/samples.h"
+#include "shared/contract/surface_channels.h"
 #include "shared/contract/transparency.h"
 
 #include <array>
@@ -18,9 +19,11 @@ namespace {
 
 constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-constexpr auto gbufferTypes = bindingTypes(
-    {GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW) BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::image},
-     TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto gbufferTypes =
+    bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
+                      BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::fetched_image},
+                  TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)
+                      CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 
@@ -74,8 +77,8 @@ void Placeholders::bindGBuffer(DescriptorSets& gbuffer, const Layouts& layouts) 
     for (gpu::uint i = 0; i < gbuffer.bindings(); ++i) {
         if (gbufferTypes[i] == binding_kind::storage_buffer)
             gbuffer.buffer(0, i, storage_.handle());
-        else if (gbufferTypes[i] == binding_kind::image)  // storage images: only shaders that use them
-                                                          // declare them
+        else if (gbufferTypes[i] == binding_kind::fetched_image)  // storage images: only shaders that use
+                                                                  // them declare them
             gbuffer.image(0, i, image_.view(), layouts.nearest, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
 }

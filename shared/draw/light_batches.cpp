@@ -8,18 +8,32 @@ namespace diptych {
 
 void LightBatch::read(Pass& pass, VkPipelineStageFlags2 stages) const {
     if (sums)
-        for (const ImageRef image : images) pass.samples(image, stages);
+        for (const ImageRef image : images)
+            if (image.valid()) pass.samples(image, stages);
 }
 
 std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, const FrameInputs& inputs,
-                                              const std::array<ImageRef, 2>& images) {
+                                              const PartialSumImages& images) {
     auto sums =
         std::make_shared<DescriptorSets>(inputs.device, inputs.layouts.partial_sums, partialSumBindings(), 1);
     pass.prepare([&passes, sums, images, sampler = inputs.layouts.nearest.get()] {
         for (gpu::uint i = 0; i < images.size(); ++i)
-            sums->image(0, i, passes.view(images[i]), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+            sums->image(0, i, passes.view(images[i].valid() ? images[i] : images[0]), sampler,
+                        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
     return sums;
+}
+
+namespace {
+
+bool isCoated(const FrameInputs& inputs) {
+    return (inputs.variant.get(gpu::FEATURE_layers) & gpu::LAYER_CLEARCOAT) != 0;
+}
+
+}  // namespace
+
+std::vector<VkFormat> partialSumFormats(const FrameInputs& inputs) {
+    return std::vector<VkFormat>(isCoated(inputs) ? 3 : 2, litFormat);
 }
 
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
@@ -49,10 +63,12 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
                                  .usage = stored ? VkImageUsageFlags{VK_IMAGE_USAGE_STORAGE_BIT} : 0,
                                  .life = Life::transient});
         };
-        const std::array<ImageRef, 2> images{sum("partial diffuse sum"), sum("partial specular sum")};
+        PartialSumImages images{sum("partial diffuse sum"), sum("partial specular sum")};
+        if (!stored && isCoated(inputs)) images[2] = sum("partial clear coat sum");
         Pass& pass = stored ? passes.compute(name) : passes.draw(name);
         if (!stored)
-            for (const ImageRef image : images) pass.color(image, Load::clear);
+            for (const ImageRef image : images)
+                if (image.valid()) pass.color(image, Load::clear);
         add(pass, batch, images);
         std::shared_ptr<DescriptorSets> sums = partialSumSet(passes, pass, inputs, images);
         batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, entries), images, std::move(sums)};

@@ -9,14 +9,18 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace diptych {
+
+// Diffuse, specular, and if the scene has clear coats, their part of the specular sum.
+using PartialSumImages = std::array<ImageRef, 3>;
 
 // Range of list entries that one draw evaluates, and the sums that it continues from.
 struct LightBatch {
     gpu::uint kind = gpu::BATCH_WHOLE;
-    gpu::uint first = 0, end = 0;         // entries, counted from a list's begin
-    std::array<ImageRef, 2> images = {};  // sums of earlier batches: diffuse, specular
+    gpu::uint first = 0, end = 0;  // entries, counted from a list's begin
+    PartialSumImages images = {};  // sums of earlier batches
     std::shared_ptr<DescriptorSets> sums =
         {};  // the same as SET_PARTIAL_SUMS, filled once the images have memory; null: none
 
@@ -31,15 +35,16 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
 // Adds a draw for every light batch but the last, and returns the last for the pass that completes the
 // sum. Lists of up to DeviceProfile::list_entries_per_draw entries are one batch, BATCH_WHOLE, without an
 // extra draw. `add` declares what the pass reads, including depth and the earlier sums, and records the draw
-// of one batch. The draw writes attachments 0 (diffuse) and 1 (specular). With SumsBy::storage it is a
-// dispatch, which stores to these images and declares them.
+// of one batch, which writes attachments of partialSumFormats(). With SumsBy::storage it is a dispatch, which
+// stores to the first two images and declares them.
 enum class SumsBy { attachments, storage };
-using AddBatch = std::function<void(Pass&, const LightBatch&, const std::array<ImageRef, 2>& sums)>;
+using AddBatch = std::function<void(Pass&, const LightBatch&, const PartialSumImages& sums)>;
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add,
                              SumsBy drawn = SumsBy::attachments);
 
 // SET_PARTIAL_SUMS of these images, written when the pass is prepared.
 std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, const FrameInputs& inputs,
-                                              const std::array<ImageRef, 2>& images);
+                                              const PartialSumImages& images);
+std::vector<VkFormat> partialSumFormats(const FrameInputs& inputs);
 
 }  // namespace diptych

@@ -72,7 +72,8 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
 PipelineKey forwardBatchKey(const FrameInputs& inputs, const DrawItem& item, const LightBatch& batch) {
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_light_batch_frag;
-    key.colors = {litFormat, litFormat};
+    key.colors = partialSumFormats(inputs);
+    key.variant.set(gpu::FEATURE_gbuffer_layers, inputs.variant.get(gpu::FEATURE_gbuffer_layers));
     return key;
 }
 

@@ -2,6 +2,7 @@
 #include "shared/draw/posing.h"
 
 #include "shared/draw/arena.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/morphed_tangents.h"
 
 #include <fmt/format.h>
@@ -96,9 +97,9 @@ gpu::PosingConstants constantsOf(const gpu::PosedInstance& i, VkDeviceAddress ad
             i.texcoords1_end,      i.colors_end};
 }
 
-const TextureSlot& normalMapOf(const Scene& scene, const Pose& pose, const Instance& instance) {
-    const Primitive& primitive = primitiveOf(scene, instance);
-    return materialsOf(scene, pose)[static_cast<std::size_t>(primitive.material)].normal_texture;
+TextureSlot tangentMapOf(const std::vector<Material>& materials, const Scene& scene,
+                         const Instance& instance) {
+    return tangentMap(materials[static_cast<std::size_t>(primitiveOf(scene, instance).material)]);
 }
 
 // Sets the members that depend on the pose. Returns the deltas of its morph targets.
@@ -111,14 +112,12 @@ std::vector<gpu::PosedDelta> takePose(gpu::PosedInstance& i, const Deformations:
         instance.weights < 0 ? nullptr : &pose.weights[static_cast<std::size_t>(instance.weights)];
     std::vector<gpu::PosedDelta> deltas = deltasOf(rest, weights, i);
     // Tangents are recomputed if their inputs change.
-    const TextureSlot& map = normalMapOf(scene, pose, instance);
+    const TextureSlot map = tangentMapOf(materialsOf(scene, pose), scene, instance);
     const bool moves_texcoords =
         map.texcoord == 1 ? i.texcoords1_end > i.texcoords0_end : i.texcoords0_end > i.tangents_end;
     if (i.normals_end == 0 && !moves_texcoords && !instance.map_rotated) i.groups = 0;
     if (i.groups > 0) {
-        const int material = primitiveOf(scene, instance).material;
-        i.bitangents = static_cast<float>(
-            mirroredSign(scene.materials[static_cast<std::size_t>(material)].normal_texture, map));
+        i.bitangents = static_cast<float>(mirroredSign(tangentMapOf(scene.materials, scene, instance), map));
         i.map_second = map.texcoord == 1 ? 1 : 0;
         i.map_u = glm::vec2(map.u);
         i.map_v = glm::vec2(map.v);
@@ -357,11 +356,12 @@ Posings::Posings(Device& device, Uploader& uploader, const Scene& scene, const G
 std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, SkinNormals normals,
                                           Pipelines& pipelines) {
     if (pose.boxes.empty()) return std::make_shared<const Posing>();
+    const Scene& scene = sources_.geometry.scene();
     Key key{skinning, normals, {}, pose.boxes, pose.skins, pose.weights, {}};
     for (const Instance& instance : pose.instances)
         if (instance.box >= 0) {
             key.instances.push_back(instance);
-            key.maps.push_back(normalMapOf(sources_.geometry.scene(), pose, instance));
+            key.maps.push_back(tangentMapOf(materialsOf(scene, pose), scene, instance));
         }
     std::erase_if(kept_, [](const Kept& kept) { return kept.posing.expired(); });
     for (const Kept& kept : kept_)

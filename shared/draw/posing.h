@@ -101,7 +101,7 @@ private:
         std::vector<PosedBox> boxes;
         std::vector<std::vector<glm::dmat4>> skins;
         std::vector<std::vector<double>> weights;
-        std::vector<TextureSlot> maps;  // by instance: its normal map
+        std::vector<TextureSlot> maps;  // by instance: its tangentMap()
         bool operator==(const Key&) const = default;
     };
     struct Kept {

@@ -48,6 +48,8 @@ std::string_view nameOf(Metric metric) {
             return "absolute";
         case Metric::angular:
             return "angular";
+        case Metric::axial:
+            return "axial";
         case Metric::exact:
             return "exact";
     }

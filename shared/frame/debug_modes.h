@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/material.h"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +14,13 @@
 
 namespace diptych {
 
-enum class Metric { relative, absolute, angular, exact };
+enum class Metric { relative, absolute, angular, axial, exact };
+constexpr bool isAngle(Metric metric) {  // in degrees
+    return metric == Metric::angular || metric == Metric::axial;
+}
 enum class ChannelKind { color, vector, scalar, id };
-// Valid range of the values: unit vectors, 0 to 1, 0 or more, or any.
-enum class Domain { unit, share, positive, any };
+// Valid range of the values: unit vectors, these or 0, 0 to 1, 0 or more, or any.
+enum class Domain { unit, unit_or_zero, share, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
 
 // How a channel is shown as an image; by_metric: by its kind and metric.
@@ -40,10 +44,12 @@ const DebugMode& debugMode(int number);                         // throws std::o
 std::string_view nameOf(Metric metric);
 
 // Channels of lighting: those that depend on the surface and on the light it receives.
-inline constexpr std::array litModes{
-    static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_lit_diffuse),
-    static_cast<int>(gpu::DEBUG_lit_specular), static_cast<int>(gpu::DEBUG_lit_ambient),
-    static_cast<int>(gpu::DEBUG_lit_environment)};
+inline constexpr std::array litModes{static_cast<int>(gpu::DEBUG_lit),
+                                     static_cast<int>(gpu::DEBUG_lit_diffuse),
+                                     static_cast<int>(gpu::DEBUG_lit_specular),
+                                     static_cast<int>(gpu::DEBUG_lit_ambient),
+                                     static_cast<int>(gpu::DEBUG_lit_environment),
+                                     static_cast<int>(gpu::DEBUG_lit_clearcoat)};
 constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
@@ -58,6 +64,18 @@ constexpr bool isOfHaze(int mode) {
 constexpr bool isShaded(int mode) {
     return isLit(mode) || isOfHaze(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
            mode == static_cast<int>(gpu::DEBUG_local_visibility);
+}
+
+// LAYER_* of contract/material.h without which the channel is 0 everywhere; 0: none.
+constexpr gpu::uint layerOf(int mode) {
+    if (mode == static_cast<int>(gpu::DEBUG_lit_clearcoat)) return gpu::LAYER_CLEARCOAT;
+    if (mode >= static_cast<int>(gpu::DEBUG_clearcoat) &&
+        mode <= static_cast<int>(gpu::DEBUG_clearcoat_normal))
+        return gpu::LAYER_CLEARCOAT;
+    if (mode == static_cast<int>(gpu::DEBUG_anisotropy) ||
+        mode == static_cast<int>(gpu::DEBUG_anisotropy_direction))
+        return gpu::LAYER_ANISOTROPY;
+    return 0;
 }
 
 // 0 in a scene without ambient light and lightmaps.

@@ -194,6 +194,9 @@ void Settings::rows(Visit&& visit) {
           &Settings::time);
     visit(Field{.option = "animation", .help = "animation to play, by index or name; default: all"},
           &Settings::animation);
+    visit(Field{.option = "variant",
+                .help = "material variant of the scene, by index or name; default: its own materials"},
+          &Settings::variant);
     visit(Field{.option = "skinning",
                 .help =
                     "deform skinned and morphed vertices once per frame (compute) or in every draw (vertex)",

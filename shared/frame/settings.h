@@ -31,6 +31,7 @@ struct Settings {
                             // far=m"
     double time = 0.0;      // s
     std::string animation;  // "": all; an index or a name
+    std::string variant;    // "": primitives' own materials; an index or a name
     Skinning skinning = Skinning::compute;
     SkinNormals skin_normals = SkinNormals::joints;
     std::string env = "none";   // file name of a lat-long environment, or scene

@@ -181,8 +181,8 @@ std::string ownWord(const Field& field, const std::string& word) {
 
 template <class Value, class Member>
 bool readJson(Member& member, const Field& field, const Json& json) {
-    if ((field.option == "camera" || field.option == "animation") && json.is_number_unsigned())
-        return Value::read(member, json.dump());
+    const bool selects = field.option == "camera" || field.option == "animation" || field.option == "variant";
+    if (selects && json.is_number_unsigned()) return Value::read(member, json.dump());
     if (!json.is_string()) return Value::fromJson(member, json);
     const auto& word = json.get_ref<const std::string&>();
     const std::string own = ownWord(field, word);

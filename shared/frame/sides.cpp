@@ -13,7 +13,7 @@
 namespace diptych {
 namespace {
 
-constexpr std::string_view view_options[] = {"size", "camera",       "time",   "animation",
+constexpr std::string_view view_options[] = {"size", "camera",       "time",   "animation", "variant",
                                              "env",  "scene-lights", "lights", "seed"};
 
 // Settings that change how an image is rendered, but not the image.

@@ -12,7 +12,8 @@ void GBufferLayout::specialise(Variant& variant) const {
     variant.set(gpu::FEATURE_gbuffer_encoding, encoding)
         .set(gpu::FEATURE_gbuffer_wide_emission, wide_emission)
         .set(gpu::FEATURE_gbuffer_wide_lightmap, wide_lightmap)
-        .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id);
+        .set(gpu::FEATURE_gbuffer_wide_material_id, wide_material_id)
+        .set(gpu::FEATURE_gbuffer_layers, layers);
 }
 
 gpu::uint geometricNormalBits(GBufferEncoding encoding) {
@@ -26,6 +27,25 @@ gpu::uint geometricNormalBits(GBufferEncoding encoding) {
     }
     return 0;
 }
+
+namespace {
+
+// Packed: words of what there is. Full: the coat's normal and weight, then all other values.
+void addLayers(GBufferLayout& layout, bool full) {
+    const bool coat = (layout.layers & gpu::LAYER_CLEARCOAT) != 0;
+    const bool anisotropy = (layout.layers & gpu::LAYER_ANISOTROPY) != 0;
+    auto& f = layout.formats;
+    if (full) {
+        if (coat) f[gpu::GBUFFER_LAYERS] = VK_FORMAT_R32G32B32A32_UINT;
+        if (layout.layers != 0) f[gpu::GBUFFER_LAYERS_2] = VK_FORMAT_R32G32B32A32_UINT;
+    } else if (layout.layers != 0) {
+        f[gpu::GBUFFER_LAYERS] = coat && anisotropy ? VK_FORMAT_R32G32B32A32_UINT
+                                 : coat             ? VK_FORMAT_R32G32_UINT
+                                                    : VK_FORMAT_R32_UINT;
+    }
+}
+
+}  // namespace
 
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled) {
     GBufferLayout layout;
@@ -47,6 +67,8 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs,
         f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
     if (needs.lightmap) f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
+    layout.layers = needs.layers;
+    addLayers(layout, full);
     if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
     if (sampled) f[gpu::GBUFFER_SHADED] = VK_FORMAT_R32G32_UINT;
     return layout;

@@ -18,6 +18,7 @@ struct GBufferLayout {
     // Float32, for radiance beyond the range of 9.9.9.e5.
     bool wide_emission = false;
     bool wide_lightmap = false;  // float32 likewise
+    gpu::uint layers = 0;        // LAYER_* that are stored
     // For more materials than the packed bits can store.
     bool wide_material_id = false;
     std::array<VkFormat, gpu::GBUFFER_ATTACHMENTS> formats{};  // VK_FORMAT_UNDEFINED: no attachment

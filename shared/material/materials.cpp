@@ -14,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <set>
@@ -47,6 +48,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
         variant.set(gpu::FEATURE_transmission, material.alpha_mode == AlphaMode::blend
                                                    ? gpu::TRANSMISSION_COVERED
                                                    : gpu::TRANSMISSION_WHOLE);
+    variant.set(gpu::FEATURE_layers, layersOf(material));
     return variant;
 }
 
@@ -64,6 +66,11 @@ gpu::Material gpuMaterial(const Material& m) {
     g.alpha_cutoff = m.alpha_cutoff;
     g.lightmap_intensity = m.lightmap_intensity;
     g.transmission = m.transmission;
+    g.clearcoat = m.clearcoat;
+    g.clearcoat_roughness = m.clearcoat_roughness;
+    g.clearcoat_normal_scale = m.clearcoat_normal_scale;
+    g.anisotropy = m.anisotropy;
+    g.anisotropy_rotation = {std::cos(m.anisotropy_rotation), std::sin(m.anisotropy_rotation)};
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
         const TextureSlot& texture = m.*materialSlots[slot].texture;
         if (texture.texcoord == 1) g.second_texcoord |= 1u << slot;

@@ -21,6 +21,10 @@ constexpr std::array<unsigned, gpu::SLOT_COUNT> componentsRead = [] {
     read[gpu::SLOT_specular] = alpha;
     read[gpu::SLOT_specular_color] = color;
     read[gpu::SLOT_lightmap] = color;
+    read[gpu::SLOT_clearcoat] = red;
+    read[gpu::SLOT_clearcoat_roughness] = green;
+    read[gpu::SLOT_clearcoat_normal] = color;
+    read[gpu::SLOT_anisotropy] = color;
     return read;
 }();
 

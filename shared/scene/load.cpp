@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/gltf.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/deformation_bounds.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -41,26 +42,34 @@ SceneFile fileOf(const std::string& where) {
     return {file, question == where.npos ? "" : where.substr(question + key.size())};
 }
 
+Scene builtinOf(const std::string& where, const std::string& variant) {
+    Scene scene = makeBuiltin(where.substr(builtinPrefix.size()));
+    if (!variant.empty())
+        throw std::runtime_error(fmt::format(
+            "{}: --variant \"{}\": built-in scenes have no material variants", where, oneLine(variant)));
+    return scene;
+}
+
 }  // namespace
 
-Scene loadScene(const std::string& where, const LoadProgress& progress) {
+Scene loadScene(const std::string& where, const LoadProgress& progress, const std::string& variant) {
     Scene scene;
     if (where.starts_with(builtinPrefix)) {
-        scene = makeBuiltin(where.substr(builtinPrefix.size()));
+        scene = builtinOf(where, variant);
     } else {
         const auto [file, choice] = fileOf(where);
-        scene = loadGltf(file, choice, progress);
+        scene = loadGltf(file, choice, variant, progress);
     }
     scene.name = where;
     prepareDeformationBounds(scene);
     return scene;
 }
 
-void checkScene(const std::string& where) {
+void checkScene(const std::string& where, const std::string& variant) {
     if (where.starts_with(builtinPrefix))
-        makeBuiltin(where.substr(builtinPrefix.size()));
+        builtinOf(where, variant);
     else
-        checkGltf(fileOf(where).file);
+        checkGltf(fileOf(where).file, variant);
 }
 
 }  // namespace diptych

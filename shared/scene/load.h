@@ -10,11 +10,12 @@
 namespace diptych {
 
 // `where` is "builtin:NAME[?key=value&...]" or a .gltf or .glb file. `progress` is called during loading.
-// Throws std::runtime_error: one line that names file, object and fault.
-Scene loadScene(const std::string& where, const LoadProgress& progress = {});
+// `variant` is the index or name of a material variant of the file; empty: primitives' own materials. Throws
+// std::runtime_error: one line that names file, object and fault.
+Scene loadScene(const std::string& where, const LoadProgress& progress = {}, const std::string& variant = "");
 
-// Checks quickly whether `where` is a scene, without reading its data: the file exists, and its container
-// lengths, JSON, version and required extensions are valid. Throws as loadScene().
-void checkScene(const std::string& where);
+// Checks quickly whether `where` is a scene with the variant, without reading its data: the file exists, and
+// its container lengths, JSON, version and required extensions are valid. Throws as loadScene().
+void checkScene(const std::string& where, const std::string& variant = "");
 
 }  // namespace diptych

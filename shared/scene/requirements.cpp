@@ -33,6 +33,8 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
         r.max_emission = std::max(r.max_emission, emission);
         r.emission = true;
     }
+    if (!m.unlit && m.clearcoat > 0) r.layers |= gpu::LAYER_CLEARCOAT;
+    if (!m.unlit && m.anisotropy > 0) r.layers |= gpu::LAYER_ANISOTROPY;
     r.normal_maps |= readsSlot(m, gpu::SLOT_normal);
     r.occlusion |= readsSlot(m, gpu::SLOT_occlusion);
     for (std::size_t i = 0; i < materialSlots.size(); ++i) {
@@ -126,7 +128,7 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(textures > 0, "textures", fmt::format("the materials in use read {}", textures),
         "no material in use reads a texture");
     say(normal_maps, "normal maps", "a material has a normal texture, which needs tangents",
-        "no material has a normal texture: tangents are not read");
+        "no material has a normal texture");
     say(vertex_colors, "vertex colours", "a mesh has COLOR_0", "no mesh has COLOR_0");
     say(second_texcoord, "second UV set", "a texture reads TEXCOORD_1", "every texture reads TEXCOORD_0");
     say(texture_transform, "texture transforms", "a texture has KHR_texture_transform",
@@ -156,6 +158,12 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(dielectric_specular, "dielectric specular",
         "a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
+    say((layers & gpu::LAYER_CLEARCOAT) != 0, "clear coats",
+        "a lit material has clearcoatFactor above 0: a second specular layer over its base",
+        "no lit material has KHR_materials_clearcoat with a factor above 0");
+    say((layers & gpu::LAYER_ANISOTROPY) != 0, "anisotropy",
+        "a lit material has anisotropyStrength above 0: stretched highlights, which need tangents",
+        "no lit material has KHR_materials_anisotropy with a strength above 0");
     say(animations > 0, "animation",
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),

@@ -17,6 +17,7 @@ inline constexpr VkDescriptorType uniform_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_BU
                                   storage_buffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                   texel_buffer = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
                                   image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                  fetched_image = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
                                   storage_image = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }  // namespace binding_kind
 

@@ -99,7 +99,7 @@ namespace diptych {
     X(maxPerStageDescriptorUniformBuffers, 12, descriptors({uniform_buffer}), "uniform buffers per shader") \
     X(maxPerStageDescriptorStorageBuffers, 4, descriptors({storage_buffer}), "storage buffers per shader") \
     /* a texel buffer counts as a sampled image */                                                      \
-    X(maxPerStageDescriptorSampledImages, 16, descriptors({image, texel_buffer}),                       \
+    X(maxPerStageDescriptorSampledImages, 16, descriptors({image, fetched_image, texel_buffer}),                       \
                                                                         "sampled images per shader")    \
     X(maxPerStageDescriptorStorageImages, 4, descriptors({storage_image}), "storage images per shader") \
     X(maxVertexInputAttributes, 16, 0, "")                                                              \

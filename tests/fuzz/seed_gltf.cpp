@@ -119,7 +119,15 @@ GltfFile dressed() {
             {{"specularFactor", 0.5},
              {"specularTexture", texture},
              {"specularColorFactor", {1, 0.5, 1}},
-             {"specularColorTexture", texture}}}}}},
+             {"specularColorTexture", texture}}},
+           {"KHR_materials_clearcoat",
+            {{"clearcoatFactor", 0.5},
+             {"clearcoatTexture", texture},
+             {"clearcoatRoughnessFactor", 0.25},
+             {"clearcoatRoughnessTexture", texture},
+             {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}}},
+           {"KHR_materials_anisotropy",
+            {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}}}}},
         {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}},
         {{"extensions",
           {{"KHR_materials_pbrSpecularGlossiness",
@@ -135,10 +143,11 @@ GltfFile dressed() {
         {{"type", "perspective"},
          {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}, {"aspectRatio", 2}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}};
-    m.json["extensionsUsed"] = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
-                                "KHR_materials_ior",      "KHR_materials_pbrSpecularGlossiness",
-                                "KHR_materials_specular", "KHR_materials_unlit",
-                                "KHR_mesh_quantization",  "KHR_texture_transform"};
+    m.json["extensionsUsed"] = {"KHR_lights_punctual",      "KHR_materials_emissive_strength",
+                                "KHR_materials_ior",        "KHR_materials_pbrSpecularGlossiness",
+                                "KHR_materials_specular",   "KHR_materials_clearcoat",
+                                "KHR_materials_anisotropy", "KHR_materials_unlit",
+                                "KHR_mesh_quantization",    "KHR_texture_transform"};
     m.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     m.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3}, {"extras", {{"diptych", {{"angle", 0.0093}}}}}},
@@ -227,6 +236,18 @@ GltfFile packed() {
     return m;
 }
 
+// Two material variants.
+GltfFile varied() {
+    GltfFile m = GltfFile::triangle();
+    m.json["materials"] = {{{"name", "blue"}}, {{"name", "red"}}};
+    m.json["extensions"]["KHR_materials_variants"]["variants"] = m.json["materials"];
+    m.primitive()["material"] = 0;
+    Json& mappings = m.primitive()["extensions"]["KHR_materials_variants"]["mappings"];
+    for (int i = 0; i < 2; ++i) mappings.push_back({{"material", i}, {"variants", Json::array({i})}});
+    m.json["extensionsUsed"] = Json::array({"KHR_materials_variants"});
+    return m;
+}
+
 }  // namespace
 
 void writeGltfSeeds(const fs::path& out) {
@@ -235,6 +256,7 @@ void writeGltfSeeds(const fs::path& out) {
           {"dressed", dressed()},
           {"pointed", pointed()},
           {"meshopt", packed()},
+          {"variants", varied()},
           {"draco-sequential", compressed(encoded(2, {draco::MESH_SEQUENTIAL_ENCODING}))},
           {"draco-0", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 0, 8}))},
           {"draco-5", compressed(encoded(3, {draco::MESH_EDGEBREAKER_ENCODING, 5, 8, true}))}}) {

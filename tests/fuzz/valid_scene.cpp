@@ -80,19 +80,20 @@ void requireSound(const Primitive& p, const Scene& scene) {
 }
 
 void requireSound(const Material& material, const Scene& scene) {
-    for (const TextureSlot* slot :
-         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.occlusion_texture, &material.emissive_texture, &material.specular_texture,
-          &material.specular_color_texture}) {
-        require(withinOrNone(slot->texture, scene.textures), "a slot's texture is there");
-        require(slot->texcoord == 0 || slot->texcoord == 1, "a slot reads one of two sets");
-        require(finite(slot->u) && finite(slot->v), "a texture's transform is finite");
+    for (const MaterialSlot& member : materialSlots) {
+        const TextureSlot& slot = material.*member.texture;
+        require(withinOrNone(slot.texture, scene.textures), "a slot's texture is there");
+        require(slot.texcoord == 0 || slot.texcoord == 1, "a slot reads one of two sets");
+        require(finite(slot.u) && finite(slot.v), "a texture's transform is finite");
     }
     require(finite(material.base_color) && finite(material.emissive) && finite(material.specular_color) &&
                 std::isfinite(material.metallic) && std::isfinite(material.roughness) &&
                 std::isfinite(material.normal_scale) && std::isfinite(material.occlusion_strength) &&
                 std::isfinite(material.ior) && std::isfinite(material.specular) &&
-                std::isfinite(material.alpha_cutoff),
+                std::isfinite(material.alpha_cutoff) && std::isfinite(material.clearcoat) &&
+                std::isfinite(material.clearcoat_roughness) &&
+                std::isfinite(material.clearcoat_normal_scale) && std::isfinite(material.anisotropy) &&
+                std::isfinite(material.anisotropy_rotation),
             "a material's factors are finite");
 }
 

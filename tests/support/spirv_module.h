@@ -18,7 +18,15 @@ namespace diptych {
 
 class SpirvModule {
 public:
-    enum class Kind { uniform_buffer, storage_buffer, texel_buffer, image, storage_image, other };
+    enum class Kind {
+        uniform_buffer,
+        storage_buffer,
+        texel_buffer,
+        image,
+        fetched_image,
+        storage_image,
+        other
+    };
     struct Binding {
         std::uint32_t set = 0, number = 0;
         Kind kind = Kind::other;
@@ -248,7 +256,7 @@ private:
         constexpr std::uint32_t withoutSampler = 2;
         if (type.op != op_type_image) return Kind::other;
         if (type.words[2] == dimensionBuffer) return Kind::texel_buffer;
-        return type.words[6] == withoutSampler ? Kind::storage_image : Kind::other;
+        return type.words[6] == withoutSampler ? Kind::storage_image : Kind::fetched_image;
     }
 
     std::vector<Instruction> all_;

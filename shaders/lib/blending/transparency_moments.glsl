@@ -8,8 +8,8 @@
 #include "shaders/lib/shadows/hamburger.glsl"
 #include "shaders/lib/blending/optical_depth.glsl"
 
-layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform sampler2D blended_depths;
-layout(set = SET_GBUFFER, binding = BINDING_BLENDED_MOMENTS) uniform sampler2D blended_moments;
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform texture2D blended_depths;
+layout(set = SET_GBUFFER, binding = BINDING_BLENDED_MOMENTS) uniform texture2D blended_moments;
 
 // In [-1, 1], where moments keep the most digits.
 float momentDepth(float z) { return 2.0 * blendedDepth(z) - 1.0; }

@@ -76,13 +76,11 @@ float smithLambda(float alpha2, float cosine) {
     float c2 = cosine * cosine;
     return 0.5 * (sqrt(1.0 + alpha2 * max(1.0 - c2, 0.0) / c2) - 1.0);
 }
-
-// Two unit vectors perpendicular to `n` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-void axesAcross(vec3 n, out vec3 x, out vec3 y) {
-    float sign_z = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (sign_z + n.z), b = n.x * n.y * a;
-    x = vec3(1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x);
-    y = vec3(b, sign_z + n.y * n.y * a, -n.y);
+// Of a unit vector with components along and across the lobe, and the cosine.
+float smithLambda(Brdf b, vec3 w) {
+    vec2 wide = w.xy * b.alphas;
+    float stretched = 0.5 * (sqrt(1.0 + dot(wide, wide) / (w.z * w.z)) - 1.0);
+    return b.anisotropic ? stretched : smithLambda(b.alpha2, w.z);
 }
 
 // Environment light that the lobe reflects to `v`, by sampling visible normals (Heitz 2018, "Sampling the
@@ -91,14 +89,16 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     vec3 x, y;
     axesAcross(n, x, y);
+    vec2 alphas = vec2(b.alpha);
+    if (b.anisotropic) x = b.along, y = b.across, alphas = b.alphas;
     float mu = min(b.n_dot_v, 1.0);
     vec3 seen = vec3(dot(v, x), dot(v, y), mu);
-    vec3 up = normalized(vec3(b.alpha * seen.x, b.alpha * seen.y, seen.z));
+    vec3 up = normalized(vec3(alphas * seen.xy, seen.z));
     float across2 = dot(up.xy, up.xy);
     vec3 t1 = across2 > 1e-12 ? vec3(-up.y, up.x, 0.0) / sqrt(across2) : vec3(1.0, 0.0, 0.0);
     vec3 t2 = crossProduct(up, t1);
     vec4 first = texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_LEVELS));
-    float lambda_v = smithLambda(b.alpha2, mu), count = first.w;
+    float lambda_v = smithLambda(b, seen), count = first.w;
     float bias = texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).w;
     vec3 sum = vec3(0.0);
     for (float i = 0.0; i < count; i += 1.0) {
@@ -107,15 +107,17 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
         float radius = sqrt(u), p1 = radius * cos(turn), p2 = radius * sin(turn), s = 0.5 * (1.0 + up.z);
         p2 = (1.0 - s) * sqrt(max(1.0 - p1 * p1, 0.0)) + s * p2;
         vec3 h = t1 * p1 + t2 * p2 + up * sqrt(max(1.0 - p1 * p1 - p2 * p2, 0.0));
-        h = normalized(vec3(b.alpha * h.x, b.alpha * h.y, max(h.z, 1e-6)));
+        h = normalized(vec3(alphas * h.xy, max(h.z, 1e-6)));
         float v_dot_h = max(dot(seen, h), 0.0);
         vec3 l = h * (2.0 * v_dot_h) - seen;
         float k = h.z * h.z * b.alpha2 + dot(h.xy, h.xy);
+        if (b.anisotropic)
+            k = h.z * h.z * b.alpha2 + h.x * h.x * (alphas.y / alphas.x) + h.y * h.y * (alphas.x / alphas.y);
         float density = b.alpha2 * INVERSE_PI / (k * k * 4.0 * mu * (1.0 + lambda_v));
         vec3 d = environmentFromWorld(x * l.x + y * l.y + n * l.z);
         float l1 = abs(d.x) + abs(d.y) + abs(d.z);
         float level = 0.5 * log2(first.z * first.z / (4.0 * count * density * l1 * l1 * l1)) + bias;
-        float masking = (1.0 + lambda_v) / (1.0 + lambda_v + smithLambda(b.alpha2, max(l.z, 1e-6)));
+        float masking = (1.0 + lambda_v) / (1.0 + lambda_v + smithLambda(b, vec3(l.xy, max(l.z, 1e-6))));
         vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(v_dot_h);
         vec3 radiance = levelRadiance(level, octahedralPlace(d)) * fresnel * masking;
         sum += l.z > 0.0 ? radiance : vec3(0.0);
@@ -123,18 +125,37 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
     return sum / count;
 }
 
+// Normal about which a stretched lobe is mirrored: bent from the surface's to the plane of the view and the
+// direction across (McAuley 2015, "Rendering the World of Far Cry 4"), less for rough lobes.
+vec3 bentNormal(Brdf b, vec3 n, vec3 v, float strength) {
+    vec3 bent = v - b.across * b.viewed.y;
+    float length2 = dot(bent, bent), weight = 1.0 - strength * (1.0 - sqrt(b.alphas.y));
+    weight *= weight;
+    vec3 between = blend(bent * inversesqrt(max(length2, 1e-12)), n, weight * weight);
+    return length2 > 1e-12 ? normalized(between) : n;
+}
+
+// Environment light that the lobe reflects to `v`, times `factor`. `mirror`: the normal that mirrors it.
+vec3 lobeEnvironment(Brdf b, vec3 n, vec3 mirror, vec3 v, float factor) {
+    vec3 from_lobe;
+    vec3 r = environmentFromWorld(reflection(-v, mirror));
+    if (on(feature_environment & ENVIRONMENT_SAMPLED))
+        from_lobe = sampledSpecular(b, n, v) * factor;
+    else
+        from_lobe = lobeShare(b) * levelRadiance(specularLevel(b.alpha), octahedralPlace(r)) * factor;
+    return from_lobe;
+}
+
 // Environment light reflected to `v` by the base and by the lobe, dimmed by occlusion. A lightmapped base
 // takes its light from the lightmap instead.
 void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 from_lobe) {
     float factor = environmentFactor() * s.occlusion;
-    vec3 r = environmentFromWorld(reflection(-v, s.normal));
     vec3 received = environmentIrradiance(s.normal) * factor;
     from_base = b.diffuse * PI * baseShare(b) * received;
     if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
-    if (on(feature_environment & ENVIRONMENT_SAMPLED))
-        from_lobe = sampledSpecular(b, s.normal, v) * factor;
-    else
-        from_lobe = lobeShare(b) * levelRadiance(specularLevel(b.alpha), octahedralPlace(r)) * factor;
+    vec3 mirror = s.normal;
+    if (hasLayer(LAYER_ANISOTROPY) && b.anisotropic) mirror = bentNormal(b, s.normal, v, s.anisotropy);
+    from_lobe = lobeEnvironment(b, s.normal, mirror, v, factor);
     // Multiple scattering leaves the surface like Lambertian reflection.
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * PI * received;
 }

@@ -25,7 +25,7 @@ INPUT(3) vec3 v_world;  // world axes, camera as origin, m; only for the triangl
 INPUT(4) vec4 v_color;
 INPUT(5) vec3 v_irradiance;         // of vertex lights, W/m^2
 INPUT(6) vec3 v_irradiance_behind;  // the same on the back of a double-sided material
-INPUT(7) vec2 v_slot_texcoords[SLOT_COUNT];
+INPUT(7) vec4 v_slot_texcoords[SLOT_COUNT / 2];  // of two slots each
 #undef INPUT
 
 #ifdef STAGE_frag

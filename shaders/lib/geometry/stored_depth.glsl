@@ -7,8 +7,8 @@
 #include "shaders/lib/geometry/reversed_depth.glsl"
 #include "shaders/lib/samples/samples.glsl"
 
-layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2D gbuffer_depth;
-layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform sampler2DMS gbuffer_depth_samples;
+layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform texture2D gbuffer_depth;
+layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform texture2DMS gbuffer_depth_samples;
 
 // Reversed, in [0, 1]. i: sample index; 0 without MSAA.
 float depthAt(ivec2 p, int i) {

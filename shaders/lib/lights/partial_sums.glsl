@@ -6,10 +6,13 @@
 
 #include "shaders/lib/surface/pixel.glsl"
 
-layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform sampler2D partial_diffuse;
-layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform sampler2D partial_specular;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform texture2D partial_diffuse;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform texture2D partial_specular;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_CLEARCOAT) uniform texture2D partial_clearcoat;
 
 vec4 partialDiffuse() { return texelFetch(partial_diffuse, pixelHere(), 0); }
+// Of partialSpecular().
+vec4 partialClearcoat() { return texelFetch(partial_clearcoat, pixelHere(), 0); }
 vec4 partialSpecular() { return texelFetch(partial_specular, pixelHere(), 0); }
 
 #endif

@@ -14,7 +14,7 @@
 uint pair(uint i, uint j) { return 1u << (i * (i - 1u) / 2u + j); }
 
 // Pairs whose bits differ in an attachment.
-uint differingPairs(usampler2DMS attachment, ivec2 p) {
+uint differingPairs(utexture2DMS attachment, ivec2 p) {
     uvec4 texels[MAX_SAMPLES];
     uint differ = 0u, i = 0u;
     do {
@@ -33,6 +33,8 @@ uint differingPairs(ivec2 p) {
     if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular_samples, p);
     if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids_samples, p);
     if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap_samples, p);
+    if (storesLayers()) differ |= differingPairs(gbuffer_layers_samples, p);
+    if (on(feature_gbuffer_layers) && fullGBuffer()) differ |= differingPairs(gbuffer_layers_2_samples, p);
     return differ;
 }
 

@@ -27,6 +27,15 @@ bool alikeRadiance(vec3 a, vec3 b) {
     return within(a, b, SIMILAR_ATTRIBUTE * max(max(a.x, max(a.y, a.z)), max(b.x, max(b.y, b.z))));
 }
 
+bool alikeLayers(Surface s, Surface t) {
+    vec3 turned = s.clearcoat_normal - t.clearcoat_normal;
+    vec3 along = anisotropyDirection(s) - anisotropyDirection(t);
+    float rough = min(s.clearcoat_roughness, t.clearcoat_roughness), turn = SIMILAR_NORMAL * rough * rough;
+    return within(vec3(s.clearcoat, s.clearcoat_roughness, s.anisotropy),
+                  vec3(t.clearcoat, t.clearcoat_roughness, t.anisotropy), SIMILAR_ATTRIBUTE) &&
+           dot(turned, turned) <= turn * turn && dot(along, along) <= SIMILAR_NORMAL * SIMILAR_NORMAL;
+}
+
 // a, b: texels of two samples of pixel p.
 bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
@@ -45,6 +54,7 @@ bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
                   SIMILAR_ATTRIBUTE) &&
            within(s.dielectric_f0, t.dielectric_f0, SIMILAR_ATTRIBUTE) &&
            abs(s.dielectric_f90 - t.dielectric_f90) <= SIMILAR_ATTRIBUTE &&
+           (!on(feature_gbuffer_layers) || alikeLayers(s, t)) &&
            alikeRadiance(s.emission, t.emission) && alikeRadiance(s.lightmap, t.lightmap);
 }
 

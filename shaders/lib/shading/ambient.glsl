@@ -75,10 +75,11 @@ float meanSchlickWeight(float n_dot_v) {
 // Fraction of ambient light that passes the layer above the base.
 vec3 baseShare(Brdf b) { return reachingBase(b, meanSchlickWeight(b.n_dot_v)); }
 
-// Fraction of ambient light that the specular lobe reflects to the viewer.
+// Fraction of ambient light that the specular lobe reflects to the viewer; of an anisotropic lobe, that of
+// an isotropic one as wide as it is towards the viewer (shared/material/MEASURED.md, "Layers").
 vec3 lobeShare(Brdf b) {
     vec2 lobe = b.albedo;
-    if (!on(feature_multiscatter)) lobe = specularAlbedo(b.alpha, b.n_dot_v);
+    if (!on(feature_multiscatter) || b.anisotropic) lobe = specularAlbedo(b.seen, b.n_dot_v);
     vec3 share = b.f0 * lobe.x + b.f90 * lobe.y;
     return share;
 }

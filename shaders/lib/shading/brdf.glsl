@@ -21,12 +21,39 @@ struct Brdf {
     float alpha2;
     float n_dot_v;
     float smith_v;   // sqrt((n.v)^2 (1 - alpha^2) + alpha^2)
+    // Of an anisotropic lobe, whose `alpha` is the geometric mean of two; only with LAYER_ANISOTROPY.
+    bool anisotropic;
+    vec3 along, across;  // unit: where highlights stretch, and perpendicular to it and the normal
+    vec2 alphas;         // GGX widths along and across
+    vec2 viewed;         // components of the view vector
+    float seen;          // width towards the viewer; of an isotropic lobe, alpha
 };
 
 // Light that a base loses to a layer that reflects `layer`: each component, or the largest.
 vec3 lostBelow(vec3 layer) {
     if (on(feature_base_by_component)) return layer;
     return vec3(max(layer.r, max(layer.g, layer.b)));
+}
+
+// alpha_t = mix(alpha, 1, strength^2) along the direction (KHR_materials_anisotropy).
+void stretch(inout Brdf b, Surface s, vec3 v) {
+    vec3 x, y;
+    axesAcross(s.normal, x, y);
+    b.along = x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
+    b.across = y * s.anisotropy_turn.x - x * s.anisotropy_turn.y;
+    b.alphas = vec2(blend(b.alpha, 1.0, s.anisotropy * s.anisotropy), b.alpha);
+    b.viewed = vec2(dot(b.along, v), dot(b.across, v));
+    b.anisotropic = s.anisotropy > 0.0;
+    if (b.anisotropic) {
+        b.alpha2 = b.alphas.x * b.alphas.y;
+        b.alpha = sqrt(b.alpha2);
+        // Heitz 2014, equation 80.
+        vec2 wide = b.viewed * b.alphas;
+        float sideways = dot(b.viewed, b.viewed);
+        float seen2 = sideways > 1e-8 ? dot(wide, wide) / sideways : b.alphas.y * b.alphas.y;
+        b.seen = sqrt(seen2);
+        b.smith_v = sqrt(b.n_dot_v * b.n_dot_v * (1.0 - seen2) + seen2);
+    }
 }
 
 Brdf makeBrdf(Surface s, vec3 v) {
@@ -44,6 +71,11 @@ Brdf makeBrdf(Surface s, vec3 v) {
     b.alpha2 = b.alpha * b.alpha;
     b.n_dot_v = max(dot(s.normal, v), MIN_N_DOT_V);
     b.smith_v = sqrt(b.n_dot_v * b.n_dot_v * (1.0 - b.alpha2) + b.alpha2);
+    b.anisotropic = false;
+    b.along = b.across = vec3(0.0);
+    b.alphas = b.viewed = vec2(0.0);
+    b.seen = b.alpha;
+    if (hasLayer(LAYER_ANISOTROPY)) stretch(b, s, v);
     return b;
 }
 
@@ -58,6 +90,21 @@ float ggxDenominator(float alpha2, vec3 n, vec3 s) {
     return q;
 }
 
+// The same of an anisotropic lobe: |s|^2 alpha_t alpha_b ((t.h / alpha_t)^2 + (b.h / alpha_b)^2 + (n.h)^2).
+float ggxDenominator(Brdf b, vec3 n, vec3 s) {
+    float along = dot(b.along, s), across = dot(b.across, s), up = dot(n, s);
+    float q = along * along * (b.alphas.y / b.alphas.x) + across * across * (b.alphas.x / b.alphas.y) +
+              up * up * b.alpha2;
+    return q;
+}
+
+// n.v times Smith's root for the light, whose components are those of s = l + v less the view's.
+float smithOfLight(Brdf b, vec3 s, float n_dot_l) {
+    vec2 wide = (vec2(dot(b.along, s), dot(b.across, s)) - b.viewed) * b.alphas;
+    float root = sqrt(dot(wide, wide) + n_dot_l * n_dot_l);
+    return b.n_dot_v * root;
+}
+
 // D G / (4 (n.l) (n.v)), 1/sr, in one division. GGX: Walter et al. 2007, "Microfacet Models for Refraction
 // through Rough Surfaces". Height-correlated Smith masking and shadowing: Heitz 2014, "Understanding the
 // Masking-Shadowing Function in Microfacet-Based BRDFs"; 0.5 / (lambda_v + lambda_l). `s` is l + v.
@@ -65,7 +112,13 @@ float ggxDenominator(float alpha2, vec3 n, vec3 s) {
 // behind the surface. If light and viewer are opposite, s is only rounding error and the result is 0.
 float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
     float q = ggxDenominator(b.alpha2, n, s);
-    float lambda = n_dot_l * b.smith_v + b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
+    float light = b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
+    if (hasLayer(LAYER_ANISOTROPY)) {
+        float stretched = ggxDenominator(b, n, s), of_light = smithOfLight(b, s, n_dot_l);
+        q = b.anisotropic ? stretched : q;
+        light = b.anisotropic ? of_light : light;
+    }
+    float lambda = n_dot_l * b.smith_v + light;
     float a = b.alpha * s2;
     // At the smallest alpha, 0.002, q^2 lambda is above 1e-34 if s2 is above 1e-8.
     // The floor only avoids 0 / 0.
@@ -140,10 +193,12 @@ Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
 // perpendicular to `l`.
 void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
     Reflected reflected;
-    if (on(feature_half_shading))
+    if (on(feature_half_shading)) {
         reflected = reflectedInHalf(b, n, v, l);
-    else
+        if (b.anisotropic) reflected = reflectedLight(b, n, v, l);
+    } else {
         reflected = reflectedLight(b, n, v, l);
+    }
     vec3 received = irradiance * reflected.n_dot_l;
     vec3 from_lobe = reflected.lobe * received;
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;

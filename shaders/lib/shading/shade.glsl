@@ -6,6 +6,7 @@
 #include "shaders/lib/shading/ambient.glsl"
 #include "shaders/lib/lights/area.glsl"
 #include "shaders/lib/shading/brdf.glsl"
+#include "shaders/lib/shading/clearcoat.glsl"
 #include "shaders/lib/environment/environment.glsl"
 #include "shaders/lib/shading/multiscatter.glsl"
 #include "shaders/lib/lights/partial_sums.glsl"
@@ -25,11 +26,22 @@ struct Shading {
     Surface surface;
     vec3 v;
     Brdf brdf;
+    Clearcoat coat;  // only with LAYER_CLEARCOAT
 };
+
+void addFromCoat(vec3 reflected, inout Radiance radiance) {
+    radiance.specular += reflected;
+    radiance.clearcoat += reflected;
+}
 
 void addIncident(Shading shading, Incident light, inout Radiance radiance) {
     addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance,
              radiance.diffuse, radiance.specular);
+    if (!hasLayer(LAYER_CLEARCOAT)) return;
+    vec3 below = vec3(0.0), reflected = vec3(0.0);
+    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance, below,
+             reflected);
+    addFromCoat(reflected, radiance);
 }
 
 void addPoint(Shading shading, uint i, inout Radiance radiance) {
@@ -99,6 +111,12 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
     while (walk.more && walk.number < end) {                                                            \
         add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, \
             radiance.specular);                                                                         \
+        if (hasLayer(LAYER_CLEARCOAT)) {                                                                \
+            vec3 below = vec3(0.0), reflected = vec3(0.0);                                              \
+            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, below, \
+                reflected);                                                                             \
+            addFromCoat(reflected, radiance);                                                          \
+        }                                                                                               \
         step(walk);                                                                                     \
     }
 
@@ -113,12 +131,20 @@ Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
     if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
-    Shading shading = Shading(s, v, brdf);
     radiance.emission = s.emission;
+    Clearcoat coat = Clearcoat(s, brdf);
+    if (hasLayer(LAYER_CLEARCOAT)) {
+        float weight = clearcoatWeight(s, v);
+        coat = makeClearcoat(s, v, weight);
+        dim(brdf, weight);
+        radiance.emission *= 1.0 - weight;
+    }
+    Shading shading = Shading(s, v, brdf, coat);
     if (feature_light_batch == BATCH_LATER) {
         vec4 diffuse = partialDiffuse(), specular = partialSpecular();
         radiance.diffuse = diffuse.rgb;
         radiance.specular = specular.rgb;
+        if (hasLayer(LAYER_CLEARCOAT)) radiance.clearcoat = partialClearcoat().rgb;
         radiance.local_seen = diffuse.a;
         radiance.local_light = specular.a;
     }
@@ -131,9 +157,16 @@ Radiance shade(Surface s, PixelLights lights) {
         vec3 from_base, from_lobe;
         reflectEnvironment(s, shading.brdf, v, from_base, from_lobe);
         radiance.environment = from_base + from_lobe;
+        vec3 from_coat = vec3(0.0);
+        if (hasLayer(LAYER_CLEARCOAT)) {
+            vec3 n = coat.surface.normal;
+            from_coat = lobeEnvironment(coat.brdf, n, n, v, environmentFactor() * s.occlusion);
+            radiance.environment += from_coat;
+        }
         if (feature_light_batch != BATCH_LATER) {
             radiance.diffuse += from_base;
             radiance.specular += from_lobe;
+            if (hasLayer(LAYER_CLEARCOAT)) addFromCoat(from_coat, radiance);
         }
     }
     if (has_suns) {
@@ -161,7 +194,8 @@ Radiance shade(Surface s, PixelLights lights) {
         ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
     }
     if (on(feature_area_lights)) {
-        AreaView area = areaView(shading.brdf, s, v);
+        AreaView area = areaView(shading.brdf, s, v), coat_area = area;
+        if (hasLayer(LAYER_CLEARCOAT)) coat_area = areaView(coat.brdf, coat.surface, v);
         AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
         if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
         if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
@@ -169,6 +203,11 @@ Radiance shade(Surface s, PixelLights lights) {
     }
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+    if (on(feature_ambient) && hasLayer(LAYER_CLEARCOAT)) {
+        vec3 reflected = s.occlusion * (lobeShare(coat.brdf) * view.ambient);
+        radiance.ambient += reflected;
+        radiance.clearcoat += reflected;
+    }
     if (on(feature_haze)) {
         Hazed hazed = hazeTo(s.position);
         radiance.transmittance = hazed.transmittance;

@@ -10,8 +10,8 @@
 
 // Declares each image twice, single-sampled and multisampled; a pipeline keeps the one that it reads.
 #define GBUFFER_IMAGE(at, name)                                       \
-    layout(set = SET_GBUFFER, binding = at) uniform usampler2D name;  \
-    layout(set = SET_GBUFFER, binding = at) uniform usampler2DMS name##_samples;
+    layout(set = SET_GBUFFER, binding = at) uniform utexture2D name;  \
+    layout(set = SET_GBUFFER, binding = at) uniform utexture2DMS name##_samples;
 GBUFFER_IMAGE(GBUFFER_ALBEDO, gbuffer_albedo)
 GBUFFER_IMAGE(GBUFFER_NORMALS, gbuffer_normals)
 GBUFFER_IMAGE(GBUFFER_PARAMS, gbuffer_params)
@@ -19,8 +19,10 @@ GBUFFER_IMAGE(GBUFFER_EMISSION, gbuffer_emission)
 GBUFFER_IMAGE(GBUFFER_SPECULAR, gbuffer_specular)
 GBUFFER_IMAGE(GBUFFER_IDS, gbuffer_ids)
 GBUFFER_IMAGE(GBUFFER_LIGHTMAP, gbuffer_lightmap)
+GBUFFER_IMAGE(GBUFFER_LAYERS, gbuffer_layers)
+GBUFFER_IMAGE(GBUFFER_LAYERS_2, gbuffer_layers_2)
 #undef GBUFFER_IMAGE
-layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform usampler2DMS gbuffer_shaded_samples;
+layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform utexture2DMS gbuffer_shaded_samples;
 
 #define FETCHED(name, p, i) (multisampled() ? texelFetch(name##_samples, p, i) : texelFetch(name, p, i))
 
@@ -36,6 +38,10 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = FETCHED(gbuffer_specular, p, i);
     if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = FETCHED(gbuffer_ids, p, i);
     if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = FETCHED(gbuffer_lightmap, p, i);
+    if (on(feature_gbuffer_layers)) {
+        if (storesLayers()) t.attachments[GBUFFER_LAYERS] = FETCHED(gbuffer_layers, p, i);
+        if (fullGBuffer()) t.attachments[GBUFFER_LAYERS_2] = FETCHED(gbuffer_layers_2, p, i);
+    }
     if (multisampled()) t.attachments[GBUFFER_SHADED] = texelFetch(gbuffer_shaded_samples, p, i);
     return t;
 }

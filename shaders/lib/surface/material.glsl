@@ -21,19 +21,29 @@ layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_t
 layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
 layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
 layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
+layout(set = SET_MATERIAL, binding = SLOT_clearcoat) uniform sampler2D clearcoat_texture;
+layout(set = SET_MATERIAL, binding = SLOT_clearcoat_roughness) uniform sampler2D clearcoat_roughness_texture;
+layout(set = SET_MATERIAL, binding = SLOT_clearcoat_normal) uniform sampler2D clearcoat_normal_texture;
+layout(set = SET_MATERIAL, binding = SLOT_anisotropy) uniform sampler2D anisotropy_texture;
 
 // Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
 // break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
 // not cover.
 vec2 slotTexcoord(uint slot) {
-    if (on(feature_texture_transform) || on(feature_second_texcoord)) return SHADED(v_slot_texcoords[slot]);
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) {
+        vec4 two = SHADED(v_slot_texcoords[slot / 2]);
+        return slot % 2 == 0 ? two.xy : two.zw;
+    }
     return shaded_texcoord;
 }
 
 // Samples a slot's texture. Under MSAA, coordinates at the pixel's centre select the mip level: the shaded
 // locations of neighbouring pixels are not one pixel apart.
 vec2 middleTexcoord(uint slot) {
-    if (on(feature_texture_transform) || on(feature_second_texcoord)) return MIDDLE(v_slot_texcoords[slot]);
+    if (on(feature_texture_transform) || on(feature_second_texcoord)) {
+        vec4 two = MIDDLE(v_slot_texcoords[slot / 2]);
+        return slot % 2 == 0 ? two.xy : two.zw;
+    }
     return middle_texcoord;
 }
 vec4 sampledTexel(sampler2D map, uint slot) {
@@ -151,9 +161,8 @@ vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
 // Negated on the back of a double-sided material. The triangle's normal replaces a normal that vanished,
 // by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
 // share one normalisation.
-vec3 shadingNormal(vec3 towards) {
-    vec3 n = shaded_normal;
-    if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
+// `n`: of any length.
+vec3 shadingNormal(vec3 n, vec3 towards) {
     float length2 = dot(n, n);
     bool negated = on(feature_double_sided) && !gl_FrontFacing;
     if (on(feature_vanishing_normals)) {
@@ -165,6 +174,22 @@ vec3 shadingNormal(vec3 towards) {
     }
     vec3 unit = n * inversesqrt(length2);
     return negated ? -unit : unit;
+}
+
+vec3 shadingNormal(vec3 towards) {
+    vec3 n = shaded_normal;
+    if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
+    return shadingNormal(n, towards);
+}
+
+// Without a map of its own the coat is smooth, whatever the base's map.
+vec3 clearcoatNormal(vec3 towards) {
+    vec3 n = shaded_normal;
+    if (on(feature_clearcoat_normal_texture)) {
+        vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal, feature_clearcoat_normal_texture);
+        n = fromTangentSpace(mappedNormal(texel, material.clearcoat_normal_scale), n, shaded_tangent);
+    }
+    return shadingNormal(n, towards);
 }
 
 // Gives all four pixels of a quad the value of the covered ones. On lavapipe the others, which derivatives
@@ -179,13 +204,8 @@ float overQuad(float value) {
 
 // Specular anti-aliasing by the normal's change between pixel centres; shaded locations are not one pixel
 // apart. The change is the same for front and back faces.
-float filteredRoughness(float roughness) {
-    vec3 n = middle_normal;
-    if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
-        vec2 at = middleTexcoord(SLOT_normal);
-        float scale = overQuad(material.normal_scale);
-        n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
-    }
+// `n`: the normal at the pixel's centre, of any length.
+float filteredRoughness(float roughness, vec3 n) {
     vec3 unit = directionOf(n);
     float w = gl_FragCoord.w;
     float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));
@@ -197,6 +217,57 @@ float filteredRoughness(float roughness) {
         return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), right, down, rounded);
     }
     return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
+}
+
+float filteredRoughness(float roughness) {
+    vec3 n = middle_normal;
+    if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
+        vec2 at = middleTexcoord(SLOT_normal);
+        float scale = overQuad(material.normal_scale);
+        n = fromTangentSpace(mappedNormal(texture(normal_texture, at), scale), n, middle_tangent);
+    }
+    return filteredRoughness(roughness, n);
+}
+
+float filteredClearcoatRoughness(float roughness) {
+    vec3 n = middle_normal;
+    if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_clearcoat_normal_texture)) {
+        vec2 at = middleTexcoord(SLOT_clearcoat_normal);
+        float scale = overQuad(material.clearcoat_normal_scale);
+        n = fromTangentSpace(mappedNormal(texture(clearcoat_normal_texture, at), scale), n, middle_tangent);
+    }
+    return filteredRoughness(roughness, n);
+}
+
+void addClearcoat(Material m, vec3 towards, inout Surface s) {
+    float weight = m.clearcoat, roughness = m.clearcoat_roughness;
+    if (on(feature_clearcoat_texture))
+        weight *= slotTexel(clearcoat_texture, SLOT_clearcoat, feature_clearcoat_texture).r;
+    if (on(feature_clearcoat_roughness_texture))
+        roughness *= slotTexel(clearcoat_roughness_texture, SLOT_clearcoat_roughness,
+                               feature_clearcoat_roughness_texture).g;
+    if (on(feature_specular_aa)) roughness = filteredClearcoatRoughness(roughness);
+    vec3 n = clearcoatNormal(towards);
+    bool there = weight > 0.0;
+    s.clearcoat = weight;
+    s.clearcoat_roughness = there ? roughness : 0.0;
+    s.clearcoat_normal = there ? n : vec3(0.0);
+}
+
+// The direction turns from the tangent to the bitangent.
+void addAnisotropy(Material m, inout Surface s) {
+    float strength = m.anisotropy;
+    vec2 direction = vec2(1.0, 0.0);
+    if (on(feature_anisotropy_texture)) {
+        vec4 texel = slotTexel(anisotropy_texture, SLOT_anisotropy, feature_anisotropy_texture);
+        direction = texel.rg * 2.0 - 1.0;
+        strength *= texel.b;
+    }
+    vec2 turn = m.anisotropy_rotation;
+    direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
+    turn = turnOf(fromTangentSpace(vec3(direction, 0.0), shaded_normal, shaded_tangent), s.normal);
+    s.anisotropy = turn != vec2(0.0) ? strength : 0.0;
+    s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);
 }
 
 Surface surfaceFromMaterial(vec4 base_color) {
@@ -219,6 +290,7 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.lightmap = vec3(0.0);
     s.lightmapped = on(feature_lightmap_texture);
     s.object_irradiance = vec3(0.0);
+    removeLayers(s);
     s.transmission = on(feature_transmission) ? m.transmission : 0.0;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=
@@ -259,6 +331,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
         vec4 texel = slotTexel(lightmap_texture, SLOT_lightmap, feature_lightmap_texture);
         s.lightmap = m.lightmap_intensity * texel.rgb;
     }
+    if (hasLayer(LAYER_CLEARCOAT)) addClearcoat(m, towards, s);
+    if (hasLayer(LAYER_ANISOTROPY)) addAnisotropy(m, s);
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {

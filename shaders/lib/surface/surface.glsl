@@ -20,6 +20,11 @@ struct Surface {
     bool lightmapped;       // whether the material has a lightmap, which may be black here
     vec3 dielectric_f0;     // KHR_materials_ior, _specular
     float dielectric_f90;
+    float clearcoat;        // KHR_materials_clearcoat: weight of the layer; 0: none, and so are its values
+    float clearcoat_roughness;  // perceptual
+    vec3 clearcoat_normal;      // unit, shading
+    float anisotropy;       // KHR_materials_anisotropy: strength; 0: isotropic, without a direction
+    vec2 anisotropy_turn;   // where highlights stretch: cosine and sine about `normal`, from axesAcross()
     float transmission;     // fraction of entering light transmitted without diffusion; blended draws
     uint material_id;
     vec2 texcoord;          // forward+ only
@@ -35,6 +40,39 @@ struct Surface {
 // that may vanish computes it separately.)
 bool needsGeometricNormal() {
     return on(feature_captured) || on(feature_shadows) || on(feature_local_shadows);
+}
+
+bool hasLayer(uint layer) { return (feature_layers & layer) != 0u; }
+
+void removeLayers(inout Surface s) {
+    s.clearcoat = s.clearcoat_roughness = s.anisotropy = 0.0;
+    s.clearcoat_normal = vec3(0.0);
+    s.anisotropy_turn = vec2(0.0);
+}
+
+// Two unit vectors perpendicular to the unit vector `n`, right-handed with it (Duff et al. 2017, "Building
+// an Orthonormal Basis, Revisited").
+void axesAcross(vec3 n, out vec3 x, out vec3 y) {
+    float sign_z = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (sign_z + n.z), b = n.x * n.y * a;
+    x = vec3(1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x);
+    y = vec3(b, sign_z + n.y * n.y * a, -n.y);
+}
+
+// Unit vector along which highlights stretch, world axes; 0 where isotropic.
+vec3 anisotropyDirection(Surface s) {
+    vec3 x, y;
+    axesAcross(s.normal, x, y);
+    return x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
+}
+
+// The turn of any vector that is not along `n`; 0 otherwise.
+vec2 turnOf(vec3 direction, vec3 n) {
+    vec3 x, y;
+    axesAcross(n, x, y);
+    vec2 turn = vec2(dot(direction, x), dot(direction, y));
+    float largest = max(abs(turn.x), abs(turn.y));
+    return largest > 0.0 ? normalized(turn / largest) : vec2(0.0);
 }
 
 // Specular colour at normal incidence.

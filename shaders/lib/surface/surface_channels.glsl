@@ -9,7 +9,7 @@
 #include "shared/contract/surface_channels.h"
 
 #define CHANNEL_IMAGE(number, name) \
-    layout(set = SET_GBUFFER, binding = number) uniform sampler2D channel_##name;
+    layout(set = SET_GBUFFER, binding = number) uniform texture2D channel_##name;
 SURFACE_CHANNELS(CHANNEL_IMAGE)
 
 Surface surfaceFromChannels(ivec2 p) {
@@ -31,6 +31,16 @@ Surface surfaceFromChannels(ivec2 p) {
     s.lightmapped = lightmap.a > 0.0;
     s.dielectric_f0 = texelFetch(channel_dielectric_f0, p, 0).rgb;
     s.dielectric_f90 = texelFetch(channel_dielectric_f90, p, 0).r;
+    removeLayers(s);
+    if (hasLayer(LAYER_CLEARCOAT)) {
+        s.clearcoat = texelFetch(channel_clearcoat, p, 0).r;
+        s.clearcoat_roughness = texelFetch(channel_clearcoat_roughness, p, 0).r;
+        s.clearcoat_normal = texelFetch(channel_clearcoat_normal, p, 0).xyz;
+    }
+    if (hasLayer(LAYER_ANISOTROPY)) {
+        s.anisotropy = texelFetch(channel_anisotropy, p, 0).r;
+        s.anisotropy_turn = turnOf(texelFetch(channel_anisotropy_direction, p, 0).xyz, s.normal);
+    }
     s.transmission = 0.0;
     s.material_id = 0u;
     s.texcoord = vec2(0.0);

@@ -58,6 +58,8 @@ constexpr std::array ROWS{
     Row{"dielectrics",
         "ior 1 to 2.4 and 0, specular 0 to 1, tinted: parameters a basic G-buffer does not store", TEST,
         builtin::dielectrics},
+    Row{"layers", "clear coats and anisotropy: weight, roughness, normal maps, strength, rotation, textures",
+        TEST, builtin::layers},
     Row{"cutout",
         "masked, normal-mapped, double-sided cards, some at grazing angles: alpha test in every pass", TEST,
         builtin::cutout},

@@ -52,6 +52,9 @@ Scene calibration();
 // turned_maps.cpp: normal maps under KHR_texture_transform
 Scene tangents();  // tangents of untransformed or resting texture coordinates
 
+// layers.cpp: layers over and within the base
+Scene layers();  // coats and directions of highlights lost, shared with the base, or on wrong tangents
+
 // motion.cpp: animation
 Scene motion();  // a pose that is missing, late or incomplete
 

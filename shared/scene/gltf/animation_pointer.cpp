@@ -65,6 +65,14 @@ constexpr Pattern pointerPatterns[] = {
      AnimatedPart::specular_f0},
     {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor",
      AnimatedPart::glossiness},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatFactor", AnimatedPart::clearcoat},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor",
+     AnimatedPart::clearcoat_roughness},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale",
+     AnimatedPart::clearcoat_normal_scale, gpu::SLOT_clearcoat_normal},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyStrength", AnimatedPart::anisotropy},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyRotation",
+     AnimatedPart::anisotropy_rotation},
 };
 
 // Paths to a material's textures; one of transformPatterns follows.
@@ -80,6 +88,14 @@ constexpr Pattern texturePatterns[] = {
     {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
      {},
      gpu::SLOT_specular_color},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatTexture", {}, gpu::SLOT_clearcoat},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+     {},
+     gpu::SLOT_clearcoat_roughness},
+    {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatNormalTexture",
+     {},
+     gpu::SLOT_clearcoat_normal},
+    {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyTexture", {}, gpu::SLOT_anisotropy},
 };
 constexpr Pattern transformPatterns[] = {
     {"/extensions/KHR_texture_transform/offset", AnimatedPart::texture_offset},
@@ -235,14 +251,14 @@ private:
         const tinygltf::Value* glossy = extension(material.extensions, "KHR_materials_pbrSpecularGlossiness");
         const bool ofGlossy = names("/KHR_materials_pbrSpecularGlossiness/");
         if (ofGlossy && !glossy) wrong("the material has no KHR_materials_pbrSpecularGlossiness");
-        const bool textured =
-            target.part == AnimatedPart::normal_scale || target.part == AnimatedPart::occlusion_strength ||
-            target.part == AnimatedPart::texture_offset || target.part == AnimatedPart::texture_rotation ||
-            target.part == AnimatedPart::texture_scale;
+        const bool transform = target.part == AnimatedPart::texture_offset ||
+                               target.part == AnimatedPart::texture_rotation ||
+                               target.part == AnimatedPart::texture_scale;
+        const bool textured = transform || target.part == AnimatedPart::normal_scale ||
+                              target.part == AnimatedPart::occlusion_strength ||
+                              target.part == AnimatedPart::clearcoat_normal_scale;
         if (textured && !hasTexture(material, match.slot, ofGlossy ? glossy : nullptr))
             wrong("the material has no such texture");
-        const bool transform = textured && target.part != AnimatedPart::normal_scale &&
-                               target.part != AnimatedPart::occlusion_strength;
         if (transform) target.element = match.slot;
         target.effect = !unlit || target.part == AnimatedPart::base_color ||
                         target.part == AnimatedPart::alpha_cutoff ||
@@ -259,8 +275,8 @@ private:
     static bool hasTexture(const tinygltf::Material& material, int slot, const tinygltf::Value* glossy) {
         if (glossy)
             return glossy->Has(slot == gpu::SLOT_base_color ? "diffuseTexture" : "specularGlossinessTexture");
-        const auto inSpecular = [&](const char* name) {
-            const tinygltf::Value* e = extension(material.extensions, "KHR_materials_specular");
+        const auto has = [&](const char* of, const char* name) {
+            const tinygltf::Value* e = extension(material.extensions, of);
             return e && e->Has(name);
         };
         switch (slot) {
@@ -275,9 +291,17 @@ private:
             case gpu::SLOT_emissive:
                 return material.emissiveTexture.index >= 0;
             case gpu::SLOT_specular:
-                return inSpecular("specularTexture");
+                return has("KHR_materials_specular", "specularTexture");
+            case gpu::SLOT_specular_color:
+                return has("KHR_materials_specular", "specularColorTexture");
+            case gpu::SLOT_clearcoat:
+                return has("KHR_materials_clearcoat", "clearcoatTexture");
+            case gpu::SLOT_clearcoat_roughness:
+                return has("KHR_materials_clearcoat", "clearcoatRoughnessTexture");
+            case gpu::SLOT_clearcoat_normal:
+                return has("KHR_materials_clearcoat", "clearcoatNormalTexture");
             default:
-                return inSpecular("specularColorTexture");
+                return has("KHR_materials_anisotropy", "anisotropyTexture");
         }
     }
 };

@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/extras.h"
 
 #include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/unchecked.h"
 #include "shared/scene/lights/json_fields.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/text/one_line.h"
@@ -25,11 +26,6 @@ using Notes = std::vector<std::string>;
 constexpr const char* ours = "diptych";
 // maxIntensity keeps the product with any texel finite in float32.
 constexpr double maxCount = 2147483647, maxIntensity = 1e12;
-
-const Json* memberOf(const Json& object, const char* key) {
-    const auto at = object.find(key);  // end() if it is not an object
-    return at == object.end() ? nullptr : &*at;
-}
 
 // The object "diptych" in the "extras" of `owner`. Keys that are not `known` get a note.
 const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
@@ -132,12 +128,6 @@ MaterialExtras::Lightmap lightmapOf(const Json& material, std::size_t textures, 
             result.notes.push_back(std::string(e.what()) + ": left out");
         }
     return result;
-}
-
-const Json& arrayAt(const Json& document, const char* place) {
-    static const Json none = Json::array();
-    const Json::json_pointer pointer(place);
-    return document.contains(pointer) && document[pointer].is_array() ? document[pointer] : none;
 }
 
 }  // namespace

@@ -32,11 +32,13 @@ using Bytes = std::vector<unsigned char>;
 constexpr std::array builtExtensions{"EXT_lights_image_based",  "EXT_mesh_gpu_instancing",
                                      "EXT_meshopt_compression", "EXT_texture_webp",
                                      "KHR_animation_pointer",   "KHR_draco_mesh_compression",
-                                     "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+                                     "KHR_lights_punctual",     "KHR_materials_anisotropy",
+                                     "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
                                      "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
                                      "KHR_materials_specular",  "KHR_materials_transmission",
-                                     "KHR_materials_unlit",     "KHR_materials_volume",
-                                     "KHR_mesh_quantization",   "KHR_texture_transform"};
+                                     "KHR_materials_unlit",     "KHR_materials_variants",
+                                     "KHR_materials_volume",    "KHR_mesh_quantization",
+                                     "KHR_texture_transform"};
 
 bool isBuilt(std::string_view extension) {
     return std::ranges::find(builtExtensions, extension) != builtExtensions.end();
@@ -301,24 +303,25 @@ Json documentOf(const Bytes& bytes, const Container& container) {
 
 }  // namespace
 
-void checkHeader(const Bytes& bytes) {
-    documentOf(bytes, readContainer(bytes));
+void checkHeader(const Bytes& bytes, const std::string& variant) {
+    Json document = documentOf(bytes, readContainer(bytes));
+    takeVariants(document, variant);
 }
 
-Document open(Bytes bytes, const std::filesystem::path& folder) {
+Document open(Bytes bytes, const std::filesystem::path& folder, const std::string& variant) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}, {}, {}, {}, {}};
+    Document result{{}, Resources(folder), {}, {}, {}, {}, {}, {}, {}};
     Json buffers, images;
     {
         Json document = documentOf(bytes, container);
         result.light_extras = lightExtras(document);
         result.material_extras = materialExtras(document);
         result.image_lights = takeImageLights(document);
+        result.variants = takeVariants(document, variant);
         Schema found = applySchema(document);  // removes extras from the document
         result.notes = container.notes;
-        result.notes.insert(result.notes.end(), result.image_lights.notes.begin(),
-                            result.image_lights.notes.end());
-        result.notes.insert(result.notes.end(), found.notes.begin(), found.notes.end());
+        for (const auto* notes : {&result.image_lights.notes, &result.variants.notes, &found.notes})
+            result.notes.insert(result.notes.end(), notes->begin(), notes->end());
         for (const auto& [name, where] : found.misplaced)
             if (isBuilt(name))
                 result.notes.push_back(fmt::format("{}: {} is not supported there: left out",

@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/extras.h"
 #include "shared/scene/gltf/image_light.h"
 #include "shared/scene/gltf/resources.h"
+#include "shared/scene/gltf/variants.h"
 
 #include <tiny_gltf.h>
 
@@ -25,6 +26,7 @@ struct Document {
     LightExtras light_extras;
     MaterialExtras material_extras;
     ImageLights image_lights;
+    Variants variants;               // primitives have the chosen one's materials
     std::set<std::string> left_out;  // extensions that the file uses but this reader ignores
     std::map<std::size_t, std::string> broken_meshes = {};  // why each was omitted
     std::vector<std::string> notes;                         // repairs and omissions, one line each
@@ -32,11 +34,12 @@ struct Document {
 
 // Loads a file. Checks before use: container lengths, size and nesting of the JSON, version, required
 // extensions, and the schema (schema.h). tinygltf then parses the filtered document without file access.
-// `folder` has the buffers and images; if empty, only data URIs are read. Throws std::runtime_error
-// without the file's name.
-Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder);
+// `folder` has the buffers and images; if empty, only data URIs are read. `variant`: see takeVariants().
+// Throws std::runtime_error without the file's name.
+Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder,
+              const std::string& variant);
 
-// Only the checks of open() that read no data: container, JSON, version, required extensions.
-void checkHeader(const std::vector<unsigned char>& bytes);
+// Only the checks of open() that read no data: container, JSON, version, required extensions, variant.
+void checkHeader(const std::vector<unsigned char>& bytes, const std::string& variant);
 
 }  // namespace diptych::gltf

@@ -78,6 +78,8 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
     scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
+    scene.variants = std::move(document.variants.names);
+    scene.variant = document.variants.chosen;
     if (progress) progress(0, "geometry");
     const int chosen = gltf::chooseScene(document.model, choice, scene.notes);
     const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, chosen, scene);
@@ -124,21 +126,23 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
 
 }  // namespace
 
-Scene loadGltf(const std::string& file, const std::string& scene, const LoadProgress& progress) {
+Scene loadGltf(const std::string& file, const std::string& scene, const std::string& variant,
+               const LoadProgress& progress) {
     return named(file, [&] {
         const std::filesystem::path path(file);
         const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-        return readScene(gltf::open(firstBytesOf(path, gltf::MAX_FILE_BYTES), folder), scene, progress);
+        return readScene(gltf::open(firstBytesOf(path, gltf::MAX_FILE_BYTES), folder, variant), scene,
+                         progress);
     });
 }
 
-void checkGltf(const std::string& file) {
-    named(file, [&] { gltf::checkHeader(firstBytesOf(file, gltf::MAX_FILE_BYTES)); });
+void checkGltf(const std::string& file, const std::string& variant) {
+    named(file, [&] { gltf::checkHeader(firstBytesOf(file, gltf::MAX_FILE_BYTES), variant); });
 }
 
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder) {
-    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder), "", {}); });
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder, ""), "", {}); });
 }
 
 }  // namespace diptych

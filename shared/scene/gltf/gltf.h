@@ -11,12 +11,15 @@
 namespace diptych {
 
 // Loads a .gltf or .glb file, version 2.0. `scene` is the index or name of a scene in it. If empty, the
-// file's default scene is loaded, or else its first. Scene::notes lists deviations from the file. Throws
+// file's default scene is loaded, or else its first. `variant` is the index or name of a material variant;
+// if empty, primitives have their own materials. Scene::notes lists deviations from the file. Throws
 // std::runtime_error: "FILE: OBJECT INDEX: what is wrong".
-Scene loadGltf(const std::string& file, const std::string& scene = "", const LoadProgress& progress = {});
+Scene loadGltf(const std::string& file, const std::string& scene, const std::string& variant,
+               const LoadProgress& progress);
 
-// Checks container, JSON, version and required extensions, without loading data. Throws as loadGltf().
-void checkGltf(const std::string& file);
+// Checks container, JSON, version, required extensions and variant, without loading data. Throws as
+// loadGltf().
+void checkGltf(const std::string& file, const std::string& variant);
 
 // loadGltf() from memory; `name` replaces the file's name in messages. Buffers and images are embedded, or
 // in `folder`.

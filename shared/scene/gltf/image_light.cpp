@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/resources.h"
+#include "shared/scene/gltf/unchecked.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/image/cube_map.h"
 #include "shared/scene/image/decode.h"
@@ -27,30 +28,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* extensionName = "EXT_lights_image_based";
+constexpr const char* imageLightExtension = "EXT_lights_image_based";
 
 // As for other lights' intensity: its product with any texel is finite.
 constexpr double mostIntensity = 1e12;
 // Six faces and their lat-long image take 700 MiB, as much as an image of 8192 x 4096.
 constexpr int largestFace = 2048;
-
-// Removes the extension's object from `owner` and returns it; null if absent.
-Json takeExtension(Json& owner) {
-    if (!owner.is_object() || !owner.contains("extensions")) return nullptr;
-    Json& extensions = owner["extensions"];
-    if (!extensions.is_object() || !extensions.contains(extensionName)) return nullptr;
-    Json taken = std::move(extensions[extensionName]);
-    extensions.erase(extensionName);
-    return taken;
-}
-
-// Checks that `value` is an index below `count`.
-int indexOf(const Json& value, std::size_t count, const std::string& who) {
-    const double index = value.is_number() ? value.get<double>() : -1;
-    if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index)))
-        fail(who, fmt::format("is not a whole number below {}", count));
-    return static_cast<int>(index);
-}
 
 ImageLight lightOf(const Json& json, std::size_t images, const std::string& who) {
     const JsonFields fields(json, who);
@@ -69,8 +52,8 @@ ImageLight lightOf(const Json& json, std::size_t images, const std::string& who)
         mips->front().size() != light.images.size())
         fields.fail("specularImages", "is not an array of mip levels with 6 images each");
     for (std::size_t face = 0; face < light.images.size(); ++face)
-        light.images[face] = indexOf(mips->front()[face], images,
-                                     fmt::format("{}: specularImages: image of face {}", who, face));
+        light.images[face] = indexBelow(mips->front()[face], images,
+                                        fmt::format("{}: specularImages: image of face {}", who, face));
     return light;
 }
 
@@ -110,21 +93,21 @@ Image faceOf(const tinygltf::Model& model, const Resources& resources, int index
 
 ImageLights takeImageLights(Json& document) {
     ImageLights result;
-    const Json root = takeExtension(document);
+    const Json root = takeExtension(document, imageLightExtension);
     std::vector<std::pair<std::size_t, Json>> uses;
     if (const auto scenes = document.find("scenes"); scenes != document.end() && scenes->is_array())
         for (std::size_t i = 0; i < scenes->size(); ++i)
-            if (Json use = takeExtension((*scenes)[i]); !use.is_null()) uses.emplace_back(i, std::move(use));
-    const auto images = document.find("images");
-    const std::size_t count = images != document.end() && images->is_array() ? images->size() : 0;
+            if (Json use = takeExtension((*scenes)[i], imageLightExtension); !use.is_null())
+                uses.emplace_back(i, std::move(use));
+    const std::size_t count = arrayAt(document, "/images").size();
     for (const auto& [scene, use] : uses) try {
-            const std::string who = fmt::format("scene {}: {}", scene, extensionName);
+            const std::string who = fmt::format("scene {}: {}", scene, imageLightExtension);
             if (!use.is_object() || !use.contains("light")) fail(who, "names no light");
             const bool some = root.is_object() && root.contains("lights") && root["lights"].is_array();
             const std::size_t lights = some ? root["lights"].size() : 0;
-            const int light = indexOf(use["light"], lights, who + ": light");
+            const int light = indexBelow(use["light"], lights, who + ": light");
             result.scenes.emplace(scene, lightOf(root["lights"][static_cast<std::size_t>(light)], count,
-                                                 fmt::format("{}: light {}", extensionName, light)));
+                                                 fmt::format("{}: light {}", imageLightExtension, light)));
         } catch (const std::runtime_error& e) {
             result.notes.push_back(std::string(e.what()) + ": left out");
         }

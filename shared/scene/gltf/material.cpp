@@ -62,6 +62,8 @@ public:
         if (!glossy) {
             readSpecular(m);
             readTransmission(m);
+            readClearcoat(m);
+            readAnisotropy(m);
         }
         readLightmap(m);
         return m;
@@ -79,12 +81,16 @@ private:
     std::string who_;
     MaterialParts parts_;
 
+    static constexpr const char* lightmapName = "extras: diptych: lightmap";
+
+    // SLOT_* of a texture's name.
     static std::size_t slotNumber(std::string_view name) {
         if (name == "diffuseTexture") return gpu::SLOT_base_color;
         if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
-        constexpr std::string_view names[] = {"baseColorTexture", "metallicRoughnessTexture",
-                                              "normalTexture",    "occlusionTexture",
-                                              "emissiveTexture",  "specularTexture"};
+        constexpr std::string_view names[gpu::SLOT_COUNT] = {
+            "baseColorTexture", "metallicRoughnessTexture",  "normalTexture",          "occlusionTexture",
+            "emissiveTexture",  "specularTexture",           "specularColorTexture",   lightmapName,
+            "clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture", "anisotropyTexture"};
         return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
     }
 
@@ -227,8 +233,7 @@ private:
     void readLightmap(Material& m) {
         if (!lightmap_) return;
         scene_.notes.insert(scene_.notes.end(), lightmap_->notes.begin(), lightmap_->notes.end());
-        m.lightmap_texture =
-            slot("extras: diptych: lightmap", lightmap_->texture, lightmap_->texcoord, nullptr);
+        m.lightmap_texture = slot(lightmapName, lightmap_->texture, lightmap_->texcoord, nullptr);
         m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
     }
 
@@ -236,6 +241,31 @@ private:
         const auto* e = extension(file_.extensions, "KHR_materials_transmission");
         if (e)
             m.transmission = within("transmissionFactor", numberIn(*e, "transmissionFactor", 0, who_), 0, 1);
+    }
+
+    void readClearcoat(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_clearcoat");
+        if (!e) return;
+        m.clearcoat = within("clearcoatFactor", numberIn(*e, "clearcoatFactor", 0, who_), 0, 1);
+        m.clearcoat_roughness =
+            within("clearcoatRoughnessFactor", numberIn(*e, "clearcoatRoughnessFactor", 0, who_), 0, 1);
+        m.clearcoat_texture = slotIn(*e, "clearcoatTexture");
+        m.clearcoat_roughness_texture = slotIn(*e, "clearcoatRoughnessTexture");
+        m.clearcoat_normal_texture = slotIn(*e, "clearcoatNormalTexture");
+        if (e->Has("clearcoatNormalTexture"))
+            m.clearcoat_normal_scale =
+                within("clearcoatNormalTexture.scale",
+                       numberIn(e->Get("clearcoatNormalTexture"), "scale", 1, who_), -maxFactor, maxFactor);
+    }
+
+    void readAnisotropy(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_anisotropy");
+        if (!e) return;
+        constexpr double any = std::numeric_limits<float>::max();
+        m.anisotropy = within("anisotropyStrength", numberIn(*e, "anisotropyStrength", 0, who_), 0, 1);
+        m.anisotropy_rotation =
+            within("anisotropyRotation", numberIn(*e, "anisotropyRotation", 0, who_), -any, any);
+        m.anisotropy_texture = slotIn(*e, "anisotropyTexture");
     }
 
     void readSpecular(Material& m) {

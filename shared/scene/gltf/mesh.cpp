@@ -123,10 +123,11 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     }
     checkSize(model, tasks);
 
-    const std::vector<bool> mapsThatTurn = normalMapsThatTurn(scene);
+    const std::vector<bool> anisotropic = materialsWithAnisotropy(scene),
+                            mapsThatTurn = tangentMapsThatTurn(scene);
     forEachInParallel(tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        const PrimitiveUse use{scene.materials, mapsThatTurn, uses[task.mesh].joints,
+        const PrimitiveUse use{scene.materials, anisotropic, mapsThatTurn, uses[task.mesh].joints,
                                meshes[task.mesh].weights.size()};
         attempt(task, [&] {
             meshes[task.mesh].primitives[task.primitive] =

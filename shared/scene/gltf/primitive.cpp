@@ -253,14 +253,18 @@ private:
              broken.size() == 1 ? "1 normal has" : counted(broken.size(), "normal") + " have");
     }
 
-    // Without tangents in the file, a normal texture needs MikkTSpace's. Nothing else reads tangents.
+    // Without tangents in the file, normal maps and anisotropy need MikkTSpace's. Nothing else reads them.
     void finishTangents() {
         if (result_.tangents.empty()) {
             result_.tangents_made = true;
             const auto material = static_cast<std::size_t>(result_.material);
-            const TextureSlot& slot = use_.materials[material].normal_texture;
-            return slot.texture >= 0 ? makeTangents(result_, slot, use_.maps_that_turn[material])
-                                     : makeAnyTangents(result_);
+            const bool anisotropic = use_.anisotropic[material];
+            if (!anisotropic && tangentSlot(use_.materials[material]) == gpu::SLOT_COUNT)
+                return makeAnyTangents(result_);
+            const TextureSlot map = tangentMap(use_.materials[material]);
+            if (anisotropic && result_.texcoords[map.texcoord].empty())
+                note("direction of anisotropy is arbitrary: no tangents, no texture coordinates");
+            return makeTangents(result_, map, use_.maps_that_turn[material]);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
         makeAnyTangents(result_);  // fallback for the file's tangents without a direction

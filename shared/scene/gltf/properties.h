@@ -161,7 +161,14 @@ constexpr Property specularGlossiness[] = {numbers("diffuseFactor", 4), object("
                                            object("specularGlossinessTexture", textureInfo)};
 constexpr Property transmission[] = {number("transmissionFactor"),
                                      object("transmissionTexture", textureInfo)};
-constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrength),
+constexpr Property clearcoat[] = {
+    number("clearcoatFactor"), object("clearcoatTexture", textureInfo), number("clearcoatRoughnessFactor"),
+    object("clearcoatRoughnessTexture", textureInfo), object("clearcoatNormalTexture", normalInfo)};
+constexpr Property anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"),
+                                   object("anisotropyTexture", textureInfo)};
+constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", anisotropy),
+                                           object("KHR_materials_clearcoat", clearcoat),
+                                           object("KHR_materials_emissive_strength", emissiveStrength),
                                            object("KHR_materials_ior", ior),
                                            object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
                                            object("KHR_materials_specular", specular),

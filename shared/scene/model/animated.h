@@ -42,6 +42,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::weight:
         case AnimatedPart::mesh_weights:
         case AnimatedPart::mesh_weight:
+        case AnimatedPart::anisotropy_rotation:
         case AnimatedPart::texture_rotation:
             return {1};
         case AnimatedPart::light_color:
@@ -76,8 +77,12 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::specular:
         case AnimatedPart::transmission:
         case AnimatedPart::glossiness:
+        case AnimatedPart::clearcoat:
+        case AnimatedPart::clearcoat_roughness:
+        case AnimatedPart::anisotropy:
             return {1, 0, 1};
         case AnimatedPart::normal_scale:
+        case AnimatedPart::clearcoat_normal_scale:
             return {1, -maxFactor, maxFactor};
         case AnimatedPart::alpha_cutoff:
             return {1, 0, maxFactor};
@@ -122,14 +127,26 @@ inline std::set<int> materialsThatMove(const Scene& scene) {
     return moving;
 }
 
-// For each material, whether an animation rotates, scales or mirrors its normal map.
-inline std::vector<bool> normalMapsThatTurn(const Scene& scene) {
+// For each material, whether it is ever anisotropic, and so needs tangents without any map.
+inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
+    std::vector<bool> anisotropic;
+    for (const Material& material : scene.materials) anisotropic.push_back(material.anisotropy > 0);
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            if (channel.part == AnimatedPart::anisotropy)
+                anisotropic[static_cast<std::size_t>(channel.object)] = true;
+    return anisotropic;
+}
+
+// For each material, whether an animation rotates, scales or mirrors its tangentMap().
+inline std::vector<bool> tangentMapsThatTurn(const Scene& scene) {
     std::vector<bool> turns(scene.materials.size(), false);
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
             if ((channel.part == AnimatedPart::texture_rotation ||
                  channel.part == AnimatedPart::texture_scale) &&
-                channel.element == gpu::SLOT_normal)
+                static_cast<std::size_t>(channel.element) ==
+                    tangentSlot(scene.materials[static_cast<std::size_t>(channel.object)]))
                 turns[static_cast<std::size_t>(channel.object)] = true;
     return turns;
 }

@@ -24,6 +24,10 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::specular_texture, false},
     {&Material::specular_color_texture, true},
     {&Material::lightmap_texture, true},
+    {&Material::clearcoat_texture, false},
+    {&Material::clearcoat_roughness_texture, false},
+    {&Material::clearcoat_normal_texture, false},
+    {&Material::anisotropy_texture, false},
 }};
 
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
@@ -40,9 +44,28 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
             return material.emissive != glm::vec3(0);
         case gpu::SLOT_lightmap:
             return material.lightmap_intensity != 0;
+        case gpu::SLOT_clearcoat:
+        case gpu::SLOT_clearcoat_roughness:
+            return material.clearcoat != 0;
+        case gpu::SLOT_clearcoat_normal:
+            return material.clearcoat != 0 && material.clearcoat_normal_scale != 0;
+        case gpu::SLOT_anisotropy:
+            return material.anisotropy != 0;
         default:
             return true;
     }
+}
+
+// The slot whose UV set and transform define generated tangents (makeTangents); SLOT_COUNT: none, TEXCOORD_0
+// as it is. Animation never changes it.
+inline std::size_t tangentSlot(const Material& material) {
+    for (const std::size_t slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
+        if ((material.*materialSlots[slot].texture).texture >= 0) return slot;
+    return gpu::SLOT_COUNT;
+}
+inline TextureSlot tangentMap(const Material& material) {
+    const std::size_t slot = tangentSlot(material);
+    return slot == gpu::SLOT_COUNT ? TextureSlot{} : material.*materialSlots[slot].texture;
 }
 
 inline bool isTransformed(const TextureSlot& slot) {

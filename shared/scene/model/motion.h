@@ -126,6 +126,11 @@ enum class AnimatedPart {
     transmission,
     specular_f0,  // KHR_materials_pbrSpecularGlossiness: specularFactor
     glossiness,
+    clearcoat,
+    clearcoat_roughness,
+    clearcoat_normal_scale,
+    anisotropy,
+    anisotropy_rotation,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale

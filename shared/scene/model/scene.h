@@ -83,6 +83,8 @@ struct Material {
     glm::vec3 specular_color{1, 1, 1};
     float lightmap_intensity = 1;  // see contract/material.h
     float transmission = 0;        // KHR_materials_transmission, infinitely thin
+    float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;  // KHR_materials_clearcoat
+    float anisotropy = 0, anisotropy_rotation = 0;  // KHR_materials_anisotropy; rad, tangent to bitangent
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -92,7 +94,8 @@ struct Material {
     bool specular_glossiness = false;
     // In the order of SLOT_* in contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
-        emissive_texture, specular_texture, specular_color_texture, lightmap_texture;
+        emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,
+        clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture;
 };
 
 // Values that Material stores combined, split into the parts that animations replace.
@@ -105,6 +108,12 @@ struct MaterialParts {
 // Whether the surface behind it remains visible.
 inline bool blends(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || (m.transmission > 0 && !m.unlit);
+}
+
+// A sum of LAYER_* of contract/material.h.
+inline std::uint32_t layersOf(const Material& m) {
+    if (m.unlit) return 0;
+    return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0);
 }
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After
@@ -209,6 +218,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
+    std::vector<std::string> variants;            // names of KHR_materials_variants; may be empty
+    int variant = -1;                             // the one drawn; -1: primitives' own materials
     std::map<int, MaterialParts> material_parts;  // materials that animations change, by index
     std::vector<Texture> textures;
     std::vector<TextureImage> images;

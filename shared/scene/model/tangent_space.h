@@ -7,8 +7,8 @@
 // threshold. t is 1 - v: the bitangent must point to the top of the image (glTF's +Y of a normal map), but
 // v grows downwards. Computed in double from float inputs.
 //
-// UV means the normal map's coordinates after KHR_texture_transform, because a rotated or mirrored map has
-// its own directions on the surface.
+// UV means the map's coordinates (tangentMap()) after KHR_texture_transform, because a rotated or mirrored
+// map has its own directions on the surface.
 //
 // If morph targets affect tangents, groups must be valid in every pose. Vertices are then welded only if
 // all targets move them alike, and those of a flat primitive only within a triangle.

@@ -2,6 +2,7 @@
 #include "shared/scene/motion/animation.h"
 
 #include "shared/scene/model/animated.h"
+#include "shared/text/indexed_names.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -100,15 +101,11 @@ std::span<const Animation> animationsOf(const Scene& scene, const std::string& c
         if (choice == std::to_string(i)) return all.subspan(i, 1);
     for (std::size_t i = 0; i < all.size(); ++i)
         if (choice == all[i].name) return all.subspan(i, 1);
-    constexpr std::size_t shown = 20;  // about one screen
-    std::string there;
-    for (std::size_t i = 0; i < std::min(all.size(), shown); ++i)
-        there += fmt::format("{}{}{}", i ? ", " : "", i,
-                             all[i].name.empty() ? "" : fmt::format(" \"{}\"", oneLine(all[i].name)));
-    if (all.size() > shown) there += fmt::format(" and {} more", all.size() - shown);
-    throw std::runtime_error(
-        fmt::format("--animation \"{}\": {}", oneLine(choice),
-                    all.empty() ? "the scene has no animation" : "the scene's animations are " + there));
+    std::vector<std::string> names;
+    for (const Animation& animation : all) names.push_back(animation.name);
+    throw std::runtime_error(fmt::format(
+        "--animation \"{}\": {}", oneLine(choice),
+        all.empty() ? "the scene has no animation" : "the scene's animations are " + indexedNames(names)));
 }
 
 namespace {

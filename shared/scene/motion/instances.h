@@ -21,7 +21,7 @@ struct Instance {
     int skin = -1;             // into Pose::skins
     int weights = -1;          // into Pose::weights; -1: no morph target applies
     int box = -1;              // into Pose::boxes, for deformed instances
-    bool map_rotated = false;  // tangents are recomputed because an animation rotated the normal map
+    bool map_rotated = false;  // tangents are recomputed because an animation rotated their map
     bool deformed() const { return skin >= 0 || weights >= 0 || map_rotated; }
     bool operator==(const Instance&) const = default;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recomputes generated tangents for a pose in which morph targets or an animated normal map change them.
+// Recomputes generated tangents for a pose in which morph targets or an animated map (tangentMap()) change
+// them.
 #pragma once
 
 #include "shared/scene/model/scene.h"
@@ -11,7 +12,7 @@
 
 namespace diptych {
 
-// Whether an animation has rotated, scaled or mirrored a normal map. An offset does not affect tangents.
+// Whether an animation has rotated, scaled or mirrored a map. An offset does not affect tangents.
 inline bool isRotated(const TextureSlot& rest, const TextureSlot& now) {
     return glm::dvec2(rest.u) != glm::dvec2(now.u) || glm::dvec2(rest.v) != glm::dvec2(now.v);
 }

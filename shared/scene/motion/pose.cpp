@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/model/axes.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/animation.h"
 #include "shared/scene/motion/deformation_bounds.h"
@@ -191,7 +192,7 @@ PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
 bool hasRotatedMap(const Scene& scene, const Pose& pose, const Primitive& primitive) {
     if (primitive.tangent_groups.empty() || pose.materials.empty()) return false;
     const auto m = static_cast<std::size_t>(primitive.material);
-    return isRotated(scene.materials[m].normal_texture, pose.materials[m].normal_texture);
+    return isRotated(tangentMap(scene.materials[m]), tangentMap(pose.materials[m]));
 }
 
 }  // namespace

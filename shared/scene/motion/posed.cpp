@@ -2,6 +2,7 @@
 #include "shared/scene/motion/posed.h"
 
 #include "shared/contract/posing.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangent_space.h"
 #include "shared/scene/motion/morphed_tangents.h"
 
@@ -191,9 +192,9 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     result.positions.resize(count);
     result.normals.resize(count);
     const auto material = static_cast<std::size_t>(primitive.material);
-    const TextureSlot& map = materialsOf(scene, pose)[material].normal_texture;
+    const TextureSlot map = tangentMap(materialsOf(scene, pose)[material]);
     result.tangents = tangentsOf(posing, map, instance.map_rotated);
-    if (instance.map_rotated) result.bitangents = mirroredSign(scene.materials[material].normal_texture, map);
+    if (instance.map_rotated) result.bitangents = mirroredSign(tangentMap(scene.materials[material]), map);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
         result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));

@@ -18,13 +18,13 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, con
 // inverse transposes, or with `blended_normals` by the inverse transpose of their mean. It points to the
 // front side, given the handedness of world_from_object. A flat primitive gets the normals of its posed
 // triangles. Tangents move with the surface. Those from makeTangents are recomputed if targets of non-zero
-// weight or an animated normal map change them (morphed_tangents.h). A bitangent's sign is the
+// weight or an animated map change them (morphed_tangents.h). A bitangent's sign is the
 // primitive's, times the sign of world_from_object's determinant, times `bitangents`.
 struct PosedVertices {
     std::vector<glm::dvec3> positions, normals, tangents;
     std::vector<glm::dvec2> texcoords[2];  // empty if no target of non-zero weight moves them
     std::vector<glm::dvec4> colors;        // likewise; 0 to 1
-    double bitangents = 1;                 // -1 if an animation mirrored the normal map
+    double bitangents = 1;                 // -1 if an animation mirrored the map of tangents
 };
 PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance& instance,
                             bool blended_normals = false);

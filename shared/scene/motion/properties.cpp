@@ -142,6 +142,21 @@ public:
             case AnimatedPart::transmission:
                 m_.transmission = number;
                 break;
+            case AnimatedPart::clearcoat:
+                m_.clearcoat = number;
+                break;
+            case AnimatedPart::clearcoat_roughness:
+                m_.clearcoat_roughness = number;
+                break;
+            case AnimatedPart::clearcoat_normal_scale:
+                m_.clearcoat_normal_scale = number;
+                break;
+            case AnimatedPart::anisotropy:
+                m_.anisotropy = number;
+                break;
+            case AnimatedPart::anisotropy_rotation:
+                m_.anisotropy_rotation = number;
+                break;
             case AnimatedPart::texture_offset:
                 transform(element).offset = {v[0], v[1]};
                 place(element);

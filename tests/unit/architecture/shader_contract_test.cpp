@@ -218,9 +218,10 @@ std::vector<Declared> bindingTables() {
     {
         const auto table = add(gpu::SET_GBUFFER, false);
         GBUFFER_BINDINGS(ROW)
-        table("DEPTH", gpu::BINDING_DEPTH, Kind::image);
+        table("DEPTH", gpu::BINDING_DEPTH, Kind::fetched_image);
         TRANSPARENCY_BINDINGS(ROW)
         SAMPLE_BINDINGS(ROW)
+        CHANNEL_BINDINGS(ROW)
     }
     {
         const auto table = add(gpu::SET_LISTS, true);

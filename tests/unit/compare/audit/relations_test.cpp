@@ -118,6 +118,22 @@ TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
+// Light of a coat moves with the coat's own normal.
+TEST(Relations, ACoatsNormalMovesLight) {
+    const int normals = static_cast<int>(gpu::DEBUG_clearcoat_normal);
+    Frame given = twoWalls();
+    given.channels[normals] = given.channels[relatedNormal];
+    Frame changed = given;
+    changed.channels[relatedLight].at(3, 2, 0) *= 1 + 1e-4f;
+    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.relative = 2e-5;  // of the normal
+    changed.channels[normals].at(3, 2, 0) = 1e-5f;
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    for (Frame* frame : {&given, &changed}) frame->channels.erase(normals);
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "without a coat";
+}
+
 TEST(Relations, SumsAreGrantedByComponent) {
     Frame given = twoWalls();
     given.channels[relatedLight].at(5, 5, 2) = 1e-6f;

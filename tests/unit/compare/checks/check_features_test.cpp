@@ -24,6 +24,7 @@ TEST(CheckFeatures, BuiltinScenesHaveTheirs) {
         {"mirrored", {"mirrored instances", "normal maps"}},
         {"cutout", {"alpha masks", "double-sided surfaces", "normal maps"}},
         {"unlit_materials", {"unlit materials", "vertex colours"}},
+        {"layers", {"clear coats", "anisotropy", "normal maps"}},
         {"gallery", {"normal maps", "samplers"}}};
     for (const auto& [name, features] : expected) {
         const Scene scene = loadScene(std::string("builtin:") + name);
@@ -115,6 +116,18 @@ TEST(CheckFeatures, NormalMapsSayWhoseTangents) {
     EXPECT_NE(what(scene, "normal maps").find("the mesh's own tangents"), std::string::npos);
     scene.meshes[0].primitives[0].tangents_made = true;
     EXPECT_NE(what(scene, "normal maps").find("generated tangents"), std::string::npos);
+}
+
+TEST(CheckFeatures, LayersOfLitMaterials) {
+    Scene scene = plainScene();
+    scene.materials[0].clearcoat = scene.materials[0].anisotropy = 0.5f;
+    EXPECT_NE(what(scene, "clear coats").find("clear coat reflects"), std::string::npos);
+    EXPECT_NE(what(scene, "anisotropy").find("the mesh's own tangents"), std::string::npos);
+    scene.meshes[0].primitives[0].tangents_made = true;
+    EXPECT_NE(what(scene, "anisotropy").find("generated tangents"), std::string::npos);
+    scene.materials[0].unlit = true;
+    EXPECT_EQ(what(scene, "clear coats"), "");
+    EXPECT_EQ(what(scene, "anisotropy"), "");
 }
 
 TEST(CheckFeatures, WhiteVertexColoursShowNothing) {

@@ -593,6 +593,7 @@ TEST(CommandLine, HelpShowsTheSettings) {
                                    "specular-albedo",
                                    "time",
                                    "animation",
+                                   "variant",
                                    "msaa",
                                    "msaa-shading",
                                    "msaa-edges",

@@ -3,6 +3,7 @@
 #include "compare/external/scene_gltf.h"
 
 #include "shared/scene/load.h"
+#include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 #include "tests/support/files.h"
@@ -81,7 +82,7 @@ TEST(SceneGltf, ARigIsReadBackAsItIs) {
 
 TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
     for (const std::string name :
-         {"builtin:motion", "builtin:mirrored", "builtin:gallery", "builtin:tangents"}) {
+         {"builtin:motion", "builtin:mirrored", "builtin:gallery", "builtin:tangents", "builtin:layers"}) {
         const Scene scene = loadScene(name);
         const SceneView view = viewAt(scene, 0.7);
         const Scene back = readBack(sceneGltf(scene, view, SkinNormals::joints).glb);
@@ -109,6 +110,21 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
                 back.materials[static_cast<std::size_t>(primitiveOf(back, written).material)];
             EXPECT_EQ(one.name, other.name);
             EXPECT_EQ(one.roughness, other.roughness);
+            EXPECT_EQ(one.clearcoat, other.clearcoat) << one.name;
+            EXPECT_EQ(one.anisotropy, other.anisotropy) << one.name;
+            for (std::size_t s = 0; s < materialSlots.size(); ++s) {
+                if (s == gpu::SLOT_lightmap) continue;
+                EXPECT_EQ(readsSlot(one, s), readsSlot(other, s)) << one.name << ", slot " << s;
+            }
+            if (one.clearcoat > 0) {
+                EXPECT_EQ(one.clearcoat_roughness, other.clearcoat_roughness) << one.name;
+            }
+            if (readsSlot(one, gpu::SLOT_clearcoat_normal)) {
+                EXPECT_EQ(one.clearcoat_normal_scale, other.clearcoat_normal_scale) << one.name;
+            }
+            if (one.anisotropy > 0) {
+                EXPECT_EQ(one.anisotropy_rotation, other.anisotropy_rotation) << one.name;
+            }
             EXPECT_NEAR(one.normal_texture.u.x, other.normal_texture.u.x, 1e-6) << name;
             EXPECT_NEAR(one.normal_texture.v.x, other.normal_texture.v.x, 1e-6) << name;
         }

@@ -19,10 +19,16 @@ ChannelStats scalars(Metric metric, const PixelData& baseline, const PixelData& 
     return channelStats(metric, ChannelKind::scalar, rowOf(1, baseline), rowOf(1, test),
                         everyPixel(baseline.size()));
 }
-double angle(PixelData a, PixelData b) {
-    return channelStats(Metric::angular, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
+double largest(Metric metric, PixelData a, PixelData b) {
+    return channelStats(metric, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
                         everyPixel(1))
         .max;
+}
+double angle(PixelData a, PixelData b) {
+    return largest(Metric::angular, std::move(a), std::move(b));
+}
+double lineAngle(PixelData a, PixelData b) {
+    return largest(Metric::axial, std::move(a), std::move(b));
 }
 
 TEST(Metrics, AbsoluteByHand) {
@@ -81,6 +87,21 @@ TEST(Metrics, AnglesAreExactWhereACosineIsNot) {
     EXPECT_EQ(angle({0, 0, 1}, {0, 0, 0}), 180);
 }
 
+TEST(Metrics, LinesHaveNoSign) {
+    EXPECT_EQ(lineAngle({0, 0.6f, 0.8f}, {0, -0.6f, -0.8f}), 0);
+    EXPECT_DOUBLE_EQ(lineAngle({1, 0, 0}, {0, 1, 0}), 90);
+    EXPECT_DOUBLE_EQ(lineAngle({1, 0, 0}, {1, 1, 0}), 45);
+    EXPECT_DOUBLE_EQ(lineAngle({1, 0, 0}, {-1, 1, 0}), 45) << "135 degrees between the vectors";
+    // As exact beside -a as beside a.
+    EXPECT_DOUBLE_EQ(lineAngle({1, 0, 0}, {-1, 0x1p-13f, 0}), std::atan(0x1p-13) * 180 / std::numbers::pi);
+}
+
+TEST(Metrics, AZeroVectorIsPerpendicularToEveryLine) {
+    EXPECT_EQ(lineAngle({0, 0, 0}, {0, 0, 0}), 0);
+    EXPECT_EQ(lineAngle({0, 0, 0}, {0, 0, 1}), 90);
+    EXPECT_EQ(lineAngle({0, 0, 1}, {0, 0, 0}), 90);
+}
+
 TEST(Metrics, ExactCountsPixelsNotComponents) {
     const ChannelStats s = channelStats(Metric::exact, ChannelKind::id, rowOf(2, {1, 2, 3, 4, 5, 6}),
                                         rowOf(2, {1, 2, 9, 9, 5, 6.0000005f}), everyPixel(3));
@@ -90,7 +111,8 @@ TEST(Metrics, ExactCountsPixelsNotComponents) {
 }
 
 TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
-    for (const Metric metric : {Metric::relative, Metric::absolute, Metric::angular, Metric::exact})
+    for (const Metric metric :
+         {Metric::relative, Metric::absolute, Metric::angular, Metric::axial, Metric::exact})
         for (const float bad : {nan, inf, -inf}) {
             const Image good = rowOf(3, {1, 2, 3, 1, 2, 3}), broken = rowOf(3, {1, 2, 3, 1, bad, 3});
             for (const bool inTest : {false, true}) {
@@ -107,7 +129,8 @@ TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
 }
 
 TEST(Metrics, TheSameNonFiniteIsNoDifferenceButIsCounted) {
-    for (const Metric metric : {Metric::relative, Metric::absolute, Metric::angular, Metric::exact}) {
+    for (const Metric metric :
+         {Metric::relative, Metric::absolute, Metric::angular, Metric::axial, Metric::exact}) {
         const Image both = rowOf(3, {1, nan, 3, inf, 2, 3, 1, 2, 3});
         const ChannelStats s = channelStats(metric, ChannelKind::color, both, both, everyPixel(3));
         EXPECT_EQ(s.max, 0) << nameOf(metric);

@@ -150,6 +150,11 @@ TEST(StandardMetrics, AnglesByHand) {
     EXPECT_NEAR(vectors({0, 0, 1}, {0, 1e-6f, 1}).angle_max, 1e-6 * 180 / 3.14159265358979, 1e-10);
     EXPECT_EQ(vectors({0, 0, 1}, {0, nan, 1}).angle_max, endless);
     EXPECT_EQ(colors(rowOf(3, {1, 0, 0}), rowOf(3, {0, 1, 0})).angle_max, 0) << "colours have none";
+    EXPECT_EQ(standardMetrics(rowOf(3, {0, 0, 1}), rowOf(3, {0, 0, -1}), ChannelKind::vector, Range::linear,
+                              everyPixel(1), Metric::axial)
+                  .angle_max,
+              0)
+        << "lines have no sign";
 }
 
 TEST(StandardMetrics, AgreeWithTheChannelsStatistics) {

@@ -56,6 +56,7 @@ std::vector<Settings> severalSettings() {
     add([](Settings& s) { s.camera = "it's \"$HOME\" `x` *\\"; });
     add([](Settings& s) { s.time = -1.0 / 3.0; });
     add([](Settings& s) { s.animation = "-run `it's` $1"; });
+    add([](Settings& s) { s.variant = "-red 'n' $blue"; });
     add([](Settings& s) { s.skinning = Skinning::vertex; });
     add([](Settings& s) { s.skin_normals = SkinNormals::blended; });
     add([](Settings& s) { s.env = "-sky.exr"; });

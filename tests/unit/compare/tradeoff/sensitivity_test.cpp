@@ -120,6 +120,9 @@ TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     EXPECT_EQ(reasonOf(all, "textures"), "no material reads a texture");
     EXPECT_EQ(reasonOf(sensitiveUnder(mixed, true), "ibl-diffuse"),
               "no spherical-harmonics irradiance is negative: sh-windowed equals sh");
+    Material lacquered = matte;
+    lacquered.clearcoat = 1;
+    EXPECT_GT(valuesOf(sensitiveUnder(lacquered, false), "ibl").size(), 1u) << "the coat is specular";
     const SweepRows of_matte = sensitiveUnder(matte, false);
     for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"}) {
         EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;

@@ -8,8 +8,11 @@
 #include "shared/contract/gbuffer.h"
 #include "tests/support/report_builder.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace diptych::tests {
 namespace {
@@ -21,6 +24,7 @@ struct PackedPair {
     PackedPair() {
         for (Frame& frame : frames) frame.settings.gbuffer = packedEncoding;
         needs.emission = needs.lightmap = needs.dielectric_specular = true;
+        needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
         needs.max_emission = needs.min_emission = needs.max_lightmap = 1;
     }
     float* read(gpu::uint mode) { return &frames[0].channels.at(static_cast<int>(mode)).at(1, 2); }
@@ -81,7 +85,8 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
     }
     // Directions are compared by angle.
     const double angle = octahedralBound(gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
-    for (const gpu::uint mode : {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal})
+    for (const gpu::uint mode :
+         {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal, gpu::DEBUG_clearcoat_normal})
         for (const double share : {0.9, 1.1}) {
             float *n = p.own(mode), *m = p.read(mode);
             n[0] = 1, n[1] = n[2] = 0;
@@ -91,9 +96,64 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
         }
 }
 
-TEST(EncodingUse, ANanIsBeyondEveryBound) {
+// A line's decoded direction may have either sign.
+TEST(EncodingUse, ALineIsJudgedWithoutItsSign) {
+    PackedPair p;
+    const double angle =
+        lineBound(gpu::ANISOTROPY_ANGLE_BITS, gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
+    float *d = p.own(gpu::DEBUG_anisotropy_direction), *e = p.read(gpu::DEBUG_anisotropy_direction);
+    d[0] = 1, d[1] = d[2] = 0;
+    for (const float sign : {1.0f, -1.0f})
+        for (const double share : {0.9, 1.1}) {
+            e[0] = sign * static_cast<float>(std::cos(share * angle)), e[1] = 0;
+            e[2] = sign * static_cast<float>(std::sin(share * angle));
+            EXPECT_EQ(p.use(gpu::DEBUG_anisotropy_direction)->beyond, share > 1 ? 1u : 0u) << sign << share;
+        }
+    EXPECT_TRUE(p.report({static_cast<int>(gpu::DEBUG_anisotropy)}).passed());
+}
+
+// Where a layer is absent, exactly 0 is stored.
+TEST(EncodingUse, AnAbsentLayerIsExactlyZero) {
     for (const gpu::uint mode :
-         {gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_roughness, gpu::DEBUG_emission}) {
+         {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_clearcoat_normal,
+          gpu::DEBUG_anisotropy, gpu::DEBUG_anisotropy_direction}) {
+        PackedPair p;
+        for (int c = 0; c < debugMode(static_cast<int>(mode)).width; ++c)
+            p.own(mode)[c] = p.read(mode)[c] = 0;
+        EXPECT_EQ(p.use(mode)->beyond, 0u) << mode;
+        *p.read(mode) = 1e-6f;
+        EXPECT_EQ(p.use(mode)->beyond, 1u) << mode;
+    }
+}
+
+// Frames of scenes without a layer lack its channels.
+TEST(EncodingUse, AChannelThatAPathLacksIsNotJudged) {
+    const std::vector<int> lit{static_cast<int>(gpu::DEBUG_lit)};
+    for (const bool both : {false, true}) {
+        PackedPair p;
+        p.frames[0].channels.erase(static_cast<int>(gpu::DEBUG_clearcoat));
+        if (both) p.frames[1].channels.erase(static_cast<int>(gpu::DEBUG_clearcoat));
+        EXPECT_FALSE(p.use(gpu::DEBUG_clearcoat)) << both;
+        EXPECT_TRUE(p.report(lit).passed()) << both;
+    }
+}
+
+// A decoded direction of another length points the same way, yet scales light.
+TEST(EncodingUse, LayersDirectionsHaveUnitLengthOrNone) {
+    for (const gpu::uint mode : {gpu::DEBUG_clearcoat_normal, gpu::DEBUG_anisotropy_direction}) {
+        PackedPair p;
+        const std::vector<int> requested{static_cast<int>(mode)};
+        EXPECT_TRUE(p.report(requested).passed()) << mode;
+        for (int c = 0; c < 3; ++c) p.read(mode)[c] *= 0.5f;
+        EXPECT_FALSE(p.report(requested).passed()) << mode;
+        for (int c = 0; c < 3; ++c) p.own(mode)[c] = p.read(mode)[c] = 0;
+        EXPECT_TRUE(p.report(requested).passed()) << mode << ": absent";
+    }
+}
+
+TEST(EncodingUse, ANanIsBeyondEveryBound) {
+    for (const gpu::uint mode : {gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_roughness,
+                                 gpu::DEBUG_emission, gpu::DEBUG_anisotropy_direction}) {
         for (const bool own : {false, true}) {
             PackedPair p;
             *(own ? p.own(mode) : p.read(mode)) = std::numeric_limits<float>::quiet_NaN();
@@ -109,7 +169,8 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
         EXPECT_FALSE(p.use(mode)) << mode;
     p.needs = {};
     for (const gpu::uint mode :
-         {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0, gpu::DEBUG_dielectric_f90})
+         {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0, gpu::DEBUG_dielectric_f90,
+          gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_normal, gpu::DEBUG_anisotropy_direction})
         EXPECT_FALSE(p.use(mode)) << "nothing is stored of " << mode;
     EXPECT_TRUE(p.use(gpu::DEBUG_albedo));
     for (Frame& frame : p.frames) frame.settings.gbuffer = GBufferEncoding::full;
@@ -126,7 +187,7 @@ TEST(EncodingUse, EverySampleIsJudged) {
         ASSERT_TRUE(p.use(field)) << debugMode(mode).name;
         EXPECT_EQ(p.use(field)->beyond, 0u) << debugMode(mode).name;
         float& value = p.frames[0].further_samples.at(mode)[1].at(1, 2);
-        value += debugMode(mode).domain == Domain::unit ? 0.01f : 0.1f;
+        value += isAngle(debugMode(mode).metric) ? 0.01f : 0.1f;
         EXPECT_EQ(p.use(field)->beyond, 1u) << debugMode(mode).name;
         EXPECT_EQ(p.use(field, 1)->beyond, 0u) << debugMode(mode).name << ": slack is granted";
         p.frames[0].further_samples.at(mode).pop_back();
@@ -144,7 +205,7 @@ TEST(EncodingUse, LitIsJudgedWithItsFields) {
     for (const int mode : lightingFields()) {
         PackedPair p;
         float* const value = p.read(static_cast<gpu::uint>(mode));
-        value[0] += debugMode(mode).domain == Domain::unit ? 0.01f : 0.1f;
+        value[0] += isAngle(debugMode(mode).metric) ? 0.01f : 0.1f;
         const Report report = p.report(lit);
         EXPECT_FALSE(report.passed()) << debugMode(mode).name;
         ASSERT_EQ(report.comparisons[0].channels.size(), 2u) << debugMode(mode).name;

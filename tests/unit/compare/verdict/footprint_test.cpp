@@ -32,7 +32,7 @@ std::vector<Frame> evenFrames() {
             if (!isMadeByReference(mode)) continue;
             Image& image = frame.channels[mode.number] =
                 Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
-            if (mode.domain == Domain::unit)
+            if (isAngle(mode.metric))
                 for (std::size_t i = 0; i < image.pixels(); ++i)
                     std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
         }

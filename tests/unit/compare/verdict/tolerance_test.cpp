@@ -34,7 +34,7 @@ struct Pair {
         deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
-            if (mode.domain == Domain::unit) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
+            if (isAngle(mode.metric)) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
             if (mode.maker != MadeBy::forward_only)
                 deferred.channels[mode.number] = forward.channels[mode.number];
             if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.number);
@@ -127,6 +127,76 @@ TEST(Tolerance, HalfStepsOfEachPackedNumber) {
     EXPECT_NEAR(p.of(gpu::DEBUG_normals).max, 0.0589, 1e-3);
 }
 
+TEST(Tolerance, HalfStepsOfEachLayer) {
+    for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard}) {
+        Pair p;
+        p.encoding(e).needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
+        for (const gpu::uint mode :
+             {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_anisotropy})
+            EXPECT_NEAR(p.of(mode).max, 0.5 / 4095, 1e-6) << mode;
+        EXPECT_NEAR(p.of(gpu::DEBUG_clearcoat_normal).max, 0.00370, 2e-4);
+        EXPECT_GT(p.of(gpu::DEBUG_anisotropy_direction).max, p.of(gpu::DEBUG_normals).max);
+    }
+}
+
+TEST(Tolerance, AnAbsentLayerIsNotStored) {
+    Pair p;
+    p.encoding(GBufferEncoding::compact).needs.layers = gpu::LAYER_ANISOTROPY;
+    EXPECT_EQ(p.of(gpu::DEBUG_clearcoat).max, 0);
+    EXPECT_GT(p.of(gpu::DEBUG_anisotropy).max, 0);
+    p.needs.layers = gpu::LAYER_CLEARCOAT;
+    EXPECT_GT(p.of(gpu::DEBUG_clearcoat).max, 0);
+    EXPECT_EQ(p.of(gpu::DEBUG_anisotropy_direction).max, 0);
+}
+
+// A unit direction perpendicular to n, through an angle of its projection onto the decoded normal's plane.
+Vector throughAngle(const Vector& d, const Vector& decoded, unsigned bits) {
+    const auto cross = [](const Vector& a, const Vector& b) {
+        return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const auto dot = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const auto unit = [](Vector v) {
+        const double size = length(v);
+        for (double& c : v) c /= size;
+        return v;
+    };
+    const Vector n = unit(decoded),
+                 x = unit(cross(std::abs(n[0]) < 0.7 ? Vector{1, 0, 0} : Vector{0, 1, 0}, n)),
+                 y = cross(n, x);
+    const double step = std::numbers::pi / (1u << bits);
+    const double angle = std::floor(std::atan2(dot(d, y), dot(d, x)) / step + 0.5) * step;
+    return {std::cos(angle) * x[0] + std::sin(angle) * y[0], std::cos(angle) * x[1] + std::sin(angle) * y[1],
+            std::cos(angle) * x[2] + std::sin(angle) * y[2]};
+}
+
+TEST(Tolerance, LineBoundHoldsAndIsTight) {
+    constexpr unsigned bits = gpu::ANISOTROPY_ANGLE_BITS;
+    for (const unsigned normal_bits : {gpu::COMPACT_NORMAL_BITS, gpu::STANDARD_NORMAL_BITS}) {
+        std::mt19937 random(11);
+        std::normal_distribution<double> normal;
+        double worst = 0;
+        for (int i = 0; i < 200'000; ++i) {
+            // Around a face's centre, where the normal turns most.
+            Vector n{normal(random), normal(random), normal(random)};
+            for (double& c : n) c = (c < 0 ? -1 : 1) * (1 + 0.01 * c);
+            const Vector decoded = throughOctahedron(n, normal_bits);
+            // The direction in which the normal turned, perpendicular to it; or any other.
+            Vector d = decoded;
+            if (i % 2 == 1) d = {normal(random), normal(random), normal(random)};
+            const double along = (d[0] * n[0] + d[1] * n[1] + d[2] * n[2]) / (length(n) * length(n));
+            for (std::size_t c = 0; c < 3; ++c) d.at(c) -= along * n.at(c);
+            const double size = length(d);
+            if (size == 0) continue;
+            for (double& c : d) c /= size;
+            const double apart = degreesBetween(d, throughAngle(d, decoded, bits));
+            worst = std::max(worst, std::min(apart, 180 - apart));
+        }
+        EXPECT_LE(worst, lineBound(bits, normal_bits)) << normal_bits;
+        EXPECT_GE(worst, 0.9 * lineBound(bits, normal_bits))
+            << normal_bits << ": a bound that is never neared hides errors";
+    }
+}
+
 TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
     Pair p;
     p.needs.dielectric_specular = true;
@@ -205,7 +275,7 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
         p.cpu = false;
         const double share = 16 * 0x1p-23, expected = mode.metric == Metric::relative   ? share
                                                       : mode.metric == Metric::absolute ? 0.5 * share
-                                                      : mode.metric == Metric::angular
+                                                      : isAngle(mode.metric)
                                                           ? std::sqrt(3.0) * share * 180 / std::numbers::pi
                                                           : 0;
         EXPECT_DOUBLE_EQ(derivedTolerance(mode, p.pair()).max, expected) << mode.name;

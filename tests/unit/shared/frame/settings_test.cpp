@@ -37,6 +37,7 @@ Settings everythingChanged() {
     s.camera = "eye=1,2,3 target=0,0,0 \"quoted\"";
     s.time = 1.0 / 3.0;
     s.animation = "walk \"fast\", \xc3\xa9";
+    s.variant = "red, \"\xc3\xa9\"";
     s.skinning = Skinning::vertex;
     s.skin_normals = SkinNormals::blended;
     s.env = "sky \\ \xc3\xa9.exr";
@@ -261,6 +262,7 @@ TEST(Settings, SurfacesAreCapturedWithNothingPacked) {
     expected.camera = asked.camera;
     expected.time = asked.time;
     expected.animation = asked.animation;
+    expected.variant = asked.variant;
     expected.skin_normals = asked.skin_normals;
     expected.scene_lights = asked.scene_lights;
     expected.lights = asked.lights;
@@ -390,6 +392,8 @@ TEST(Settings, WhatIsBuiltHasNoProblem) {
         {"time", "2"},
         {"animation", "walk"},
         {"animation", ""},
+        {"variant", "red"},
+        {"variant", "1"},
         {"scene-lights", "off"},
         {"lights", "point:3"},
         {"lights", "none"},
@@ -690,6 +694,7 @@ TEST(Settings, AnEnvironmentGivesItsIntensityAMeaning) {
 TEST(Settings, JsonTakesACamerasNumberAndTheWholeSettingsMember) {
     EXPECT_EQ(settingsFromJson(R"({"camera": 2})").camera, "2");
     EXPECT_EQ(settingsFromJson(R"({"animation": 2})").animation, "2");
+    EXPECT_EQ(settingsFromJson(R"({"variant": 2})").variant, "2");
     EXPECT_EQ(settingsFromJson(R"({"settings": {"seed": 7}})").seed, 7u);
 }
 

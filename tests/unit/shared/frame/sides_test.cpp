@@ -55,6 +55,9 @@ TEST(Sides, AreRefusedInOneLineThatHelps) {
     EXPECT_EQ(sidesRefused("", "size=8x8"),
               "--forward-plus size=8x8: both paths show one view of one scene; use --size, which sets both");
     EXPECT_EQ(
+        sidesRefused("variant=red", ""),
+        "--deferred variant=red: both paths show one view of one scene; use --variant, which sets both");
+    EXPECT_EQ(
         sidesRefused("", "gbuffer=compact"),
         "--forward-plus gbuffer=compact: forward_plus has no G-buffer; --deferred gbuffer=compact sets it");
     EXPECT_EQ(sidesRefused("spp=4", ""),

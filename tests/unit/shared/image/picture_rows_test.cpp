@@ -97,7 +97,8 @@ TEST(PictureRows, EightBitsAndFloatsHaveTheSameFigures) {
 
 // Compared with sorting all errors at once.
 TEST(PictureRows, RanksAreThoseOfTheSortedErrors) {
-    for (const Metric metric : {Metric::absolute, Metric::relative, Metric::angular, Metric::exact})
+    for (const Metric metric :
+         {Metric::absolute, Metric::relative, Metric::angular, Metric::axial, Metric::exact})
         for (const Wide size : sizes) {
             SCOPED_TRACE(name(size) + " " + std::to_string(static_cast<int>(metric)));
             const Image a = noise(size.width, size.height, 1);

@@ -51,9 +51,12 @@ gpu::uint plannedTexel(gpu::uint slot, const Material& material, const Scene& sc
 
 TEST(TexelPlan, AnImageHasOneColorWhereASlotReadsIt) {
     const std::vector<std::pair<gpu::uint, std::string>> reads = {
-        {gpu::SLOT_base_color, "rgba"},    {gpu::SLOT_metallic_roughness, "gb"}, {gpu::SLOT_normal, "rgb"},
-        {gpu::SLOT_occlusion, "r"},        {gpu::SLOT_emissive, "rgb"},          {gpu::SLOT_specular, "a"},
-        {gpu::SLOT_specular_color, "rgb"}, {gpu::SLOT_lightmap, "rgb"}};
+        {gpu::SLOT_base_color, "rgba"},      {gpu::SLOT_metallic_roughness, "gb"},
+        {gpu::SLOT_normal, "rgb"},           {gpu::SLOT_occlusion, "r"},
+        {gpu::SLOT_emissive, "rgb"},         {gpu::SLOT_specular, "a"},
+        {gpu::SLOT_specular_color, "rgb"},   {gpu::SLOT_lightmap, "rgb"},
+        {gpu::SLOT_clearcoat, "r"},          {gpu::SLOT_clearcoat_roughness, "g"},
+        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"}};
     ASSERT_EQ(reads.size(), gpu::SLOT_COUNT);
     for (const auto& [slot, components] : reads)
         for (std::size_t c = 0; c < 4; ++c) {

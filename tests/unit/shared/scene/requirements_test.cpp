@@ -2,6 +2,7 @@
 #include "shared/scene/requirements.h"
 
 #include "compare/render/left_out.h"
+#include "shared/contract/material.h"
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -116,6 +117,24 @@ TEST(Requirements, EachFeatureAsksForItself) {
                 EXPECT_FALSE(of(scene).*other.needed) << c.name << " asks for " << other.name;
             }
     }
+}
+
+// Each layer alone, and only of a lit material that is drawn.
+TEST(Requirements, LayersOfDrawnLitMaterialsAreSummed) {
+    Scene scene = plainScene();
+    EXPECT_EQ(of(scene).layers, 0u);
+    EXPECT_FALSE(line(of(scene).lines(), "clear coats").modelled);
+    EXPECT_FALSE(line(of(scene).lines(), "anisotropy").modelled);
+    scene.materials[1].clearcoat = scene.materials[1].anisotropy = 1;
+    EXPECT_EQ(of(scene).layers, 0u) << "of an unused material";
+    scene.materials[0].clearcoat = 0.5f;
+    EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT);
+    EXPECT_TRUE(line(of(scene).lines(), "clear coats").modelled);
+    scene.materials[0].anisotropy = 0.5f;
+    EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY);
+    EXPECT_TRUE(line(of(scene).lines(), "anisotropy").modelled);
+    scene.materials[0].unlit = true;
+    EXPECT_EQ(of(scene).layers, 0u);
 }
 
 TEST(Requirements, OcclusionOfStrengthZeroIsNone) {

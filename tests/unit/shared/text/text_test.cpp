@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Untrusted strings: their form in messages, and the limits on JSON before parsing.
+#include "shared/text/indexed_names.h"
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
 
@@ -31,6 +32,14 @@ TEST(OneLine, LongTextIsCutBetweenCharacters) {
     EXPECT_EQ(oneLine("abcdefg", 6), "abcdef...");
     EXPECT_EQ(oneLine("aö", 2), "a...") << "ö takes the bytes 1 and 2";
     EXPECT_EQ(oneLine("\x80\x80\x80", 2), "...") << "no character begins here";
+}
+
+TEST(IndexedNames, AreQuotedAndTheFirstTwentyShown) {
+    const auto listed = [](const std::vector<std::string>& names) { return indexedNames(names); };
+    EXPECT_EQ(listed({}), "");
+    EXPECT_EQ(listed({"walk", "", "a\nb"}), "0 \"walk\", 1, 2 \"a?b\"");
+    EXPECT_TRUE(listed(std::vector<std::string>(20, "x")).ends_with("19 \"x\""));
+    EXPECT_TRUE(listed(std::vector<std::string>(23, "x")).ends_with("19 \"x\" and 3 more"));
 }
 
 // Characters that terminals obey or that reorder text, in UTF-8.

@@ -3,6 +3,7 @@
 
 #include "shared/scene/builtin/shapes.h"
 #include "shared/scene/builtin/textures.h"
+#include "shared/scene/model/material_slots.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,7 @@ TEST(Builtin, EveryPartOfEverySceneIsWhole) {
                 ASSERT_GE(primitive.material, 0) << what;
                 ASSERT_LT(primitive.material, static_cast<int>(scene.materials.size())) << what;
                 const Material& m = scene.materials[static_cast<std::size_t>(primitive.material)];
-                expectWhole(primitive, m.normal_texture, what + ": " + mesh.name);
+                expectWhole(primitive, tangentMap(m), what + ": " + mesh.name);
             }
         for (const Node& node : scene.nodes) {
             ASSERT_LT(node.mesh, static_cast<int>(scene.meshes.size())) << what;
@@ -100,9 +101,8 @@ TEST(Builtin, EveryPartOfEverySceneIsWhole) {
             ASSERT_NE(glm::determinant(glm::dmat3(node.parent_from_node)), 0) << what << ": " << node.name;
         }
         for (const Material& m : scene.materials)
-            for (const TextureSlot* slot : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                            &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
-                expectSlot(scene, *slot, what + ": " + m.name);
+            for (const MaterialSlot& slot : materialSlots)
+                expectSlot(scene, m.*slot.texture, what + ": " + m.name);
         for (const TextureImage& image : scene.images)
             ASSERT_EQ(image.components(), static_cast<std::size_t>(image.width * image.height * 4))
                 << what << ": " << image.name;
@@ -242,6 +242,24 @@ TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
         if (light.kind != LightKind::directional) {
             EXPECT_TRUE(std::isfinite(light.range)) << light.name;
         }
+}
+
+// Coats beside none, both layers at once, and every one of their textures.
+TEST(Builtin, LayersHoldEveryLayerAndTexture) {
+    const Scene scene = makeBuiltin("layers");
+    EXPECT_LT(triangles(scene), 60000u);
+    bool plain = false, both = false;
+    std::set<std::size_t> slots;
+    for (const Material& m : scene.materials) {
+        plain |= m.clearcoat == 0 && m.anisotropy == 0;
+        both |= m.clearcoat > 0 && m.anisotropy > 0;
+        for (std::size_t s = 0; s < materialSlots.size(); ++s)
+            if (readsSlot(m, s)) slots.insert(s);
+    }
+    EXPECT_TRUE(plain && both);
+    for (const gpu::uint slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat, gpu::SLOT_clearcoat_roughness,
+                                 gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
+        EXPECT_TRUE(slots.contains(slot)) << slot;
 }
 
 // Under constant radiance 1, a white Lambertian plane has irradiance pi in any orientation. 64 suns sample

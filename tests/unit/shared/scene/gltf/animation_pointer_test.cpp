@@ -37,8 +37,12 @@ struct PointerFile : GltfFile {
              {"occlusionTexture", texture},
              {"emissiveTexture", texture},
              {"extensions",
-              {{"KHR_materials_specular",
-                {{"specularTexture", texture}, {"specularColorTexture", texture}}}}}}};
+              {{"KHR_materials_specular", {{"specularTexture", texture}, {"specularColorTexture", texture}}},
+               {"KHR_materials_clearcoat",
+                {{"clearcoatTexture", texture},
+                 {"clearcoatRoughnessTexture", texture},
+                 {"clearcoatNormalTexture", texture}}},
+               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}}}}}};
         json["images"] = {{{"uri", onePixel}}};
         json["textures"] = {{{"source", 0}}};
         json["cameras"] = {{{"type", "perspective"},
@@ -142,6 +146,14 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
          [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).specular_color); }},
         {m + "extensions/KHR_materials_transmission/transmissionFactor", 1,
          material(&Material::transmission)},
+        {m + "extensions/KHR_materials_clearcoat/clearcoatFactor", 1, material(&Material::clearcoat)},
+        {m + "extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 1,
+         material(&Material::clearcoat_roughness)},
+        {m + "extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", 1,
+         material(&Material::clearcoat_normal_scale)},
+        {m + "extensions/KHR_materials_anisotropy/anisotropyStrength", 1, material(&Material::anisotropy)},
+        {m + "extensions/KHR_materials_anisotropy/anisotropyRotation", 1,
+         material(&Material::anisotropy_rotation)},
     };
     for (const auto& [pointer, width, read] : cases) {
         PointerFile f;
@@ -214,7 +226,12 @@ TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
         {"occlusionTexture", &Material::occlusion_texture},
         {"emissiveTexture", &Material::emissive_texture},
         {"extensions/KHR_materials_specular/specularTexture", &Material::specular_texture},
-        {"extensions/KHR_materials_specular/specularColorTexture", &Material::specular_color_texture}};
+        {"extensions/KHR_materials_specular/specularColorTexture", &Material::specular_color_texture},
+        {"extensions/KHR_materials_clearcoat/clearcoatTexture", &Material::clearcoat_texture},
+        {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
+         &Material::clearcoat_roughness_texture},
+        {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", &Material::clearcoat_normal_texture},
+        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture}};
     for (const auto& [slot, member] : slots) {
         const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
         PointerFile f;
@@ -373,7 +390,7 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/nodes//scale", nothing},
         {"/nodes/99999999999999999999/scale", nothing},
         {"/nodes/0/matrix", nothing},
-        {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", nothing},
+        {"/materials/0/extensions/KHR_materials_iridescence/iridescenceFactor", nothing},
         {"/materials/0/doubleSided", nothing},
         {"/materials/0/extras/a", nothing},
         {"/nodes/3/scale", "the file has 3"},

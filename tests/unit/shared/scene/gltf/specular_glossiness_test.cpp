@@ -112,6 +112,8 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
         {"specularFactor", 0.5}, {"specularColorFactor", {0, 0, 0}}, {"specularTexture", {{"index", 0}}}};
     more["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
     more["KHR_materials_volume"] = Json::object();
+    more["KHR_materials_clearcoat"] = {{"clearcoatFactor", 0.5}, {"clearcoatTexture", {{"index", 0}}}};
+    more["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}, {"anisotropyTexture", {{"index", 0}}}};
     const Scene scene = withMaterial(material).load();
     const Material& m = scene.materials.at(0);
     EXPECT_EQ(m.ior, 0);
@@ -119,10 +121,13 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
     EXPECT_EQ(m.specular_color, glm::vec3(0.5f));
     EXPECT_EQ(m.specular_texture.texture, -1);
     EXPECT_EQ(m.transmission, 0);
-    for (const char* name : {"ior", "specular", "transmission", "volume"})
+    EXPECT_EQ(layersOf(m), 0u);
+    EXPECT_EQ(m.clearcoat_texture.texture, -1);
+    EXPECT_EQ(m.anisotropy_texture.texture, -1);
+    for (const char* name : {"ior", "specular", "transmission", "volume", "clearcoat", "anisotropy"})
         EXPECT_TRUE(mentions(scene.notes, std::string("material 0: KHR_materials_") + name +
                                               " beside KHR_materials_pbrSpecularGlossiness: ignored"));
-    EXPECT_EQ(scene.notes.size(), 4u);
+    EXPECT_EQ(scene.notes.size(), 6u);
 }
 
 // KHR_materials_unlit shows the base colour of pbrMetallicRoughness.
@@ -190,7 +195,9 @@ TEST(GltfSpecularGlossiness, WhatIsReplacedDoesNotMove) {
                                           {"extensions/KHR_materials_ior/ior", 1u},
                                           {"extensions/KHR_materials_specular/specularFactor", 1u},
                                           {"extensions/KHR_materials_specular/specularColorFactor", 3u},
-                                          {"extensions/KHR_materials_transmission/transmissionFactor", 1u}})
+                                          {"extensions/KHR_materials_transmission/transmissionFactor", 1u},
+                                          {"extensions/KHR_materials_clearcoat/clearcoatFactor", 1u},
+                                          {"extensions/KHR_materials_anisotropy/anisotropyStrength", 1u}})
         animate(f, property, std::vector<float>(2 * width, 0.125f));
     for (const char* of :
          {"pbrMetallicRoughness/baseColor", "extensions/KHR_materials_specular/specularColor"})

@@ -69,6 +69,26 @@ const SlotCase slotCases[] = {
                       {{"KHR_materials_pbrSpecularGlossiness", {{"specularGlossinessTexture", info}}}}}};
      },
      &Material::specular_color_texture},
+    {"clearcoatTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", info}}}}}};
+     },
+     &Material::clearcoat_texture},
+    {"clearcoatRoughnessTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessTexture", info}}}}}};
+     },
+     &Material::clearcoat_roughness_texture},
+    {"clearcoatNormalTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", info}}}}}};
+     },
+     &Material::clearcoat_normal_texture},
+    {"anisotropyTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_anisotropy", {{"anisotropyTexture", info}}}}}};
+     },
+     &Material::anisotropy_texture},
 };
 
 Json transformed(Json transform, int texcoord = 0) {

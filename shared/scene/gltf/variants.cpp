@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "shared/scene/gltf/variants.h"
+
+#include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/unchecked.h"
+#include "shared/text/fail.h"
+#include "shared/text/indexed_names.h"
+#include "shared/text/one_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace diptych::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* variantsExtension = "KHR_materials_variants";
+
+// Calls `read`. If it throws, the rest of what it reads is omitted with a note.
+template <class Read>
+void readOrNote(NoteList& notes, const Read& read) {
+    try {
+        read();
+    } catch (const std::runtime_error& e) {
+        notes.add(std::string(e.what()) + ": left out");
+    }
+}
+
+const Json& arrayIn(const Json& object, const char* key, const std::string& who) {
+    const Json* found = memberOf(object, key);
+    if (!found || !found->is_array()) fail(who, fmt::format("has no array {}", key));
+    return *found;
+}
+
+// `root`: the document's extension; null if absent.
+std::vector<std::string> variantNames(const Json& root, NoteList& notes) {
+    std::vector<std::string> names;
+    if (root.is_null()) return names;
+    readOrNote(notes, [&] {
+        for (const Json& variant : arrayIn(root, "variants", variantsExtension)) {
+            const Json* name = memberOf(variant, "name");
+            const bool named = name && name->is_string();
+            if (!named)
+                notes.add(fmt::format("{}: variant {}: has no name; only its index selects it",
+                                      variantsExtension, names.size()));
+            names.push_back(named ? oneLine(name->get_ref<const std::string&>()) : std::string());
+        }
+    });
+    return names;
+}
+
+int chosenVariant(const std::vector<std::string>& names, const std::string& choice) {
+    if (choice.empty()) return -1;
+    const std::string name = oneLine(choice), who = fmt::format("--variant \"{}\"", name);
+    if (names.empty()) fail(who, "the file has no material variants");
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (choice == std::to_string(i)) return static_cast<int>(i);
+    const auto first = std::ranges::find(names, name);
+    if (first == names.end()) fail(who, "the file's variants are " + indexedNames(names));
+    const auto second = std::find(first + 1, names.end(), name);
+    if (second != names.end())
+        fail(who, fmt::format("names variants {} and {}; give an index", first - names.begin(),
+                              second - names.begin()));
+    return static_cast<int>(first - names.begin());
+}
+
+// Reads what primitives map to variants.
+class MappingReader {
+public:
+    // The file's counts of variants and materials.
+    MappingReader(std::size_t variants, std::size_t materials, NoteList& notes)
+        : variants_(variants), materials_(materials), notes_(notes) {}
+
+    // Materials by variant, from a primitive's extension. Each variant may occur once; the first counts.
+    std::map<int, int> read(const Json& use, const std::string& who) const {
+        std::map<int, int> mapped;
+        readOrNote(notes_, [&] {
+            const Json& mappings = arrayIn(use, "mappings", who);
+            for (std::size_t i = 0; i < mappings.size(); ++i)
+                readOrNote(notes_, [&] { add(mappings[i], fmt::format("{}: mapping {}", who, i), mapped); });
+        });
+        return mapped;
+    }
+
+private:
+    std::size_t variants_, materials_;
+    NoteList& notes_;
+
+    void add(const Json& mapping, const std::string& who, std::map<int, int>& mapped) const {
+        const Json* index = memberOf(mapping, "material");
+        if (!index) fail(who, "has no material");
+        const int material = indexBelow(*index, materials_, who + ": material");
+        const Json& list = arrayIn(mapping, "variants", who);
+        for (std::size_t i = 0; i < list.size(); ++i)
+            readOrNote(notes_, [&] {
+                const std::string entry = fmt::format("{}: variants[{}]", who, i);
+                const int variant = indexBelow(list[i], variants_, entry);
+                if (!mapped.emplace(variant, material).second)
+                    fail(entry, fmt::format("variant {} already has a material", variant));
+            });
+    }
+};
+
+}  // namespace
+
+Variants takeVariants(Json& document, const std::string& choice) {
+    NoteList notes("material variants");
+    Variants result;
+    result.names = variantNames(takeExtension(document, variantsExtension), notes);
+    result.chosen = chosenVariant(result.names, choice);
+    const MappingReader mappings(result.names.size(), arrayAt(document, "/materials").size(), notes);
+    const std::size_t meshes = arrayAt(document, "/meshes").size();
+    for (std::size_t m = 0; m < meshes; ++m) {
+        Json& mesh = document["meshes"][m];
+        if (!memberOf(mesh, "primitives") || !mesh["primitives"].is_array()) continue;
+        for (std::size_t p = 0; Json & primitive : mesh["primitives"]) {
+            const std::string who = fmt::format("mesh {}, primitive {}: {}", m, p++, variantsExtension);
+            const Json use = takeExtension(primitive, variantsExtension);
+            if (use.is_null()) continue;
+            const std::map<int, int> mapped = mappings.read(use, who);
+            if (const auto found = mapped.find(result.chosen); found != mapped.end())
+                primitive["material"] = found->second;
+        }
+    }
+    notes.moveTo(result.notes);
+    return result;
+}
+
+}  // namespace diptych::gltf

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Clear coats and anisotropy (builtin:layers) in both paths: bit for bit with a float32 G-buffer under every
+// kind of light, within their bits when packed, and as the reference integrates them. A material whose
+// factors are 0 is the base to the bit.
+#include "compare/verdict/pair_reports.h"
+#include "tests/bench/environment_errors.h"
+#include "tests/image/scenes.h"
+
+#include <fmt/format.h>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int CLEARCOAT = static_cast<int>(gpu::DEBUG_lit_clearcoat),
+              SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
+              AMBIENT = static_cast<int>(gpu::DEBUG_lit_ambient);
+
+// Every kind of light at once.
+Scene litByAll() {
+    Scene scene = loadScene("builtin:layers");
+    scene.environment = environment_errors::lampSky(32);
+    return scene;
+}
+Settings inAllLight(GBufferEncoding gbuffer) {
+    Settings settings = smallPicture(gbuffer);
+    settings.ambient = {0.1f, 0.2f, 0.3f};
+    settings.lights = "point:3,spot:2,rect:1,disc:1,tube:1";
+    settings.shadows = Shadows::pcf;
+    settings.shadow_lights = 1;
+    settings.haze = true;
+    return settings;
+}
+
+std::vector<Settings> settingsOfLayers() {
+    std::vector<Settings> all(6, inAllLight(GBufferEncoding::full));
+    all[1].msaa = 4;
+    all[2].multiscatter = Multiscatter::fdez;
+    all[2].area_lights = AreaLights::representative;
+    all[3].ibl = Ibl::sampled;
+    all[3].multiscatter = Multiscatter::energy;
+    all[4].spec_aa = true;
+    all[4].spec_aa_normals = SpecularNormals::mapped;
+    all[5].assign = Assignment::tiled;
+    all[5].lighting = Lighting::compute;
+    return all;
+}
+
+TEST(Layers, BothPathsAreBitEqualInAllLight) {
+    const Scene scene = litByAll();
+    Renderer renderer(device(), scene, pipelines());
+    for (const Settings& settings : settingsOfLayers()) {
+        const std::vector<Frame> frames = bothPaths(renderer, settings);
+        for (const DebugMode& mode : debugModes()) {
+            if (layerOf(mode.number) == 0) continue;
+            ASSERT_TRUE(frames[0].channels.contains(mode.number)) << mode.name;
+        }
+        expectSameChannels(frames[0], frames[1], 30);
+        EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u) << settings.msaa;
+        EXPECT_EQ(frames[1].counters.nonfinite_pixels, 0u) << settings.msaa;
+    }
+}
+
+TEST(Layers, PackedPassesByItsBits) {
+    const Scene scene = litByAll();
+    const Requirements needs = requirements(scene, poseAt(scene, 0));
+    Renderer renderer(device(), scene, pipelines());
+    for (const GBufferEncoding gbuffer : {GBufferEncoding::standard, GBufferEncoding::compact}) {
+        const Report report =
+            makeReport(bothPaths(renderer, inAllLight(gbuffer)), {needs, needs},
+                       {device().info().name, device().info().driver, device().info().type}, {});
+        for (const ChannelDiff& channel : report.comparisons[0].channels)
+            EXPECT_NE(channel.verdict, Verdict::fail) << channel.mode->name << ": " << channel.reason;
+    }
+}
+
+// The same balls in the same scene, which has layers elsewhere.
+TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
+    Scene plain = litByAll(), zero = plain;
+    for (std::size_t i = 1; i < plain.materials.size(); ++i) {
+        Material &m = plain.materials[i], &z = zero.materials[i];
+        m.clearcoat = z.clearcoat = m.anisotropy = z.anisotropy = 0;
+        m.clearcoat_roughness = 0;
+        m.clearcoat_texture = m.clearcoat_roughness_texture = m.clearcoat_normal_texture = {};
+        m.anisotropy_texture = {};
+    }
+    // One coat and one stretched ball keep the layers in the scene; in `none` there are none.
+    plain.materials[0].clearcoat = zero.materials[0].clearcoat = 1;
+    plain.materials[0].anisotropy = zero.materials[0].anisotropy = 1;
+    Scene none = plain;
+    none.materials[0].clearcoat = none.materials[0].anisotropy = 0;
+    const Settings settings = inAllLight(GBufferEncoding::standard);
+    const std::vector<Frame> with = bothPaths(zero, settings), without = bothPaths(plain, settings),
+                             base = bothPaths(none, settings);
+    for (std::size_t path = 0; path < 2; ++path) {
+        expectSameChannels(with[path], without[path], 30);
+        const Image &ids = base[path].channels.at(8), &there = base[path].channels.at(lit),
+                    &here = with[path].channels.at(lit);
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < ids.pixels(); ++i)
+            if (ids.data[i] != 0) differing += !std::equal(there.pixel(i), there.pixel(i) + 3, here.pixel(i));
+        EXPECT_EQ(differing, 0u) << "layers elsewhere in the scene change a surface without them";
+        EXPECT_EQ(base[path].channels.count(CLEARCOAT), 0u);
+    }
+}
+
+// The coat is visible, adds what it takes, and reflects at most what the furnace holds.
+TEST(Layers, AWhiteFurnaceHolds) {
+    Scene scene = loadScene("builtin:layers");
+    for (Material& m : scene.materials) {
+        m.base_color = {1, 1, 1, 1};
+        m.metallic = 1;  // appendix B's base under a layer does not conserve energy
+    }
+    scene.lights.clear();
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.ambient = {1, 1, 1};
+    for (const Frame& frame : bothPaths(scene, settings, {lit, AMBIENT, CLEARCOAT, 8})) {
+        const Image &all = frame.channels.at(AMBIENT), &coat = frame.channels.at(CLEARCOAT);
+        std::size_t coated = 0;
+        for (std::size_t i = 0; i < all.pixels(); ++i) {
+            if (frame.channels.at(8).data[i] < 0) continue;
+            EXPECT_LE(all.pixel(i)[0], 1 + 1e-4f);
+            EXPECT_LE(coat.pixel(i)[0], all.pixel(i)[0]);
+            coated += coat.pixel(i)[0] > 0.03f;
+        }
+        EXPECT_GT(coated, 500u) << frame.name;
+    }
+}
+
+// Punctual lights and an environment, against the reference's integrals of captured surfaces.
+TEST(Layers, TheReferenceAgrees) {
+    Scene scene = loadScene("builtin:layers");
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.assign = Assignment::every;
+    Renderer renderer(device(), scene, pipelines());
+    RenderOptions options;
+    options.channels = allChannels();
+    options.runs = 0;
+    Settings truth = settings;
+    truth.path = Path::reference;
+    const Frame reference = renderer.draw(truth, options);
+    for (const Frame& path : bothPaths(renderer, settings)) {
+        const Coverage covered = coverage(reference, path);
+        ASSERT_GT(covered.count, 3000u);
+        for (const int mode : {lit, SPECULAR, CLEARCOAT, 60, 61, 62, 63, 64}) {
+            const DebugMode& m = debugMode(mode);
+            const ChannelStats stats =
+                channelStats(m.metric, m.kind, reference.channels.at(mode), path.channels.at(mode), covered);
+            EXPECT_LE(stats.p999, 1e-4) << path.name << " " << m.name << ", max " << stats.max;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych::tests
