@@ -103,6 +103,9 @@ public:
         for (const Material& material : materials) addMaterial(scene, material);
         if (!materials.empty())
             for (const std::string& extension : gltfMaterialExtensions()) extensions_.insert(extension);
+        // Without the extension, such a material would be drawn as if the file had none.
+        if (std::ranges::any_of(materials, &Material::specular_glossiness))
+            file_.json["extensionsRequired"] = Json::array({specularGlossiness});
         for (const Instance& instance : pose.instances) addInstance(scene, pose, instance, normals);
     }
 
@@ -179,17 +182,23 @@ private:
             if (std::optional<Json> reference = textureOf(scene, material.*materialSlots[slot].texture))
                 where[key] = std::move(*reference);
         };
-        put(written["pbrMetallicRoughness"], "baseColorTexture", gpu::SLOT_base_color);
-        put(written["pbrMetallicRoughness"], "metallicRoughnessTexture", gpu::SLOT_metallic_roughness);
         put(written, "normalTexture", gpu::SLOT_normal);
         if (written.contains("normalTexture")) written["normalTexture"]["scale"] = material.normal_scale;
         put(written, "occlusionTexture", gpu::SLOT_occlusion);
         if (written.contains("occlusionTexture"))
             written["occlusionTexture"]["strength"] = material.occlusion_strength;
         put(written, "emissiveTexture", gpu::SLOT_emissive);
-        put(written["extensions"]["KHR_materials_specular"], "specularTexture", gpu::SLOT_specular);
-        put(written["extensions"]["KHR_materials_specular"], "specularColorTexture",
-            gpu::SLOT_specular_color);
+        if (material.specular_glossiness) {
+            Json& model = written["extensions"][specularGlossiness];
+            put(model, "diffuseTexture", gpu::SLOT_base_color);
+            put(model, "specularGlossinessTexture", gpu::SLOT_specular_color);
+        } else {
+            put(written["pbrMetallicRoughness"], "baseColorTexture", gpu::SLOT_base_color);
+            put(written["pbrMetallicRoughness"], "metallicRoughnessTexture", gpu::SLOT_metallic_roughness);
+            put(written["extensions"]["KHR_materials_specular"], "specularTexture", gpu::SLOT_specular);
+            put(written["extensions"]["KHR_materials_specular"], "specularColorTexture",
+                gpu::SLOT_specular_color);
+        }
         putLayers(written["extensions"], material, put);
         if (readsSlot(material, gpu::SLOT_lightmap)) left_out_.add("lightmap", ": glTF has no lightmaps");
         file_.json["materials"].push_back(std::move(written));

@@ -95,44 +95,60 @@ std::string GltfFile::binary() const {
     return file + chunks;
 }
 
+namespace {
+
+// Base colour, metal or F0, and roughness, in the core model or in the extension that replaces it.
+void addReflection(const Material& material, Json& written, Json& extensions) {
+    const glm::vec4& color = material.base_color;
+    const Json base{color.r, color.g, color.b, color.a},
+        specular = listOf(glm::dvec3(material.specular_color));
+    if (material.specular_glossiness) {
+        extensions[specularGlossiness] = {{"diffuseFactor", base},
+                                          {"specularFactor", specular},
+                                          {"glossinessFactor", 1 - double{material.roughness}}};
+        return;
+    }
+    written["pbrMetallicRoughness"] = {{"baseColorFactor", base},
+                                       {"metallicFactor", material.metallic},
+                                       {"roughnessFactor", material.roughness}};
+    extensions["KHR_materials_ior"] = {{"ior", material.ior}};
+    extensions["KHR_materials_specular"] = {{"specularFactor", material.specular},
+                                            {"specularColorFactor", specular}};
+}
+
+}  // namespace
+
 Json gltfMaterial(const Material& material) {
-    Json written{
-        {"name", material.name},
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor",
-           {material.base_color.r, material.base_color.g, material.base_color.b, material.base_color.a}},
-          {"metallicFactor", material.metallic},
-          {"roughnessFactor", material.roughness}}},
-        {"doubleSided", material.double_sided}};
+    Json written{{"name", material.name}}, extensions = Json::object();
+    addReflection(material, written, extensions);
+    written["doubleSided"] = material.double_sided;
     written["alphaMode"] = material.alpha_mode == AlphaMode::opaque ? "OPAQUE"
                            : material.alpha_mode == AlphaMode::mask ? "MASK"
                                                                     : "BLEND";
     if (material.alpha_mode == AlphaMode::mask) written["alphaCutoff"] = material.alpha_cutoff;
-    Json& more = written["extensions"] = Json::object();
-    more["KHR_materials_ior"] = {{"ior", material.ior}};
-    more["KHR_materials_specular"] = {{"specularFactor", material.specular},
-                                      {"specularColorFactor", listOf(glm::dvec3(material.specular_color))}};
     const float brightest = std::max({material.emissive.r, material.emissive.g, material.emissive.b, 0.0f});
     if (brightest > 0) {
         written["emissiveFactor"] = listOf(glm::dvec3(material.emissive) / double{brightest});
-        more["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
+        extensions["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
     }
-    if (material.unlit) more["KHR_materials_unlit"] = Json::object();
+    if (material.unlit) extensions["KHR_materials_unlit"] = Json::object();
     if (material.transmission > 0)
-        more["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
+        extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
     if (material.clearcoat > 0)
-        more["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clearcoat},
-                                           {"clearcoatRoughnessFactor", material.clearcoat_roughness}};
+        extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clearcoat},
+                                                 {"clearcoatRoughnessFactor", material.clearcoat_roughness}};
     if (material.anisotropy > 0)
-        more["KHR_materials_anisotropy"] = {{"anisotropyStrength", material.anisotropy},
-                                            {"anisotropyRotation", material.anisotropy_rotation}};
+        extensions["KHR_materials_anisotropy"] = {{"anisotropyStrength", material.anisotropy},
+                                                  {"anisotropyRotation", material.anisotropy_rotation}};
+    written["extensions"] = std::move(extensions);
     return written;
 }
 
 std::vector<std::string> gltfMaterialExtensions() {
-    return {"KHR_materials_ior",       "KHR_materials_specular",     "KHR_materials_emissive_strength",
-            "KHR_materials_unlit",     "KHR_materials_transmission", "KHR_materials_clearcoat",
-            "KHR_materials_anisotropy"};
+    return {"KHR_materials_ior",       "KHR_materials_specular",
+            specularGlossiness,        "KHR_materials_emissive_strength",
+            "KHR_materials_unlit",     "KHR_materials_transmission",
+            "KHR_materials_clearcoat", "KHR_materials_anisotropy"};
 }
 
 Json gltfCamera(const Camera& camera, double aspect) {

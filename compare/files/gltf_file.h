@@ -43,6 +43,8 @@ private:
     std::vector<std::byte> bytes_;
 };
 
+inline constexpr const char* specularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
 // A material's factors in glTF terms, without textures.
 nlohmann::ordered_json gltfMaterial(const Material& material);
 // Extensions that gltfMaterial() may use.

@@ -205,17 +205,26 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.lightmapped = hasLightmap(m);
     if (s.lightmapped)
         s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
-    // KHR_materials_ior: 0 means an infinite index. KHR_materials_specular: colour from RGB, strength from
-    // alpha.
-    const double ior = m.ior, r = (1 - ior) / (1 + ior);
-    const glm::dvec3 tint =
-        glm::dvec3(m.specular_color) * glm::dvec3(lookUp(hit, m.specular_color_texture, true, &ray));
-    s.dielectric_f90 = double{m.specular} * lookUp(hit, m.specular_texture, false, &ray).a;
-    s.dielectric_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.dielectric_f90;
+    reflect(hit, ray, s);
     s.transmission = double{m.transmission};
     if (m.clearcoat > 0) coat(hit, ray, frame, s);
     if (m.anisotropy > 0) stretch(hit, ray, frame, s);
     return s;
+}
+
+// KHR_materials_ior: 0 means an infinite index. KHR_materials_specular: colour from RGB, strength from
+// alpha. KHR_materials_pbrSpecularGlossiness: F0 from RGB, glossiness from alpha; the diffuse colour is
+// scaled by what the largest component of F0 leaves.
+void Materials::reflect(const Hit& hit, const PixelRay& ray, Surface& s) const {
+    const Material& m = material(hit);
+    const double ior = m.ior, r = (1 - ior) / (1 + ior);
+    const glm::dvec4 colored = lookUp(hit, m.specular_color_texture, true, &ray);
+    const glm::dvec3 tint = glm::dvec3(m.specular_color) * glm::dvec3(colored);
+    s.dielectric_f90 = double{m.specular} * lookUp(hit, m.specular_texture, false, &ray).a;
+    s.dielectric_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.dielectric_f90;
+    if (!m.specular_glossiness) return;
+    s.roughness = 1 - (1 - double{m.roughness}) * colored.a;
+    s.albedo *= 1 - std::max({s.dielectric_f0.r, s.dielectric_f0.g, s.dielectric_f0.b});
 }
 
 }  // namespace diptych::reference

@@ -66,6 +66,8 @@ private:
     glm::dvec3 mapped(const Hit& hit, const TextureSlot& slot, float scale, const PixelRay& ray) const;
     // Fills the normal, and the tangent frame and tangent-space normal of a normal map.
     void shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
+    // Fills the dielectric layer, and the base colour and roughness of specular-glossiness.
+    void reflect(const Hit& hit, const PixelRay& ray, Surface& s) const;
     void coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
     void stretch(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
 

@@ -53,7 +53,7 @@ void addScene(Key& key, const Request& request) {
         key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
         key.add(glm::vec4(m.emissive, m.ior));
         key.add(glm::vec4(m.specular_color, m.specular));
-        key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, 0));
+        key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, m.specular_glossiness));
         key.add(m.alpha_cutoff);
         key.add(m.transmission);
         key.add(m.lightmap_intensity);

@@ -181,6 +181,8 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
       texels_(imageOf(across_.texels, mode.number)),
       expected_(imageOf(across_.relit, mode.number)),
+      darkens_(mode.number == static_cast<int>(gpu::DEBUG_albedo) && pair.needs.specular_glossiness),
+      f0_(findChannel(pair.baseline, gpu::DEBUG_dielectric_f0)),
       shadowed_(pair) {
     // Diffuse and specular light round like lit, in integrals over the same lights.
     if (const Image* lit = findChannel(pair.baseline, gpu::DEBUG_lit);
@@ -315,18 +317,28 @@ bool DeviceBounds::isColor() const {
     }
 }
 
+double DeviceBounds::decoded(double value) const {
+    const bool radiance = mode_.metric == Metric::relative;
+    std::size_t code = radiance ? 1 : 0;  // a factor may have brightened it
+    while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
+    return value * shares_[code];
+}
+
+// Albedo is diffuse times 1 - F0. Without that channel, both may be 1.
+double DeviceBounds::darkened(std::size_t i) const {
+    if (!darkens_) return 0;
+    const double f0 = f0_ ? metrics::largestFinite(f0_->pixel(i), f0_->components) : 1;
+    const double diffuse = metrics::largestFinite(baseline_.pixel(i), mode_.width) / std::max(1 - f0, 0.0);
+    return (decoded(f0) + filterRounding(across_, true)) * (diffuse < 1 ? diffuse : 1);
+}
+
 double DeviceBounds::textures(std::size_t i) const {
     if (!texels_) return 0;
     double most = *texels_->pixel(i);
     if (isColor()) {
-        const bool radiance = mode_.metric == Metric::relative;
-        for (int c = 0; c < mode_.width; ++c) {
-            const double value = std::abs(double{baseline_.pixel(i)[c]});
-            std::size_t code = radiance ? 1 : 0;  // a factor may have brightened it
-            while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
-            most = std::max(most, *texels_->pixel(i) + value * shares_[code]);
-        }
-        most += filterRounding(across_, true);
+        for (int c = 0; c < mode_.width; ++c)
+            most = std::max(most, *texels_->pixel(i) + decoded(std::abs(double{baseline_.pixel(i)[c]})));
+        most += filterRounding(across_, true) + darkened(i);
     }
     // Linear texels; they mix F0.
     if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||

@@ -63,6 +63,10 @@ private:
     bool isBeside(std::size_t i) const;
     bool isColor() const;
     double textures(std::size_t i) const;
+    // Difference of a decoded colour of this value.
+    double decoded(double value) const;
+    // Difference of albedo by F0, which darkens the base of specular-glossiness.
+    double darkened(std::size_t i) const;
     std::string decoding() const;
 
     const DebugMode& mode_;
@@ -75,6 +79,8 @@ private:
     double rounded_as_;  // rounding of darker pixels equals that at this value, in the channel's unit
     double bits_;
     const Image *texels_, *expected_;
+    bool darkens_;     // albedo, of a scene with specular-glossiness
+    const Image* f0_;  // nullptr: not drawn
     Shadowed shadowed_;
     std::array<const Image*, 2> unblended_{};     // of lit, if anything may be blended
     std::array<double, 256> shares_{}, exact_{};  // decodeShares(), exactSrgb()

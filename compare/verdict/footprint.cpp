@@ -149,7 +149,8 @@ private:
             const double same = (isAngle(mode.metric) ? degreesPerRadian : size) * sameSurface +
                                 (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
-            const double decoded = mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) : 0;
+            const double decoded =
+                mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) + darkened(mode, *a, i) : 0;
             if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same + decoded)) return false;
         }
         return true;
@@ -191,6 +192,18 @@ private:
             default:
                 return 0;
         }
+    }
+
+    // Permitted effect on albedo of the texels of F0, which darkens the base of specular-glossiness: albedo
+    // is diffuse times 1 - F0. Without that channel, both may be 1.
+    double darkened(const DebugMode& mode, const Image& albedo, std::size_t i) const {
+        if (mode.number != static_cast<int>(gpu::DEBUG_albedo) || !pair_.texels ||
+            !pair_.needs.specular_glossiness)
+            return 0;
+        const Image* const image = findChannel(pair_.baseline, gpu::DEBUG_dielectric_f0);
+        const double f0 = image ? metrics::largestFinite(image->pixel(i), image->components) : 1;
+        const double diffuse = metrics::largestFinite(albedo.pixel(i), mode.width) / std::max(1 - f0, 0.0);
+        return srgbBound(f0) * (diffuse < 1 ? diffuse : 1);
     }
 
     // Permitted error of light of `size` by the device's colours: all of it is multiplied by one of them.
@@ -241,8 +254,9 @@ private:
         // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
         // of what is still smooth, because only an edge exceeds that.
         const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
-        return (filtered + rounding + texels(mode_, baseline_.pixel(i)) + colours(i, size)) / unit +
-               encoding(i, unit) + (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
+        const double texel = texels(mode_, baseline_.pixel(i)) + darkened(mode_, baseline_, i);
+        return (filtered + rounding + texel + colours(i, size)) / unit + encoding(i, unit) +
+               (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
     }
 
     // Uncertainty of a sampled reference at 99.9 % confidence.

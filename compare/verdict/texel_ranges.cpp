@@ -69,9 +69,15 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
         case gpu::SLOT_specular:
             return {one(gpu::DEBUG_dielectric_f90, 3, m.specular),
                     one(gpu::DEBUG_dielectric_f0, 3, m.specular), one(gpu::DEBUG_specular, 3, m.specular)};
-        case gpu::SLOT_specular_color:
-            return {color(gpu::DEBUG_dielectric_f0, most(m.specular_color)),
-                    color(gpu::DEBUG_specular, most(m.specular_color))};
+        case gpu::SLOT_specular_color: {
+            const double f0 = most(m.specular_color);
+            std::vector<Use> uses{color(gpu::DEBUG_dielectric_f0, f0), color(gpu::DEBUG_specular, f0)};
+            if (m.specular_glossiness) {  // F0 darkens the base, alpha is glossiness
+                uses.push_back(color(gpu::DEBUG_albedo, f0 * most(m.base_color)));
+                uses.push_back(one(gpu::DEBUG_roughness, 3, 1 - double{m.roughness}));
+            }
+            return uses;
+        }
         case gpu::SLOT_lightmap:
             return {color(gpu::DEBUG_lightmap, m.lightmap_intensity)};
         case gpu::SLOT_clearcoat:

@@ -29,7 +29,7 @@
     X(11, double_sided,               item,    PASSES_SURFACE)                                              \
     /* the scene emits light */                                                                             \
     X(12, emission,                   frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
-    /* KHR_materials_specular, _ior, _unlit in the scene */                                                 \
+    /* KHR_materials_specular, _ior, _pbrSpecularGlossiness, _unlit in the scene */                         \
     X(13, dielectric_specular,        frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     X(14, directional_lights,         frame,   PASSES_SHADE)    /* the scene has some */                    \
     X(15, point_lights,               frame,   PASSES_SHADE)                                                \
@@ -121,7 +121,9 @@
     /* a sum of LAYER_* of material.h: of the draw; in deferred lighting, of the scene */                   \
     X(66, layers,                     item,    PASSES_SURFACE | PASS_LIGHTING)                              \
     /* a sum of LAYER_*: those that the G-buffer stores */                                                  \
-    X(67, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)
+    X(67, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
+    /* KHR_materials_pbrSpecularGlossiness (material.h) */                                                  \
+    X(68, specular_glossiness,        item,    PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -26,7 +26,7 @@
 // lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
 // shaders/lib/surface/gbuffer.glsl distinguishes them from black.
 // layers exists if a material has a clear coat or anisotropy, with a word only for what there is.
-// specular exists if a material has KHR_materials_specular, _ior or _unlit.
+// specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
 // With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
 // pixel: the mean location of the samples that its triangle covers, and the depth there.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H

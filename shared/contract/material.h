@@ -76,12 +76,20 @@ struct TextureTransform {
 // colour. So an unlit surface has factor x texture x COLOR_0 in the channel `emission` and 0 in `albedo`
 // and `specular`, and lighting code has no case for it. Its normal, metallic (0), roughness (1) and
 // occlusion (1) ignore textures. Alpha mode, cutoff and double-sidedness apply as usual.
+//
+// KHR_materials_pbrSpecularGlossiness: base_color is the diffuse colour; dielectric_f0 and the slot
+// specular_color are F0, and that slot's alpha times 1 - roughness is glossiness. Metallic is 0, F90 1. As
+// the extension defines, albedo is diffuse x (1 - largest component of F0) and roughness 1 - glossiness.
+// The layer then takes light from the base by the Setting base_layer, as from every base, because the
+// G-buffer has no bit for a rule of one material. The extension's rule is `component`; `max` makes
+// component c of its diffuse light darker by the fraction (largest F0 - F0_c) / (1 - F0_c), the same for
+// all directions: by 0 for grey F0, and by at most a quarter of `diffuse`.
 struct Material {
     vec4 base_color;  // linear Rec.709, alpha
     vec3 emission;    // W/(sr m^2): emissiveFactor x emissiveStrength
     float metallic;
     vec3 dielectric_f0;  // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
-    float roughness;     // perceptual
+    float roughness;     // perceptual; with specular_glossiness, 1 - glossinessFactor
     float specular;      // KHR_materials_specular: specularFactor, the dielectric F90
     float normal_scale;
     float occlusion_strength;

@@ -41,6 +41,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
     }
     if (material.alpha_mode == AlphaMode::mask) variant.set(gpu::FEATURE_alpha_mask, gpu::MASK_CUTS);
     if (material.double_sided) variant.set(gpu::FEATURE_double_sided);
+    if (material.specular_glossiness) variant.set(gpu::FEATURE_specular_glossiness);
     if (material.unlit)
         variant.set(gpu::FEATURE_unlit);
     else if (material.transmission > 0)
@@ -183,13 +184,14 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         kinds.push_back(sampler);
         return kinds.size() - 1;
     };
-    std::map<std::pair<int, std::size_t>, bool> oneColor;  // by image and slot
+    std::map<std::pair<int, std::size_t>, bool> oneColor;  // by image and readLike()
     eachRead(scene, [&](const Material& material, std::size_t slot, bool) {
         const int texture = (material.*materialSlots[slot].texture).texture;
         const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
-        const auto [known, isNew] = oneColor.try_emplace({read.image, slot});
-        if (isNew) known->second = hasOneColor(scene.images[static_cast<std::size_t>(read.image)], slot);
-        textures->one_color[{texture, slot}] = known->second;
+        const std::size_t like = readLike(material, slot);
+        const auto [known, isNew] = oneColor.try_emplace({read.image, like});
+        if (isNew) known->second = hasOneColor(scene.images[static_cast<std::size_t>(read.image)], like);
+        textures->one_color[{texture, like}] = known->second;
         textures->image_number[texture] = read.image;
         textures->sampler_of[texture] = samplerOf(read.sampler);
     });
@@ -223,7 +225,7 @@ std::vector<Materials::Use> Materials::chooseImages(const Scene& scene, TextureP
     eachRead(scene, [&](const Material& material, std::size_t slot, bool moves) {
         const int texture = (material.*materialSlots[slot].texture).texture;
         SlotTexels texels{};
-        if (textures.one_color.at({texture, slot})) texels[slot] = gpu::TEXEL_CONSTANT;
+        if (textures.one_color.at({texture, readLike(material, slot)})) texels[slot] = gpu::TEXEL_CONSTANT;
         if (precision == TexturePrecision::packed && !moves) {
             const SlotTexels planned =
                 textures.texelsOf(material, [&](const Material& m) { return isPacked(m, scene); });

@@ -59,8 +59,9 @@ SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
     SlotTexels texels{};
     for (gpu::uint slot = 0; slot < gpu::SLOT_COUNT; ++slot)
         if (readsSlot(material, slot))
-            texels[slot] =
-                ask.one_color(textureOf(material, slot).texture, slot) ? gpu::TEXEL_CONSTANT : gpu::TEXEL_OWN;
+            texels[slot] = ask.one_color(textureOf(material, slot).texture, readLike(material, slot))
+                               ? gpu::TEXEL_CONSTANT
+                               : gpu::TEXEL_OWN;
     const auto share = [&](gpu::uint slot, gpu::uint sampled) {
         const TextureSlot &a = textureOf(material, slot), &b = textureOf(material, sampled);
         if (texels[slot] == gpu::TEXEL_OWN && texels[sampled] == gpu::TEXEL_OWN && sameCoordinates(a, b) &&

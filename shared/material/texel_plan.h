@@ -20,6 +20,12 @@ using SlotTexels = std::array<gpu::uint, gpu::SLOT_COUNT>;
 // bits.
 bool hasOneColor(const TextureImage& image, std::size_t slot);
 
+// The slot whose components a slot of a material reads: glossiness is the alpha of its specular colour, so
+// that is read like a base colour.
+constexpr std::size_t readLike(const Material& material, std::size_t slot) {
+    return material.specular_glossiness && slot == gpu::SLOT_specular_color ? gpu::SLOT_base_color : slot;
+}
+
 // Queries about the textures of a material, by index in Scene::textures.
 struct TextureQueries {
     std::function<bool(int texture, std::size_t slot)> one_color;

@@ -22,7 +22,8 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
     r.alpha_blend |= blends(m);
     r.double_sided |= m.double_sided;
     r.unlit |= m.unlit;
-    r.dielectric_specular |= m.unlit || m.ior != 1.5f || m.specular != 1.0f ||
+    r.specular_glossiness |= m.specular_glossiness;
+    r.dielectric_specular |= m.unlit || m.specular_glossiness || m.ior != 1.5f || m.specular != 1.0f ||
                              m.specular_color != glm::vec3(1) || m.specular_texture.texture >= 0 ||
                              m.specular_color_texture.texture >= 0;
     const glm::vec3 emitted = m.unlit ? glm::vec3(m.base_color) : m.emissive;
@@ -151,7 +152,11 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(unlit, "unlit materials",
         "a material has KHR_materials_unlit: it emits its base colour and reflects nothing",
         "no material has KHR_materials_unlit");
-    say(dielectric_specular, "dielectric specular", "a material has KHR_materials_specular, _ior or _unlit",
+    say(specular_glossiness, "specular-glossiness materials",
+        "a material has KHR_materials_pbrSpecularGlossiness: its F0 is stored, its albedo is what F0 leaves",
+        "no material has KHR_materials_pbrSpecularGlossiness");
+    say(dielectric_specular, "dielectric specular",
+        "a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
     say((layers & gpu::LAYER_CLEARCOAT) != 0, "clear coats",
         "a lit material has clearcoatFactor above 0: a second specular layer over its base",

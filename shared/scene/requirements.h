@@ -15,13 +15,15 @@ namespace diptych {
 struct Requirements {
     bool normal_maps = false, alpha_mask = false, alpha_blend = false, double_sided = false;
     bool vertex_colors = false, second_texcoord = false, texture_transform = false;
-    bool occlusion = false;            // an occlusion texture of non-zero strength
-    bool unlit = false;                // KHR_materials_unlit: the surface emits its base colour
-    bool emission = false;             // includes unlit materials
-    std::uint32_t layers = 0;          // a sum of LAYER_* of contract/material.h
-    bool lightmap = false;             // a lightmap of non-zero intensity
-    float max_lightmap = 0;            // the largest component of any lightmap, W/(sr m^2)
-    bool dielectric_specular = false;  // KHR_materials_specular or _ior differs from its default, or unlit
+    bool occlusion = false;    // an occlusion texture of non-zero strength
+    bool unlit = false;        // KHR_materials_unlit: the surface emits its base colour
+    bool emission = false;     // includes unlit materials
+    std::uint32_t layers = 0;  // a sum of LAYER_* of contract/material.h
+    bool lightmap = false;     // a lightmap of non-zero intensity
+    float max_lightmap = 0;    // the largest component of any lightmap, W/(sr m^2)
+    // KHR_materials_specular or _ior differs from its default, specular-glossiness, or unlit.
+    bool dielectric_specular = false;
+    bool specular_glossiness = false;  // KHR_materials_pbrSpecularGlossiness
     // Largest component of any emissive factor, W/(sr m^2); textures only darken it.
     float max_emission = 0;
     float min_emission = 0;       // smallest of the non-zero factors' largest components, W/(sr m^2)

@@ -92,7 +92,7 @@ GltfFile dressed() {
         primitives.push_back({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", texcoords}}},
                               {"indices", indices},
                               {"mode", mode},
-                              {"material", mode % 2}});
+                              {"material", mode % 3}});
     m.json["meshes"] = {{{"primitives", primitives}}};
     const Json transform = {
         {"KHR_texture_transform",
@@ -128,7 +128,14 @@ GltfFile dressed() {
              {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}}},
            {"KHR_materials_anisotropy",
             {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}}}}},
-        {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+        {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}},
+        {{"extensions",
+          {{"KHR_materials_pbrSpecularGlossiness",
+            {{"diffuseFactor", {1, 0.5, 0.25, 1}},
+             {"diffuseTexture", texture},
+             {"specularFactor", {0.5, 0.5, 1}},
+             {"specularGlossinessTexture", texture},
+             {"glossinessFactor", 0.5}}}}}}};
     m.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33648}}};
     m.json["images"] = {{{"uri", twoPixels}}};
     m.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
@@ -136,10 +143,11 @@ GltfFile dressed() {
         {{"type", "perspective"},
          {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}, {"aspectRatio", 2}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}};
-    m.json["extensionsUsed"] = {
-        "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-        "KHR_materials_specular", "KHR_materials_clearcoat",         "KHR_materials_anisotropy",
-        "KHR_materials_unlit",    "KHR_mesh_quantization",           "KHR_texture_transform"};
+    m.json["extensionsUsed"] = {"KHR_lights_punctual",      "KHR_materials_emissive_strength",
+                                "KHR_materials_ior",        "KHR_materials_pbrSpecularGlossiness",
+                                "KHR_materials_specular",   "KHR_materials_clearcoat",
+                                "KHR_materials_anisotropy", "KHR_materials_unlit",
+                                "KHR_mesh_quantization",    "KHR_texture_transform"};
     m.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     m.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3}, {"extras", {{"diptych", {{"angle", 0.0093}}}}}},

@@ -53,6 +53,15 @@ const std::vector<MovingMaterial>& movingMaterials() {
              moveMaterial(s, AnimatedPart::ior, {1.5f, 2});
              moveMaterial(s, AnimatedPart::specular_color, {1, 1, 1, 0.2f, 0.4f, 0.8f});
          }},
+        {"specular-glossiness",
+         [](Scene& s) {
+             s.materials[0].specular_glossiness = true;
+             s.materials[0].metallic = s.materials[0].ior = 0;
+             s.materials[0].specular_color_texture.texture = 0;
+             moveMaterial(s, AnimatedPart::base_color, {1, 0, 0, 1, 0, 0.5f, 1, 1});
+             moveMaterial(s, AnimatedPart::specular_f0, {1, 1, 1, 0.2f, 0.4f, 0.8f});
+             moveMaterial(s, AnimatedPart::glossiness, {0.25f, 1});
+         }},
         // At rest no texture of these slots is read: their factors are zero.
         {"emission begins",
          [](Scene& s) {

@@ -76,6 +76,53 @@ TEST(KnownValues, MaterialParameters) {
     }
 }
 
+// KHR_materials_pbrSpecularGlossiness: albedo is diffuse (1 - largest component of F0). Seen and lit along
+// the normal, with alpha = 1, the lobe is F0 / (4 pi); the base reflects albedo / pi times 1 less F0's
+// largest component, or 1 less each component as the extension does.
+TEST(KnownValues, SpecularGlossiness) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.specular_glossiness = true;
+    m.base_color = {0.8f, 0.4f, 0.2f, 1};
+    m.specular_color = {0.25f, 0.5f, 0};
+    m.metallic = m.ior = 0;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = std::numbers::pi_v<float>;
+    sun.direction = {0, 0, -1};
+    scene.lights = {sun};
+    for (const BaseLayer base : {BaseLayer::max, BaseLayer::component}) {
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.size = {1, 1};
+        settings.base_layer = base;
+        const glm::vec3 left = base == BaseLayer::max ? glm::vec3(0.5f) : glm::vec3(0.75f, 0.5f, 1);
+        for (const Frame& frame : bothPaths(scene, settings)) {
+            expectColor(colorAt(frame, albedo, 0, 0), {0.4f, 0.2f, 0.1f}, float32, frame.name + " albedo");
+            expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_dielectric_f0), 0, 0), m.specular_color,
+                        float32, frame.name + " F0");
+            EXPECT_EQ(colorAt(frame, static_cast<int>(gpu::DEBUG_dielectric_f90), 0, 0).x, 1.0f);
+            EXPECT_EQ(colorAt(frame, metallic, 0, 0).x, 0.0f);
+            EXPECT_EQ(colorAt(frame, roughness, 0, 0).x, 1.0f);
+            expectColor(colorAt(frame, lit, 0, 0),
+                        glm::vec3(0.4f, 0.2f, 0.1f) * left + m.specular_color / 4.0f, 5e-6f,
+                        frame.name + " lit");
+        }
+    }
+    // F0 of the grey texel is a fifth, red 1; all texels are fully glossy.
+    m.specular_color = {1, 1, 1};
+    m.roughness = 0.25f;
+    m.specular_color_texture.texture = 0;
+    for (const Frame& frame : draw(scene)) {
+        expectColor(colorAt(frame, albedo, 3, 3), glm::vec3(0.8f, 0.4f, 0.2f) * (1 - grey), srgbTexel,
+                    "grey");
+        expectColor(colorAt(frame, albedo, 0, 0), glm::vec3(0), srgbTexel, "red");
+        EXPECT_NEAR(colorAt(frame, roughness, 3, 3).x, 0.25f, float32) << "opaque texels: all of the factor";
+    }
+    for (std::size_t i = 3; i < scene.images[0].rgba.size(); i += 4) scene.images[0].rgba[i] = 51;
+    for (const Frame& frame : draw(scene))
+        EXPECT_NEAR(colorAt(frame, roughness, 3, 3).x, 1 - 0.75f * 0.2f, float32) << "linear alpha";
+}
+
 TEST(KnownValues, MetallicRoughnessAndOcclusionTextures) {
     Scene scene = square();
     Material& m = scene.materials[0];

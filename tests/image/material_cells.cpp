@@ -181,6 +181,21 @@ void addMasks(std::vector<Cell>& cells) {
     cells.push_back(edge);
 }
 
+// F0 is at most a half, because float32 loses digits in 1 - F0.
+void addSpecularGlossiness(std::vector<Cell>& cells) {
+    Cell cell = withFactors("specular-glossiness");
+    cell.specular_glossiness = true;
+    cell.roughness = 0.4;
+    cell.specular_color = {0.35, 0.5, 0.2};
+    cells.push_back(cell);
+    cell.name = "specular-glossiness with textures";
+    cell.textures = withTextures("").textures;
+    cell.textures[gpu::SLOT_metallic_roughness] = cell.textures[gpu::SLOT_specular] = {};
+    cell.textures[gpu::SLOT_specular_color].texcoord = 1;
+    cell.textures[gpu::SLOT_specular_color].transform = transformOf(gpu::SLOT_specular_color);
+    cells.push_back(cell);
+}
+
 void addGeometry(std::vector<Cell>& cells) {
     const auto add = [&](const char* name, const auto& change) {
         cells.push_back(withTextures(name));
@@ -279,6 +294,7 @@ const std::vector<Cell>& materialCells() {
         addColors(cells);
         addMasks(cells);
         addGeometry(cells);
+        addSpecularGlossiness(cells);
         return cells;
     }();
     return all;
@@ -312,7 +328,9 @@ const std::vector<Cell>& fewMaterialCells() {
                                  "double-sided, mirrored, from behind",
                                  "vertex colours",
                                  "cutoff of half the opaque texel's alpha",
-                                 "single-sided, from behind"})
+                                 "single-sided, from behind",
+                                 "specular-glossiness",
+                                 "specular-glossiness with textures"})
             cells.push_back(*std::ranges::find(materialCells(), name, &Cell::name));
         return cells;
     }();

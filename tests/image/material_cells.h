@@ -48,6 +48,9 @@ struct Cell {
     double specular = 1;
     glm::dvec3 specular_color{1};
     bool masked = false, double_sided = false, unlit = false;
+    // Written as KHR_materials_pbrSpecularGlossiness: diffuse is base_color, F0 specular_color, glossiness
+    // 1 - roughness; the slots base_color and specular_color hold its textures.
+    bool specular_glossiness = false;
     CellColors colors = CellColors::none;
     glm::dvec4 color{1};  // the same at all vertices, exactly representable
     // Of the node, along the axes of the square's object space, in which it faces +Z like the wall.

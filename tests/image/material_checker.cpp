@@ -24,11 +24,14 @@ constexpr unsigned slotBit(gpu::uint slot) {
     return 1u << slot;
 }
 
-// Bit mask of the slots that may affect a channel.
-unsigned slotsOf(int mode) {
-    constexpr unsigned base = slotBit(gpu::SLOT_base_color), rough = slotBit(gpu::SLOT_metallic_roughness);
+// Bit mask of the slots that may affect a channel of a cell.
+unsigned slotsOf(int mode, const Cell& cell) {
+    constexpr unsigned base = slotBit(gpu::SLOT_base_color);
+    const unsigned glossy = cell.specular_glossiness ? slotBit(gpu::SLOT_specular_color) : 0,
+                   rough = slotBit(gpu::SLOT_metallic_roughness) | glossy;
     switch (static_cast<gpu::uint>(mode)) {
         case gpu::DEBUG_albedo:
+            return base | glossy;
         case gpu::DEBUG_material_id:
         case gpu::DEBUG_depth:
         case gpu::DEBUG_position:
@@ -241,8 +244,9 @@ ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cel
         for (int x = 0; x < camera.size.x; ++x) {
             const std::optional<JudgedPixel> pixel = judgedPixel(cells, camera, x, y);
             constexpr int id = static_cast<int>(gpu::DEBUG_material_id);
-            if (!pixel || !pixel->shows(slotsOf(id))) continue;
+            if (!pixel) continue;
             const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
+            if (!pixel->shows(slotsOf(id, cell))) continue;
             const auto values = cellValues(cell, pixel->place, decode);
             const std::string where = placeName(cells, pixel->place, x, y);
             if (!values) {
@@ -250,7 +254,7 @@ ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cel
                 continue;
             }
             for (const auto& [mode, expected] : *values) {
-                if (!frame.channels.contains(mode) || !pixel->shows(slotsOf(mode))) continue;
+                if (!frame.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
                 const double allowed = roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
                 judge(judgement[mode], frame.channels.at(mode).pixel(at(x, y)), expected, allowed, where);
             }
@@ -266,9 +270,10 @@ ChannelChecks againstReference(const Frame& frame, const Frame& reference, const
         for (int x = 0; x < camera.size.x; ++x) {
             const std::optional<JudgedPixel> pixel = judgedPixel(cells, camera, x, y);
             if (!pixel) continue;
+            const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
             const std::string where = placeName(cells, pixel->place, x, y);
             for (const auto& [mode, image] : frame.channels) {
-                if (!reference.channels.contains(mode) || !pixel->shows(slotsOf(mode))) continue;
+                if (!reference.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
                 const auto allowed = allowedBeside(cells, camera, reference, mode, *pixel, x, y);
                 if (!allowed) continue;
                 judge(judgement[mode], image.pixel(at(x, y)), valuesAt(reference, mode, x, y), *allowed,

@@ -64,13 +64,31 @@ Json materialOfCell(const Cell& cell) {
     };
     const auto has = [&](std::size_t slot) { return cell.textures[slot].picture >= 0; };
     Json m = {{"name", cell.name}, {"emissiveFactor", triple(cell.emissive)}};
-    Json& pbr = m["pbrMetallicRoughness"];
-    pbr = {{"baseColorFactor", {cell.base_color.r, cell.base_color.g, cell.base_color.b, cell.base_color.a}},
-           {"metallicFactor", cell.metallic},
-           {"roughnessFactor", cell.roughness}};
-    if (has(gpu::SLOT_base_color)) pbr["baseColorTexture"] = texture(gpu::SLOT_base_color);
-    if (has(gpu::SLOT_metallic_roughness))
-        pbr["metallicRoughnessTexture"] = texture(gpu::SLOT_metallic_roughness);
+    const auto put = [&](Json& where, const char* name, std::size_t slot) {
+        if (has(slot)) where[name] = texture(slot);
+    };
+    const Json color = {cell.base_color.r, cell.base_color.g, cell.base_color.b, cell.base_color.a};
+    Json extensions = Json::object();
+    if (cell.specular_glossiness) {
+        Json& glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+        glossy = {{"diffuseFactor", color},
+                  {"specularFactor", triple(cell.specular_color)},
+                  {"glossinessFactor", 1 - cell.roughness}};
+        put(glossy, "diffuseTexture", gpu::SLOT_base_color);
+        put(glossy, "specularGlossinessTexture", gpu::SLOT_specular_color);
+    } else {
+        Json& pbr = m["pbrMetallicRoughness"];
+        pbr = {{"baseColorFactor", color},
+               {"metallicFactor", cell.metallic},
+               {"roughnessFactor", cell.roughness}};
+        put(pbr, "baseColorTexture", gpu::SLOT_base_color);
+        put(pbr, "metallicRoughnessTexture", gpu::SLOT_metallic_roughness);
+        Json& specular = extensions["KHR_materials_specular"];
+        specular = {{"specularFactor", cell.specular}, {"specularColorFactor", triple(cell.specular_color)}};
+        put(specular, "specularTexture", gpu::SLOT_specular);
+        put(specular, "specularColorTexture", gpu::SLOT_specular_color);
+        if (cell.ior) extensions["KHR_materials_ior"]["ior"] = *cell.ior;
+    }
     if (has(gpu::SLOT_normal)) {
         m["normalTexture"] = texture(gpu::SLOT_normal);
         m["normalTexture"]["scale"] = cell.normal_scale;
@@ -80,14 +98,8 @@ Json materialOfCell(const Cell& cell) {
         m["occlusionTexture"]["strength"] = cell.occlusion_strength;
     }
     if (has(gpu::SLOT_emissive)) m["emissiveTexture"] = texture(gpu::SLOT_emissive);
-    Json extensions = Json::object();
     if (cell.emissive_strength)
         extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = *cell.emissive_strength;
-    if (cell.ior) extensions["KHR_materials_ior"]["ior"] = *cell.ior;
-    Json specular = {{"specularFactor", cell.specular}, {"specularColorFactor", triple(cell.specular_color)}};
-    if (has(gpu::SLOT_specular)) specular["specularTexture"] = texture(gpu::SLOT_specular);
-    if (has(gpu::SLOT_specular_color)) specular["specularColorTexture"] = texture(gpu::SLOT_specular_color);
-    extensions["KHR_materials_specular"] = specular;
     if (cell.unlit) extensions["KHR_materials_unlit"] = Json::object();
     m["extensions"] = extensions;
     if (has(gpu::SLOT_lightmap)) {
@@ -192,7 +204,8 @@ Scene materialScene(const std::vector<Cell>& cells) {
     file.json["nodes"] = Json::array();
     file.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_emissive_strength",
                                    "KHR_materials_ior",     "KHR_materials_specular",
-                                   "KHR_materials_unlit",   "KHR_lights_punctual"};
+                                   "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
+                                   "KHR_lights_punctual"};
     writePictures(file);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         file.json["materials"].push_back(materialOfCell(cells[i]));

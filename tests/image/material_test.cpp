@@ -196,6 +196,7 @@ void addSlotFaults(std::vector<MaterialFault>& faults) {
                                               {gpu::SLOT_emissive, 1u, 2u, gpu::DEBUG_emission},
                                               {gpu::SLOT_specular, 0u, 3u, gpu::DEBUG_dielectric_f90},
                                               {gpu::SLOT_specular_color, 0u, 1u, gpu::DEBUG_specular},
+                                              {gpu::SLOT_specular_color, 0u, 3u, gpu::DEBUG_roughness},
                                               {gpu::SLOT_lightmap, 0u, 1u, gpu::DEBUG_lightmap}})
         faults.push_back(
             {"slot " + std::to_string(slot) + ": another component", channel,
@@ -241,6 +242,8 @@ void addMaterialFaults(std::vector<MaterialFault>& faults) {
               [](Material& m) { m.lightmap_intensity = 1; });
     add("index of refraction ignored", gpu::DEBUG_specular, [](Material& m) { m.ior = 1.5f; });
     add("unlit ignored", gpu::DEBUG_albedo, [](Material& m) { m.unlit = false; });
+    add("specular-glossiness ignored", gpu::DEBUG_albedo, [](Material& m) { m.specular_glossiness = false; });
+    add("all are specular-glossiness", gpu::DEBUG_albedo, [](Material& m) { m.specular_glossiness = true; });
     add("sides ignored", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = false; });
     add("all are double-sided", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = true; });
     add("mask ignored", gpu::DEBUG_material_id, [](Material& m) { m.alpha_mode = AlphaMode::opaque; });

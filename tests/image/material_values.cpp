@@ -181,6 +181,13 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         s.f90 = cell.specular * texel(gpu::SLOT_specular, false).a;
         const glm::dvec3 tint = cell.specular_color * glm::dvec3(texel(gpu::SLOT_specular_color, true));
         s.layer_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.f90;
+        if (cell.specular_glossiness) {
+            s.metallic = 0;
+            s.f90 = 1;
+            s.layer_f0 = tint;
+            s.roughness = 1 - (1 - cell.roughness) * texel(gpu::SLOT_specular_color, true).a;
+            s.albedo *= 1 - std::max({tint.r, tint.g, tint.b});
+        }
         s.f0 = glm::mix(s.layer_f0, s.albedo, s.metallic);
     }
     const glm::dvec2 texcoord = firstTexcoord(cell, place.at);

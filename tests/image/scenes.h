@@ -72,6 +72,7 @@ inline const std::vector<std::string>& assetScenes() {
         "features/alpha_blend/01_alpha_blend.gltf",
         "features/alpha_mask/01_alpha_mask.gltf",
         "features/box/Box.glb",
+        "features/emission_strength/14_emission_strength.gltf",
         "features/glass_table/glass_table.glb",
         "features/interpolation_test/InterpolationTest.gltf",
         "features/lights_punctual/Lights.glb",

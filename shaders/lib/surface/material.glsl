@@ -71,6 +71,9 @@ vec4 occlusionTexel() {
     if (feature_occlusion_texture == TEXEL_SHARED) return metallicRoughnessTexel();
     return slotTexel(occlusion_texture, SLOT_occlusion, feature_occlusion_texture);
 }
+vec4 specularColorTexel() {
+    return slotTexel(specular_color_texture, SLOT_specular_color, feature_specular_color_texture);
+}
 vec4 emissiveTexel() {
     if (feature_emissive_texture == TEXEL_SHARED) return baseColorTexel();
     return slotTexel(emissive_texture, SLOT_emissive, feature_emissive_texture);
@@ -311,6 +314,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
         s.roughness *= texel.g;
         s.metallic *= texel.b;
     }
+    if (on(feature_specular_glossiness) && on(feature_specular_color_texture))
+        s.roughness = 1.0 - (1.0 - s.roughness) * specularColorTexel().a;
     if (on(feature_specular_aa)) s.roughness = filteredRoughness(s.roughness);
     s.occlusion = 1.0;
     if (on(feature_occlusion_texture)) {
@@ -333,13 +338,12 @@ Surface surfaceFromMaterial(vec4 base_color) {
     if (on(feature_dielectric_specular)) {
         s.dielectric_f0 = m.dielectric_f0;
         s.dielectric_f90 = m.specular;
-        if (on(feature_specular_color_texture))
-            s.dielectric_f0 *= slotTexel(specular_color_texture, SLOT_specular_color,
-                                         feature_specular_color_texture).rgb;
+        if (on(feature_specular_color_texture)) s.dielectric_f0 *= specularColorTexel().rgb;
         if (on(feature_specular_texture))
             s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular, feature_specular_texture).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
+    if (on(feature_specular_glossiness)) s.albedo *= 1.0 - largestOf(s.dielectric_f0);
     return s;
 }
 

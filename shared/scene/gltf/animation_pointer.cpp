@@ -60,6 +60,11 @@ constexpr Pattern pointerPatterns[] = {
     {"/materials/{}/extensions/KHR_materials_specular/specularFactor", AnimatedPart::specular},
     {"/materials/{}/extensions/KHR_materials_specular/specularColorFactor", AnimatedPart::specular_color},
     {"/materials/{}/extensions/KHR_materials_transmission/transmissionFactor", AnimatedPart::transmission},
+    {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/diffuseFactor", AnimatedPart::base_color},
+    {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/specularFactor",
+     AnimatedPart::specular_f0},
+    {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/glossinessFactor",
+     AnimatedPart::glossiness},
     {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatFactor", AnimatedPart::clearcoat},
     {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor",
      AnimatedPart::clearcoat_roughness},
@@ -79,6 +84,10 @@ constexpr Pattern texturePatterns[] = {
     {"/materials/{}/emissiveTexture", {}, gpu::SLOT_emissive},
     {"/materials/{}/extensions/KHR_materials_specular/specularTexture", {}, gpu::SLOT_specular},
     {"/materials/{}/extensions/KHR_materials_specular/specularColorTexture", {}, gpu::SLOT_specular_color},
+    {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture", {}, gpu::SLOT_base_color},
+    {"/materials/{}/extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
+     {},
+     gpu::SLOT_specular_color},
     {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatTexture", {}, gpu::SLOT_clearcoat},
     {"/materials/{}/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
      {},
@@ -239,20 +248,33 @@ private:
 
     void material(const tinygltf::Material& material, const Match& match, ChannelTarget& target) const {
         const bool unlit = extension(material.extensions, "KHR_materials_unlit") != nullptr;
+        const tinygltf::Value* glossy = extension(material.extensions, "KHR_materials_pbrSpecularGlossiness");
+        const bool ofGlossy = names("/KHR_materials_pbrSpecularGlossiness/");
+        if (ofGlossy && !glossy) wrong("the material has no KHR_materials_pbrSpecularGlossiness");
         const bool transform = target.part == AnimatedPart::texture_offset ||
                                target.part == AnimatedPart::texture_rotation ||
                                target.part == AnimatedPart::texture_scale;
         const bool textured = transform || target.part == AnimatedPart::normal_scale ||
                               target.part == AnimatedPart::occlusion_strength ||
                               target.part == AnimatedPart::clearcoat_normal_scale;
-        if (textured && !hasTexture(material, match.slot)) wrong("the material has no such texture");
+        if (textured && !hasTexture(material, match.slot, ofGlossy ? glossy : nullptr))
+            wrong("the material has no such texture");
         if (transform) target.element = match.slot;
         target.effect = !unlit || target.part == AnimatedPart::base_color ||
                         target.part == AnimatedPart::alpha_cutoff ||
                         (transform && match.slot == gpu::SLOT_base_color);
+        // Specular-glossiness replaces the core model and its extensions; unlit replaces both.
+        const bool ofOthers = names("/pbrMetallicRoughness/") ||
+                              (names("/KHR_materials_") && !names("/KHR_materials_emissive_strength/"));
+        if (ofGlossy ? unlit : glossy && !unlit && ofOthers) target.effect = false;
     }
 
-    static bool hasTexture(const tinygltf::Material& material, int slot) {
+    bool names(std::string_view part) const { return pointer_.find(part) != pointer_.npos; }
+
+    // `glossy`: KHR_materials_pbrSpecularGlossiness, if the texture is one of its own.
+    static bool hasTexture(const tinygltf::Material& material, int slot, const tinygltf::Value* glossy) {
+        if (glossy)
+            return glossy->Has(slot == gpu::SLOT_base_color ? "diffuseTexture" : "specularGlossinessTexture");
         const auto has = [&](const char* of, const char* name) {
             const tinygltf::Value* e = extension(material.extensions, of);
             return e && e->Has(name);

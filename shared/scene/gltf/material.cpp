@@ -39,31 +39,32 @@ public:
           who_(fmt::format("material {}", index)) {}
 
     Material read() {
-        const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
+        const bool isUnlit = extension(file_.extensions, "KHR_materials_unlit");
+        const tinygltf::Value* glossy =
+            isUnlit ? nullptr : extension(file_.extensions, "KHR_materials_pbrSpecularGlossiness");
         Material m;
         m.name = file_.name;
-        for (int c = 0; c < 4; ++c)
-            m.base_color[c] =
-                within("baseColorFactor", pbr.baseColorFactor[static_cast<std::size_t>(c)], 0, 1);
-        m.metallic = within("metallicFactor", pbr.metallicFactor, 0, 1);
-        m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        if (glossy)
+            readSpecularGlossiness(m, *glossy);
+        else
+            readMetallicRoughness(m, isUnlit);
         m.normal_scale = within("normalTexture.scale", file_.normalTexture.scale, -maxFactor, maxFactor);
         m.occlusion_strength = within("occlusionTexture.strength", file_.occlusionTexture.strength, 0, 1);
         // Above 1, everything is cut out.
         m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);
         m.alpha_mode = alphaMode();
         m.double_sided = file_.doubleSided;
-        m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
-        if (extension(file_.extensions, "KHR_materials_unlit")) return unlit(m);
-        m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+        if (isUnlit) return unlit(m);
         m.normal_texture = slot("normalTexture", file_.normalTexture);
         m.occlusion_texture = slot("occlusionTexture", file_.occlusionTexture);
         m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
         readEmission(m);
-        readSpecular(m);
-        readTransmission(m);
-        readClearcoat(m);
-        readAnisotropy(m);
+        if (!glossy) {
+            readSpecular(m);
+            readTransmission(m);
+            readClearcoat(m);
+            readAnisotropy(m);
+        }
         readLightmap(m);
         return m;
     }
@@ -84,6 +85,8 @@ private:
 
     // SLOT_* of a texture's name.
     static std::size_t slotNumber(std::string_view name) {
+        if (name == "diffuseTexture") return gpu::SLOT_base_color;
+        if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
         constexpr std::string_view names[gpu::SLOT_COUNT] = {
             "baseColorTexture", "metallicRoughnessTexture",  "normalTexture",          "occlusionTexture",
             "emissiveTexture",  "specularTexture",           "specularColorTexture",   lightmapName,
@@ -164,6 +167,39 @@ private:
             info.Get("extensions").Get("KHR_texture_transform").IsObject())
             transform = &info.Get("extensions").Get("KHR_texture_transform");
         return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
+    }
+
+    void readMetallicRoughness(Material& m, bool isUnlit) {
+        const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
+        for (int c = 0; c < 4; ++c)
+            m.base_color[c] =
+                within("baseColorFactor", pbr.baseColorFactor[static_cast<std::size_t>(c)], 0, 1);
+        m.metallic = within("metallicFactor", pbr.metallicFactor, 0, 1);
+        m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
+        if (!isUnlit)
+            m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+    }
+
+    // Replaces pbrMetallicRoughness. An infinite index of refraction makes the specular colour F0, and F90 1.
+    void readSpecularGlossiness(Material& m, const tinygltf::Value& e) {
+        m.specular_glossiness = true;
+        const std::vector<double> diffuse = numbersIn(e, "diffuseFactor", {1, 1, 1, 1}, who_),
+                                  f0 = numbersIn(e, "specularFactor", {1, 1, 1}, who_);
+        for (int c = 0; c < 4; ++c)
+            m.base_color[c] = within("diffuseFactor", diffuse[static_cast<std::size_t>(c)], 0, 1);
+        for (int c = 0; c < 3; ++c)
+            m.specular_color[c] = within("specularFactor", f0[static_cast<std::size_t>(c)], 0, 1);
+        const double glossiness = numberIn(e, "glossinessFactor", 1, who_);
+        m.roughness = static_cast<float>(1 - bounded("glossinessFactor", glossiness, 0, 1));
+        m.metallic = m.ior = 0;
+        m.base_color_texture = slotIn(e, "diffuseTexture");
+        m.specular_color_texture = slotIn(e, "specularGlossinessTexture");
+        for (const auto& [name, value] : file_.extensions)
+            if (name.starts_with("KHR_materials_") && name != "KHR_materials_pbrSpecularGlossiness" &&
+                name != "KHR_materials_emissive_strength")
+                scene_.notes.push_back(
+                    fmt::format("{}: {} beside KHR_materials_pbrSpecularGlossiness: ignored", who_, name));
     }
 
     // KHR_materials_unlit: keeps only base colour, alpha and double_sided.
@@ -289,7 +325,9 @@ void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& dra
     };
     noteMaterials(model, textured, "with a transmissionTexture: ignored, only transmissionFactor is used",
                   scene);
-    const auto thick = [&](std::size_t i) { return drawn[i] && extensionOf(i, "KHR_materials_volume"); };
+    const auto thick = [&](std::size_t i) {
+        return drawn[i] && !scene.materials[i].specular_glossiness && extensionOf(i, "KHR_materials_volume");
+    };
     noteMaterials(model, thick, "with KHR_materials_volume: thickness and attenuation are not modelled",
                   scene);
 }

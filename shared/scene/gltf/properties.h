@@ -156,6 +156,9 @@ constexpr Property ior[] = {number("ior")};
 constexpr Property specular[] = {number("specularFactor"), object("specularTexture", textureInfo),
                                  numbers("specularColorFactor", 3),
                                  object("specularColorTexture", textureInfo)};
+constexpr Property specularGlossiness[] = {numbers("diffuseFactor", 4), object("diffuseTexture", textureInfo),
+                                           numbers("specularFactor", 3), number("glossinessFactor"),
+                                           object("specularGlossinessTexture", textureInfo)};
 constexpr Property transmission[] = {number("transmissionFactor"),
                                      object("transmissionTexture", textureInfo)};
 constexpr Property clearcoat[] = {
@@ -167,6 +170,7 @@ constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", an
                                            object("KHR_materials_clearcoat", clearcoat),
                                            object("KHR_materials_emissive_strength", emissiveStrength),
                                            object("KHR_materials_ior", ior),
+                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
                                            object("KHR_materials_specular", specular),
                                            object("KHR_materials_transmission", transmission),
                                            object("KHR_materials_unlit", {}),

@@ -65,6 +65,8 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, 0, any};
         case AnimatedPart::base_color:
             return {4, 0, 1};
+        case AnimatedPart::specular_f0:
+            return {3, 0, 1};
         case AnimatedPart::emissive:
             return {3, 0, any};
         case AnimatedPart::specular_color:
@@ -74,6 +76,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::occlusion_strength:
         case AnimatedPart::specular:
         case AnimatedPart::transmission:
+        case AnimatedPart::glossiness:
         case AnimatedPart::clearcoat:
         case AnimatedPart::clearcoat_roughness:
         case AnimatedPart::anisotropy:

@@ -124,6 +124,8 @@ enum class AnimatedPart {
     specular,
     specular_color,
     transmission,
+    specular_f0,  // KHR_materials_pbrSpecularGlossiness: specularFactor
+    glossiness,
     clearcoat,
     clearcoat_roughness,
     clearcoat_normal_scale,

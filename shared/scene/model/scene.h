@@ -89,6 +89,9 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;  // KHR_materials_unlit: uses only base colour, alpha and double_sided
+    // KHR_materials_pbrSpecularGlossiness: base_color is diffuse, specular_color F0 (ior is 0, metallic 0),
+    // roughness 1 - glossiness; see contract/material.h.
+    bool specular_glossiness = false;
     // In the order of SLOT_* in contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,

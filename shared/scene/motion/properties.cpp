@@ -133,7 +133,11 @@ public:
                 m_.specular = number;
                 break;
             case AnimatedPart::specular_color:
+            case AnimatedPart::specular_f0:
                 m_.specular_color = rgb(v);
+                break;
+            case AnimatedPart::glossiness:
+                m_.roughness = static_cast<float>(1 - v[0]);
                 break;
             case AnimatedPart::transmission:
                 m_.transmission = number;

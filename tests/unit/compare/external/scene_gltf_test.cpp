@@ -131,5 +131,41 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
     }
 }
 
+// In its own extension: no other states F0, glossiness and diffuse in the same textures.
+TEST(SceneGltf, SpecularGlossinessIsReadBackAsItIs) {
+    Scene scene = loadScene("builtin:gallery");
+    Material& m = scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).primitives.at(0).material));
+    const std::string name = m.name;
+    m = {};
+    m.name = name;
+    m.specular_glossiness = true;
+    m.base_color = {0.8f, 0.4f, 0.2f, 1};
+    m.specular_color = {0.1f, 0.3f, 0.7f};
+    m.metallic = m.ior = 0;
+    m.roughness = 0.3f;
+    m.base_color_texture.texture = 0;
+    m.specular_color_texture = {1, 0, {2, 0, 0}, {0, 3, 0.5}};
+    const WrittenScene written = sceneGltf(scene, viewAt(scene, 0), SkinNormals::joints);
+    EXPECT_NE(written.glb.find("\"extensionsRequired\":[\"KHR_materials_pbrSpecularGlossiness\"]"),
+              std::string::npos);
+    const Scene back = readBack(written.glb);
+    const auto same = std::ranges::find(back.materials, name, &Material::name);
+    ASSERT_NE(same, back.materials.end());
+    EXPECT_TRUE(same->specular_glossiness);
+    EXPECT_EQ(same->base_color, m.base_color);
+    EXPECT_EQ(same->specular_color, m.specular_color);
+    EXPECT_EQ(same->roughness, m.roughness);
+    EXPECT_EQ(same->metallic, 0);
+    EXPECT_EQ(same->ior, 0);
+    EXPECT_GE(same->base_color_texture.texture, 0);
+    EXPECT_GE(same->specular_color_texture.texture, 0);
+    EXPECT_NE(same->specular_color_texture.texture, same->base_color_texture.texture);
+    EXPECT_NEAR(same->specular_color_texture.u.x, 2, 1e-6);
+    EXPECT_NEAR(same->specular_color_texture.v.z, 0.5, 1e-6);
+    const Scene plain = loadScene("builtin:gallery");
+    EXPECT_EQ(sceneGltf(plain, viewAt(plain, 0), SkinNormals::joints).glb.find("extensionsRequired"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace diptych::external

@@ -184,6 +184,7 @@ TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
         {"alpha cutoff", [](Asked& a) { a.material().alpha_cutoff = 0.25f; }},
         {"double-sided", [](Asked& a) { a.material().double_sided = true; }},
         {"unlit", [](Asked& a) { a.material().unlit = true; }},
+        {"specular-glossiness", [](Asked& a) { a.material().specular_glossiness = true; }},
         {"transmission", [](Asked& a) { a.material().transmission = 0.5f; }},
         {"lightmap intensity", [](Asked& a) { a.material().lightmap_intensity = 2; }},
         {"clear coat", [](Asked& a) { a.material().clearcoat = 0.5f; }},

@@ -219,6 +219,20 @@ TEST_F(AcrossDevicesPair, WhatWasMeasuredOfDecodingIsGrantedAndNoMoreThanVulkanA
     EXPECT_EQ(faults(), "albedo ");
 }
 
+// Specular-glossiness: albedo is diffuse times 1 - F0. Half of what decoding changes at F0 0.9, where a code
+// is 1 % of it, is far more than 1 % of an albedo of 0.05.
+TEST_F(AcrossDevicesPair, F0DarkensTheAlbedoOfSpecularGlossiness) {
+    for (const std::size_t frame : {0, 1}) fill(frame, gpu::DEBUG_dielectric_f0, 0.9);
+    for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
+    fill(0, gpu::DEBUG_albedo, 0.05);
+    fill(1, gpu::DEBUG_albedo, 0.053);
+    EXPECT_EQ(faults(), "albedo ");
+    needs_.specular_glossiness = true;
+    EXPECT_EQ(faults(), "");
+    fill(1, gpu::DEBUG_albedo, 0.06);
+    EXPECT_EQ(faults(), "albedo ");
+}
+
 TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces) {
     // If surfaces differ within their tolerance, light may differ, too.
     fill(1, gpu::DEBUG_lit, 0.6);
@@ -313,6 +327,25 @@ TEST(TexelRanges, AreThoseOfTheTexelsThatMayBeSeen) {
     EXPECT_NEAR(TexturedPlane(16, checker).range(), 0, 1e-6);
     // A dark square far away has no influence.
     EXPECT_EQ(TexturedPlane(1, [](int x, int y) { return x < 4 && y < 4 ? 0 : 200; }).range(), 0);
+}
+
+// F0 darkens the base, and alpha is glossiness.
+TEST(TexelRanges, OfSpecularGlossinessReachAlbedoAndRoughness) {
+    TexturedPlane plane(1, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
+    std::vector<std::uint8_t>& rgba = plane.scene.images[0].rgba;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) rgba[i + 3] = rgba[i];
+    Material& m = plane.scene.materials[0];
+    m.base_color_texture.texture = -1;
+    m.specular_color_texture.texture = 0;
+    m.specular_glossiness = true;
+    m.base_color = {0.5f, 0.25f, 0.125f, 1};
+    m.specular_color = {0.25f, 0.5f, 0};
+    m.roughness = 0.25f;
+    const std::map<int, Image> ranges = texelRanges(plane.scene, plane.frame, {});
+    for (const auto& [mode, range] :
+         {std::pair{gpu::DEBUG_dielectric_f0, 0.5}, {gpu::DEBUG_albedo, 0.25}, {gpu::DEBUG_roughness, 0.75}})
+        EXPECT_NEAR(ranges.at(static_cast<int>(mode)).at(across_side / 2, across_side / 2, 0), range, 1e-6)
+            << mode;
 }
 
 TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {

@@ -44,11 +44,12 @@ Image& channelIn(Frame& frame, gpu::uint mode) {
     return frame.channels.at(static_cast<int>(mode));
 }
 
-ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptions& options = {}) {
+ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptions& options = {},
+                   const Requirements& needs = {}) {
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
-    const Comparison comparison = compareFrames(report, 0, 1, {}, options);
+    const Comparison comparison = compareFrames(report, 0, 1, needs, options);
     const bool traced = std::ranges::any_of(report.frames, [](const Frame& frame) {
         return frame.settings.reference_mode == ReferenceMode::scene;
     });
@@ -266,14 +267,19 @@ TEST(Footprint, TheChannelsOfASurfaceAreThoseThatLightNeeds) {
         EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 0) << mode;
 }
 
-// Texel errors are tolerated as measured on the device: at this code and no more.
-TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
-    CompareOptions options;
-    TextureSampling& texels = options.texels.emplace();
+TextureSampling exactTexels() {
+    TextureSampling texels;
     for (std::size_t code = 0; code < 256; ++code) {
         texels.linear[code] = static_cast<float>(code) / 255;
         texels.srgb[code] = static_cast<float>(exactSrgb(code));
     }
+    return texels;
+}
+
+// Texel errors are tolerated as measured on the device: at this code and no more.
+TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
+    CompareOptions options;
+    TextureSampling& texels = options.texels.emplace(exactTexels());
     std::vector<Frame> frames = evenFrames();
     // At 0.5 a code is 0.006 wide; mip levels may be off by this.
     for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.005f;
@@ -291,6 +297,22 @@ TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.1f / 255;
     EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::fail);
+}
+
+// Specular-glossiness: albedo is diffuse times 1 - F0, so a code of F0 counts as well: at 0.5, and a diffuse
+// colour of 1, as much as one of albedo. At F0 0.01 it is a tenth.
+TEST(Footprint, TexelsOfF0AreGrantedToTheAlbedoThatTheyDarken) {
+    CompareOptions options;
+    options.texels = exactTexels();
+    Requirements glossy;
+    glossy.specular_glossiness = true;
+    std::vector<Frame> frames = evenFrames();
+    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.010f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options, glossy).verdict, Verdict::pass);
+    for (Frame& frame : frames)
+        for (float& v : channelIn(frame, gpu::DEBUG_dielectric_f0).data) v = 0.01f;
+    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options, glossy).verdict, Verdict::fail);
 }
 
 TEST(Footprint, OtherComparisonsHaveNone) {

@@ -88,6 +88,18 @@ TEST(TexelPlan, OneColorIsAFactor) {
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
 }
 
+// The alpha of its specular colour is glossiness, which KHR_materials_specular does not read there.
+TEST(TexelPlan, GlossinessIsReadToo) {
+    Scene scene = fourImages();
+    for (std::size_t i = 0; i < scene.images[0].rgba.size(); ++i)
+        if (i % 4 < 3) scene.images[0].rgba[i] = 9;
+    Material m;
+    m.specular_color_texture.texture = 0;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_specular_color, m, scene), gpu::TEXEL_CONSTANT);
+    m.specular_glossiness = true;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_specular_color, m, scene), gpu::TEXEL_OWN);
+}
+
 // Occlusion shares a sample with roughness and metallic, emission with the base colour, unless anything
 // about their lookup differs.
 TEST(TexelPlan, SlotsThatReadAlikeShareASample) {

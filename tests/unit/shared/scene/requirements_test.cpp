@@ -61,7 +61,7 @@ TEST(Requirements, PlainSceneNeedsNothing) {
     const Requirements r = of(plainScene());
     EXPECT_FALSE(r.normal_maps || r.alpha_mask || r.alpha_blend || r.double_sided || r.vertex_colors ||
                  r.second_texcoord || r.texture_transform || r.occlusion || r.emission ||
-                 r.dielectric_specular);
+                 r.dielectric_specular || r.specular_glossiness);
     EXPECT_EQ(r.materials, 2u) << "ids name every material of the scene";
     EXPECT_EQ(r.textures, 0u);
     EXPECT_EQ(r.draws, 2u);
@@ -164,6 +164,21 @@ TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
     r = of(scene);
     EXPECT_TRUE(r.unlit && r.dielectric_specular);
     EXPECT_FALSE(r.emission);
+}
+
+// Its F0 is stored.
+TEST(Requirements, SpecularGlossinessAsksForSpecular) {
+    Scene scene = plainScene();
+    scene.materials[1].specular_glossiness = true;
+    EXPECT_FALSE(of(scene).specular_glossiness) << "of an unused material";
+    const auto before = of(scene).lines();
+    scene.materials[0].specular_glossiness = true;
+    const Requirements r = of(scene);
+    EXPECT_TRUE(r.specular_glossiness && r.dielectric_specular);
+    for (const char* what : {"specular-glossiness materials", "dielectric specular"}) {
+        EXPECT_FALSE(line(before, what).modelled) << what;
+        EXPECT_TRUE(line(r.lines(), what).modelled) << what;
+    }
 }
 
 TEST(Requirements, EmissionRangesOverTheMaterialsInUse) {

@@ -24,6 +24,7 @@ TEST(GltfAssets, ScenesHaveTheirTabledSizes) {
                            Row{"pbr_spheres/PBR_Spheres.glb", 100320, 12, 0.81, 0.89, 0.06},
                            Row{"features/box/Box.glb", 12, 1, 1, 1, 1},
                            Row{"features/lights_punctual/Lights.glb", 12, 1, 2, 2, 2},
+                           Row{"features/emission_strength/14_emission_strength.gltf", 17280, 18, 36, 2, 2},
                            Row{"features/vertex_color_test/VertexColorTest.gltf", 36, 2, 2, 2, 0.07},
                            Row{"features/node_hierarchy/02_node_hierarchy.gltf", 60, 2, 6, 6, 2},
                            Row{"features/sparse_accessor/SimpleSparseAccessor.gltf", 12, 1, 6, 4, 0},
@@ -61,19 +62,24 @@ TEST(GltfAssets, RequiredWebpTexturesAreRead) {
     EXPECT_EQ(scene.materials.at(0).base_color_texture.texture, 0);
 }
 
-TEST(GltfAssets, RequiredSpecularGlossinessIsRefusedByName) {
-    if (!std::filesystem::exists(assets))
-        GTEST_SKIP() << "NO ASSETS at " << assets << ": real files are not tried";
-    const std::string file =
-        (assets / "scenes/features/emission_strength/14_emission_strength.gltf").string();
-    try {
-        loadScene(file);
-        FAIL();
-    } catch (const std::runtime_error& e) {
-        EXPECT_EQ(std::string(e.what()), file +
-                                             ": extensionsRequired: KHR_materials_pbrSpecularGlossiness is "
-                                             "not supported; export the scene without it");
-    }
+// One bottle in both models, and two labels.
+TEST(GltfAssets, RequiredSpecularGlossinessIsRead) {
+    const std::filesystem::path file = assets / "layered/SpecGlossVsMetalRough/SpecGlossVsMetalRough.gltf";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "NO ASSETS at " << file << ": real files are not tried";
+    const Scene scene = loadScene(file.string());
+    ASSERT_EQ(scene.materials.size(), 4u);
+    const auto nameOf = [&](const TextureSlot& slot) {
+        const Texture& texture = scene.textures.at(static_cast<std::size_t>(slot.texture));
+        return scene.images.at(static_cast<std::size_t>(texture.image)).name;
+    };
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.materials[i].specular_glossiness, i == 0 || i == 3);
+    EXPECT_EQ(nameOf(scene.materials[0].base_color_texture), "WaterBottle_diffuse.png");
+    EXPECT_EQ(nameOf(scene.materials[0].specular_color_texture), "WaterBottle_specularGlossiness.png");
+    EXPECT_EQ(scene.materials[0].roughness, 0);
+    EXPECT_EQ(scene.materials[3].roughness, 1);
+    EXPECT_EQ(scene.materials[3].specular_color, glm::vec3(0));
+    EXPECT_EQ(scene.notes, std::vector<std::string>{});
 }
 
 TEST(GltfAssets, MalformedFilesEndInASceneOrOneLine) {

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The slots of a file: each with its name in a file and its member in Material.
+// The slots: each with its name in a file and its member in Material.
 struct SlotCase {
     const char* name;
     Json (*material)(Json info);
@@ -56,6 +56,17 @@ const SlotCase slotCases[] = {
     {"specularColorTexture",
      [](Json info) {
          return Json{{"extensions", {{"KHR_materials_specular", {{"specularColorTexture", info}}}}}};
+     },
+     &Material::specular_color_texture},
+    {"diffuseTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", info}}}}}};
+     },
+     &Material::base_color_texture},
+    {"specularGlossinessTexture",
+     [](Json info) {
+         return Json{{"extensions",
+                      {{"KHR_materials_pbrSpecularGlossiness", {{"specularGlossinessTexture", info}}}}}};
      },
      &Material::specular_color_texture},
     {"clearcoatTexture",
