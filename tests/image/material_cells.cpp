@@ -92,10 +92,10 @@ void addCoordinates(std::vector<Cell>& cells) {
 
 void addSlots(std::vector<Cell>& cells) {
     // Any two slots differ in one of the first three cells; the last textures only the first slot.
-    static_assert(gpu::SLOT_COUNT == 8);
+    static_assert(cellSlots == 8);
     for (int bit = 0; bit < 4; ++bit) {
         Cell cell = withFactors("textures in the slots of bit " + std::to_string(bit));
-        for (int slot = 0; slot < static_cast<int>(gpu::SLOT_COUNT); ++slot)
+        for (int slot = 0; slot < static_cast<int>(cellSlots); ++slot)
             if (bit == 3 ? slot == 0 : (slot >> bit & 1) == 1)
                 cell.textures[static_cast<std::size_t>(slot)] = {slot, 1, {}};
         cells.push_back(cell);

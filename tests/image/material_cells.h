@@ -23,6 +23,9 @@
 
 namespace diptych::tests {
 
+// Slots of the base; layers_test.cpp proves those of layers.
+inline constexpr std::size_t cellSlots = gpu::SLOT_lightmap + 1;
+
 // A texture slot in the file.
 struct CellTexture {
     int picture = -1;  // index of the image, by slot; -1: no texture
@@ -40,7 +43,7 @@ enum class CellColors { none, floats, bytes, shorts, rgb };  // COLOR_0's compon
 
 struct Cell {
     std::string name;
-    std::array<CellTexture, gpu::SLOT_COUNT> textures{};  // by SLOT_*
+    std::array<CellTexture, cellSlots> textures{};  // by SLOT_*
     glm::dvec4 base_color{1};
     double metallic = 1, roughness = 1, normal_scale = 1, occlusion_strength = 1, lightmap_intensity = 1;
     glm::dvec3 emissive{0};

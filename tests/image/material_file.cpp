@@ -31,7 +31,7 @@ std::string pngOf(int picture) {
 // Texture n is image n, unfiltered.
 void writePictures(GltfFile& file) {
     file.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}}};
-    for (int slot = 0; slot < static_cast<int>(gpu::SLOT_COUNT); ++slot) {
+    for (int slot = 0; slot < static_cast<int>(cellSlots); ++slot) {
         const std::string png = pngOf(slot);
         file.json["bufferViews"].push_back(
             {{"buffer", 0}, {"byteOffset", file.data.size()}, {"byteLength", png.size()}});

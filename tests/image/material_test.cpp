@@ -134,7 +134,7 @@ struct MaterialFault {
 };
 
 // The channel that shows a slot's texture.
-constexpr std::array<gpu::uint, gpu::SLOT_COUNT> channelOfSlot{
+constexpr std::array<gpu::uint, cellSlots> channelOfSlot{
     gpu::DEBUG_albedo,   gpu::DEBUG_roughness,      gpu::DEBUG_normals,  gpu::DEBUG_occlusion,
     gpu::DEBUG_emission, gpu::DEBUG_dielectric_f90, gpu::DEBUG_specular, gpu::DEBUG_lightmap};
 
@@ -164,7 +164,7 @@ void addSlotFaults(std::vector<MaterialFault>& faults) {
                  for (Material& m : s.materials) change(m.*materialSlots[slot].texture);
              }});
     };
-    for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
+    for (std::size_t slot = 0; slot < cellSlots; ++slot) {
         add(slot, "second UV set ignored", [](TextureSlot& t) { t.texcoord = 0; });
         add(slot, "first UV set ignored", [](TextureSlot& t) { t.texcoord = 1; });
         add(slot, "no texture", [](TextureSlot& t) { t.texture = -1; });
