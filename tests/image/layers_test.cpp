@@ -4,7 +4,7 @@
 // factors are 0 is the base to the bit.
 #include "compare/verdict/pair_reports.h"
 #include "tests/bench/environment_errors.h"
-#include "tests/image/scenes.h"
+#include "tests/image/square.h"
 
 #include <fmt/format.h>
 
@@ -159,6 +159,75 @@ TEST(Layers, AWhiteFurnaceHolds) {
             coated += coat.pixel(i)[0] > 0.03f;
         }
         EXPECT_GT(coated, 500u) << frame.name;
+    }
+}
+
+// Each slot reads its own component of its own texture, by the first or second UV set, moved by a transform.
+TEST(Layers, EverySlotReadsItsTexture) {
+    // Texels of square(): red, green above blue, grey; by the row and column of a pixel.
+    const auto texel = [](int x, int y) {
+        const glm::vec3 of[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::vec3(128.0f / 255)};
+        return of[2 * (y / 2) + x / 2];
+    };
+    struct Read {
+        int texcoord;
+        double offset;
+        bool swapped;  // left and right
+    };
+    for (const Read& read : {Read{0, 0, false}, Read{1, 0, true}, Read{0, 0.5, true}, Read{1, 0.5, false}}) {
+        TextureSlot slot;
+        slot.texture = 0;
+        slot.texcoord = read.texcoord;
+        slot.u.z = read.offset;
+        Scene scene = square();
+        scene.textures[0].sampler.wrap_s = Wrap::repeat;
+        Material& m = scene.materials[0];
+        m.clearcoat = 0.5f;
+        m.clearcoat_roughness = 0.8f;
+        m.anisotropy = 0.6f;
+        const auto at = [&](const Frame& frame, gpu::uint mode, int x, int y) {
+            return colorAt(frame, static_cast<int>(mode), x, y);
+        };
+        const auto each = [&](TextureSlot Material::*of, const auto& check) {
+            Scene one = scene;
+            one.materials[0].*of = slot;
+            for (const Frame& frame : draw(one))
+                for (const int y : {0, 3})
+                    for (const int x : {0, 3}) check(frame, x, y, texel(read.swapped ? 3 - x : x, y));
+        };
+        each(&Material::clearcoat_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat, x, y).x, 0.5f * t.r, float32) << f.name;
+            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat_roughness, x, y).x, t.r > 0 ? 0.8f : 0, float32) << f.name;
+        });
+        each(&Material::clearcoat_roughness_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat_roughness, x, y).x, 0.8f * t.g, float32) << f.name;
+        });
+        each(&Material::clearcoat_normal_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            expectColor(at(f, gpu::DEBUG_clearcoat_normal, x, y), glm::normalize(t * 2.0f - 1.0f), 1e-6f,
+                        f.name);
+            expectColor(at(f, gpu::DEBUG_normals, x, y), {0, 0, 1}, 0, f.name);
+        });
+        each(&Material::anisotropy_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            EXPECT_NEAR(at(f, gpu::DEBUG_anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
+            const glm::vec3 along = glm::normalize(glm::vec3(t.r * 2 - 1, t.g * 2 - 1, 0)),
+                            seen = at(f, gpu::DEBUG_anisotropy_direction, x, y);
+            // Either sign.
+            EXPECT_NEAR(std::abs(glm::dot(seen, along)), t.b > 0 ? 1 : 0, float32) << f.name;
+        });
+    }
+}
+
+// A rotation turns counter-clockwise from the tangent to the bitangent.
+TEST(Layers, TheDirectionIsRotated) {
+    for (const float degrees : {0.0f, 30.0f, 90.0f, 200.0f}) {
+        Scene scene = square();
+        scene.materials[0].anisotropy = 1;
+        scene.materials[0].anisotropy_rotation = glm::radians(degrees);
+        for (const Frame& frame : draw(scene)) {
+            const glm::vec3 seen = colorAt(frame, static_cast<int>(gpu::DEBUG_anisotropy_direction), 1, 1),
+                            along(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0);
+            EXPECT_NEAR(std::abs(glm::dot(seen, along)), 1, float32) << frame.name << " " << degrees;
+        }
     }
 }
 
