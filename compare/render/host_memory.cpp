@@ -108,12 +108,15 @@ std::uint64_t checkHostMemory(SceneViews& views, std::span<const Settings> setti
                               const RenderOptions& options, bool software, std::uint64_t granted,
                               const std::function<FreeMemory()>& free) {
     bool sun = false, samples = false, several = false;
+    gpu::uint layers = 0;
     for (const Settings& of : settings) {
         samples = samples || of.msaa > 1;
+        layers |= views.at(viewRequest(of)).needs.layers;
         several = several || of.camera != settings.front().camera || of.time != settings.front().time;
         sun = sun || (of.shadows != Shadows::off && brightestSun(views.at(viewRequest(of)).lights));
     }
-    const std::uint64_t needed = hostMemory(settings, options, software, sun, views.scene().materials.size());
+    const std::uint64_t needed = hostMemory(settings, withoutAbsentLayers(options, layers), software, sun,
+                                            views.scene().materials.size());
     if (needed <= granted) return needed;
     std::vector<std::string> remedies{"a smaller --size"};
     if (options.channels.size() > 8) remedies.emplace_back("fewer --channels");

@@ -61,6 +61,11 @@ inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, int mode) 
     const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
     return (layerOf(mode) & ~layers) != 0 && !asked;
 }
+inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
+    std::erase_if(options.channels,
+                  [given = options, layers](int mode) { return isLeftOut(given, layers, mode); });
+    return options;
+}
 
 // Cost of one Frame relative to rendering one frame; for progress lines.
 double framesIn(const RenderOptions& options);

@@ -11,9 +11,9 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int CLEARCOAT = static_cast<int>(gpu::DEBUG_lit_clearcoat),
-              SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
-              AMBIENT = static_cast<int>(gpu::DEBUG_lit_ambient);
+constexpr int litCoat = static_cast<int>(gpu::DEBUG_lit_clearcoat),
+              litLobe = static_cast<int>(gpu::DEBUG_lit_specular),
+              litAmbient = static_cast<int>(gpu::DEBUG_lit_ambient);
 
 // Every kind of light at once.
 Scene litByAll() {
@@ -135,7 +135,7 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
         for (std::size_t i = 0; i < ids.pixels(); ++i)
             if (ids.data[i] != 0) differing += !std::equal(there.pixel(i), there.pixel(i) + 3, here.pixel(i));
         EXPECT_EQ(differing, 0u) << "layers elsewhere in the scene change a surface without them";
-        EXPECT_EQ(base[path].channels.count(CLEARCOAT), 0u);
+        EXPECT_EQ(base[path].channels.count(litCoat), 0u);
     }
 }
 
@@ -149,8 +149,8 @@ TEST(Layers, AWhiteFurnaceHolds) {
     scene.lights.clear();
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
-    for (const Frame& frame : bothPaths(scene, settings, {lit, AMBIENT, CLEARCOAT, 8})) {
-        const Image &all = frame.channels.at(AMBIENT), &coat = frame.channels.at(CLEARCOAT);
+    for (const Frame& frame : bothPaths(scene, settings, {lit, litAmbient, litCoat, 8})) {
+        const Image &all = frame.channels.at(litAmbient), &coat = frame.channels.at(litCoat);
         std::size_t coated = 0;
         for (std::size_t i = 0; i < all.pixels(); ++i) {
             if (frame.channels.at(8).data[i] < 0) continue;
@@ -246,7 +246,7 @@ TEST(Layers, TheReferenceAgrees) {
     for (const Frame& path : bothPaths(renderer, settings)) {
         const Coverage covered = coverage(reference, path);
         ASSERT_GT(covered.count, 3000u);
-        for (const int mode : {lit, SPECULAR, CLEARCOAT, 60, 61, 62, 63, 64}) {
+        for (const int mode : {lit, litLobe, litCoat, 60, 61, 62, 63, 64}) {
             const DebugMode& m = debugMode(mode);
             const ChannelStats stats =
                 channelStats(m.metric, m.kind, reference.channels.at(mode), path.channels.at(mode), covered);

@@ -39,8 +39,8 @@ void addIncident(Shading shading, Incident light, inout Radiance radiance) {
              radiance.diffuse, radiance.specular);
     if (!hasLayer(LAYER_CLEARCOAT)) return;
     vec3 below = vec3(0.0), reflected = vec3(0.0);
-    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance, below,
-             reflected);
+    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance,
+             below, reflected);
     addFromCoat(reflected, radiance);
 }
 

@@ -186,7 +186,8 @@ vec3 shadingNormal(vec3 towards) {
 vec3 clearcoatNormal(vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_clearcoat_normal_texture)) {
-        vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal, feature_clearcoat_normal_texture);
+        vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal,
+                               feature_clearcoat_normal_texture);
         n = fromTangentSpace(mappedNormal(texel, material.clearcoat_normal_scale), n, shaded_tangent);
     }
     return shadingNormal(n, towards);
@@ -264,7 +265,8 @@ void addAnisotropy(Material m, inout Surface s) {
         strength *= texel.b;
     }
     vec2 turn = m.anisotropy_rotation;
-    direction = vec2(direction.x * turn.x - direction.y * turn.y, direction.x * turn.y + direction.y * turn.x);
+    direction = vec2(direction.x * turn.x - direction.y * turn.y,
+                     direction.x * turn.y + direction.y * turn.x);
     turn = turnOf(fromTangentSpace(vec3(direction, 0.0), shaded_normal, shaded_tangent), s.normal);
     s.anisotropy = turn != vec2(0.0) ? strength : 0.0;
     s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);

@@ -32,7 +32,8 @@ const std::string& shader(const std::string& name) {
 
 TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
     // Fields whose channel has another name.
-    const std::map<std::string, std::string> names{{"normal", "normals"}};
+    const std::map<std::string, std::string> names{{"normal", "normals"},
+                                                   {"anisotropy_turn", "anisotropy_direction"}};
     // Fields that lighting of G-buffer surfaces does not read.
     const std::map<std::string, std::string> unread{
         {"triangle_normal", "shown as geometric_normal"},

@@ -259,12 +259,17 @@ EnvironmentCosts splitCosts(const Environment& sky, const Surface& s, double& ex
     return shading.costs;
 }
 
+// The isotropic lobe whose albedo the split sum takes.
+Surface asSeen(const Surface& s) {
+    return isotropic(s, widthTowards(widthsOf(s), s.to_viewer));
+}
+
 TEST(ReferenceAnisotropy, UnderAnEvenSkyTheSplitSumIsOffByTheAlbedo) {
     const Environment sky{"sky", Image(32, 16, 3, 3.0f)};
     const Surface s = stretchedMirror(0.3, 1, 0.5, 0.5);
     double exact = 0;
-    const double apart = 3 * (specularAlbedo(isotropic(s)).g - specularAlbedo(s).g);
-    EXPECT_GT(apart, 0.5);
+    const double apart = 3 * std::abs(specularAlbedo(asSeen(s)).g - specularAlbedo(s).g);
+    EXPECT_GT(apart, 0.3);
     EXPECT_NEAR(splitCosts(sky, s, exact).split[0], apart, 0.15);
 }
 
@@ -280,7 +285,7 @@ TEST(ReferenceAnisotropy, TheSplitSumLooksAboutTheBentNormal) {
     double exact = 0;
     const double split = splitCosts(sky, s, exact).split[0];
     EXPECT_LT(exact, 0.3);
-    EXPECT_NEAR(split, specularAlbedo(isotropic(s)).g - exact, 0.05);
+    EXPECT_NEAR(split, specularAlbedo(asSeen(s)).g - exact, 0.05);
     EXPECT_LT(splitCosts(sky, across, exact).split[0], 0.1) << "the plane's own normal";
 }
 

@@ -76,6 +76,8 @@ protected:
             set(gpu::DEBUG_position, {u * z, v * z, -z});
             set(gpu::DEBUG_geometric_normal, {0, 0.6, 0.8});
             set(gpu::DEBUG_normals, {0, 0.6, 0.8});
+            set(gpu::DEBUG_clearcoat_normal, {0, 0.6, 0.8});
+            set(gpu::DEBUG_anisotropy_direction, {1, 0, 0});
             set(gpu::DEBUG_texcoords, {u * z / 8, v * z / 8});
         }
     }

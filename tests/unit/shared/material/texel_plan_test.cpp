@@ -84,6 +84,7 @@ TEST(TexelPlan, OneColorIsAFactor) {
     scene.images[0].rgba.assign(scene.images[0].rgba.size(), 9);
     Material m;
     m.emissive = {1, 1, 1};
+    m.clearcoat = m.anisotropy = 1;
     for (const MaterialSlot& slot : materialSlots) (m.*slot.texture).texture = 0;
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
 }
