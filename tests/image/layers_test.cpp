@@ -24,24 +24,22 @@ Scene litByAll() {
 Settings inAllLight(GBufferEncoding gbuffer) {
     Settings settings = smallPicture(gbuffer);
     settings.ambient = {0.1f, 0.2f, 0.3f};
-    settings.lights = "point:3,spot:2,rect:1,disc:1,tube:1";
+    settings.lights = "point:3,spot:2";
     settings.shadows = Shadows::pcf;
-    settings.shadow_lights = 1;
-    settings.haze = true;
     return settings;
 }
 
 std::vector<Settings> settingsOfLayers() {
-    std::vector<Settings> all(6, inAllLight(GBufferEncoding::full));
+    std::vector<Settings> all(4, inAllLight(GBufferEncoding::full));
+    all[0].haze = true;
     all[1].msaa = 4;
+    all[1].ibl = Ibl::sampled;
+    all[2].lights = "area:3";
     all[2].multiscatter = Multiscatter::fdez;
-    all[2].area_lights = AreaLights::representative;
-    all[3].ibl = Ibl::sampled;
-    all[3].multiscatter = Multiscatter::energy;
-    all[4].spec_aa = true;
-    all[4].spec_aa_normals = SpecularNormals::mapped;
-    all[5].assign = Assignment::tiled;
-    all[5].lighting = Lighting::compute;
+    all[3].assign = Assignment::tiled;
+    all[3].lighting = Lighting::compute;
+    all[3].spec_aa = true;
+    all[3].spec_aa_normals = SpecularNormals::mapped;
     return all;
 }
 
@@ -81,9 +79,8 @@ TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
         scene.materials[i].clearcoat = scene.materials[i].anisotropy = 0;
     const Requirements needs = requirements(scene, poseAt(scene, 0));
     Renderer renderer(device(), scene, pipelines());
-    std::vector<Settings> all = settingsOfLayers();
-    all.push_back(inAllLight(GBufferEncoding::full));
-    all.back().assign = Assignment::clustered;
+    std::vector<Settings> all(2, inAllLight(GBufferEncoding::full));
+    all[1].msaa = 4;
     for (Settings& settings : all) {
         settings.layers = Layers::forward;
         const std::vector<Frame> full = bothPaths(renderer, settings);
@@ -139,24 +136,24 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
     }
 }
 
-// The coat is visible, adds what it takes, and reflects at most what the furnace holds.
+// Under uniform radiance 1 no surface reflects more.
 TEST(Layers, AWhiteFurnaceHolds) {
     Scene scene = loadScene("builtin:layers");
     for (Material& m : scene.materials) {
         m.base_color = {1, 1, 1, 1};
         m.metallic = 1;  // appendix B's base under a layer does not conserve energy
     }
-    scene.lights.clear();
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
-    for (const Frame& frame : bothPaths(scene, settings, {lit, litAmbient, litCoat, 8})) {
-        const Image &all = frame.channels.at(litAmbient), &coat = frame.channels.at(litCoat);
+    constexpr int coat = static_cast<int>(gpu::DEBUG_clearcoat),
+                  ids = static_cast<int>(gpu::DEBUG_material_id);
+    for (const Frame& frame : bothPaths(scene, settings, {litAmbient, coat, ids})) {
+        const Image& all = frame.channels.at(litAmbient);
         std::size_t coated = 0;
         for (std::size_t i = 0; i < all.pixels(); ++i) {
-            if (frame.channels.at(8).data[i] < 0) continue;
+            if (frame.channels.at(ids).data[i] < 0) continue;
             EXPECT_LE(all.pixel(i)[0], 1 + 1e-4f);
-            EXPECT_LE(coat.pixel(i)[0], all.pixel(i)[0]);
-            coated += coat.pixel(i)[0] > 0.03f;
+            coated += frame.channels.at(coat).data[i] > 0.5f;
         }
         EXPECT_GT(coated, 500u) << frame.name;
     }

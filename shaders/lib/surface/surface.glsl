@@ -63,7 +63,8 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 vec3 anisotropyDirection(Surface s) {
     vec3 x, y;
     axesAcross(s.normal, x, y);
-    return x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
+    vec3 direction = x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
+    return s.anisotropy > 0.0 ? direction : vec3(0.0);  // never -0
 }
 
 // The turn of any vector that is not along `n`; 0 otherwise.
