@@ -82,6 +82,7 @@ public:
         SurfaceImages images(device(), settings.size);
         for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
             const int number = surfaceChannels()[i];
+            if (layerOf(number) != 0) continue;
             Image& image = frame.channels.at(number);
             for (const Fault& fault : injected)
                 if (fault.channel == debugMode(number).name)

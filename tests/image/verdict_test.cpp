@@ -215,6 +215,39 @@ const NegativeControl negativeControls[] = {
      [](Scene& s) {
          s.environment = Environment{"sky", Image(8, 4, 3, 1e-4f)};
      }},
+    {"lit_clearcoat", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }, {}, "builtin:layers"},
+    {"clearcoat",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.clearcoat *= 0.999f;
+     },
+     {},
+     "builtin:layers"},
+    {"clearcoat_roughness",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.clearcoat_roughness *= 0.999f;
+     },
+     {},
+     "builtin:layers"},
+    {"clearcoat_normal",
+     [](Scene& s) {
+         for (Mesh& mesh : s.meshes)
+             for (Primitive& p : mesh.primitives)
+                 for (auto& n : p.normals) n.x += 2e-4f;
+     },
+     {},
+     "builtin:layers"},
+    {"anisotropy",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.anisotropy *= 0.999f;
+     },
+     {},
+     "builtin:layers"},
+    {"anisotropy_direction",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.anisotropy_rotation += 3e-4f;
+     },
+     {},
+     "builtin:layers"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),
