@@ -131,9 +131,9 @@ const ChannelStats& Measurement::stats() const {
 
 const StandardMetrics& Measurement::plain() const {
     if (!plain_)
-        plain_ = standardMetrics(pair_.reference, pair_.test, pair_.kind,
-                                 pair_.display ? Range::display : Range::linear, *pair_.coverage,
-                                 pair_.metric);
+        plain_ =
+            standardMetrics(pair_.reference, pair_.test, pair_.kind,
+                            pair_.display ? Range::display : Range::linear, *pair_.coverage, pair_.metric);
     return *plain_;
 }
 

@@ -95,13 +95,13 @@ struct Material {
     float occlusion_strength;
     float alpha_cutoff;
     float lightmap_intensity;
-    float transmission;    // KHR_materials_transmission: transmissionFactor
-    float clearcoat;       // KHR_materials_clearcoat: the layer's weight, 0 to 1
-    float clearcoat_roughness;     // perceptual
+    float transmission;         // KHR_materials_transmission: transmissionFactor
+    float clearcoat;            // KHR_materials_clearcoat: the layer's weight, 0 to 1
+    float clearcoat_roughness;  // perceptual
     float clearcoat_normal_scale;
-    float anisotropy;              // KHR_materials_anisotropy: anisotropyStrength, 0 to 1
-    vec2 anisotropy_rotation;      // cosine and sine of anisotropyRotation, from tangent to bitangent
-    uint second_texcoord;  // bit SLOT_*: the slot reads the second UV set
+    float anisotropy;          // KHR_materials_anisotropy: anisotropyStrength, 0 to 1
+    vec2 anisotropy_rotation;  // cosine and sine of anisotropyRotation, from tangent to bitangent
+    uint second_texcoord;      // bit SLOT_*: the slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
     vec4 texels[SLOT_COUNT];  // of slots with TEXEL_CONSTANT, as the device decodes them
 };

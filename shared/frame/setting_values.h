@@ -169,8 +169,8 @@ inline constexpr auto enum_names<Lighting> =
 // deferred lighting.
 enum class Layers { gbuffer, forward };
 template <>
-inline constexpr auto enum_names<Layers> =
-    std::to_array<EnumName<Layers>>({{Layers::gbuffer, "gbuffer"}, {Layers::forward, "forward"}});
+inline constexpr auto enum_names<Layers> = std::to_array<EnumName<Layers>>({{Layers::gbuffer, "gbuffer"},
+                                                                            {Layers::forward, "forward"}});
 
 enum class ShadingPrecision { fp32, fp16 };
 template <>
