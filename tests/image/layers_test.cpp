@@ -98,7 +98,9 @@ TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
             differing += !std::equal(deferred.pixel(i), deferred.pixel(i) + 3, forward.pixel(i));
         }
         EXPECT_GT(layered, 1000u);
-        if (settings.msaa == 1) EXPECT_EQ(differing, 0u);
+        if (settings.msaa == 1) {
+            EXPECT_EQ(differing, 0u);
+        }
         const Report report = makeReport(
             packed, {needs, needs}, {device().info().name, device().info().driver, device().info().type}, {});
         for (const ChannelDiff& channel : report.comparisons[0].channels)
