@@ -117,7 +117,7 @@ const Materials& SharedResources::materials(TexturePrecision precision) {
 
 namespace {
 
-// What the G-buffer stores and deferred lighting reads.
+// Requirements of the surfaces that the G-buffer stores.
 Requirements storedNeeds(const Requirements& needs, const Settings& settings) {
     Requirements stored = needs;
     if (settings.layers == Layers::forward) stored.layers = 0;
@@ -131,7 +131,7 @@ void checkAttachments(const Device& device, const GBufferLayout& gbuffer, const 
     if (settings.path == Path::deferred && needed > most)
         throw std::runtime_error(
             fmt::format("the G-buffer of this scene needs {} attachments, and {} draws to {} at once; use "
-                        "--gbuffer standard or --msaa 1",
+                        "--gbuffer standard or --layers forward",
                         needed, device.info().name, most));
 }
 

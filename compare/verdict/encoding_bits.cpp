@@ -26,7 +26,7 @@ unsigned normalBits(GBufferEncoding packed) {
     return packed == GBufferEncoding::compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS;
 }
 
-// Of a channel of a layer that the scene has.
+// Bits of a layer's channel, if the scene has the layer.
 std::optional<StoredField> layerField(int mode, GBufferEncoding packed) {
     using enum StoredField::Code;
     switch (static_cast<gpu::uint>(mode)) {

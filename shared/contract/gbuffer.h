@@ -79,12 +79,12 @@ CONTRACT_CONST(uint, STANDARD_ROUGHNESS_BITS, 12);
 CONTRACT_CONST(uint, STANDARD_METALLIC_BITS, 8);
 CONTRACT_CONST(uint, STANDARD_ID_BITS, 12);
 CONTRACT_CONST(uint, EMISSION_MANTISSA_BITS, 9);
-// Of layers, in both packed encodings.
+// Layers have the same bits in both packed encodings.
 CONTRACT_CONST(uint, CLEARCOAT_BITS, 12);
 CONTRACT_CONST(uint, CLEARCOAT_ROUGHNESS_BITS, 12);
 CONTRACT_CONST(uint, CLEARCOAT_NORMAL_BITS, 16);
 CONTRACT_CONST(uint, ANISOTROPY_BITS, 12);
-// Of an angle in [0, pi) about the decoded normal: highlights stretch both ways.
+// The direction is an angle in [0, pi) about the decoded normal: highlights stretch both ways.
 CONTRACT_CONST(uint, ANISOTROPY_ANGLE_BITS, 16);
 
 // Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).

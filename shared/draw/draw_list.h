@@ -71,7 +71,7 @@ struct DrawList {
     std::uint32_t culled = 0;     // number of culled instances
     std::uint64_t triangles = 0;  // triangles in view; in a caster list, drawn triangles
     std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
-    // The solids that the deferred path's G-buffer stores, and those that it draws after lighting.
+    // The deferred path stores the former in its G-buffer and draws the latter after lighting.
     std::span<const DrawItem> storedSolids() const { return std::span(items).first(stored); }
     std::span<const DrawItem> apartSolids() const { return solids().subspan(stored); }
     std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }

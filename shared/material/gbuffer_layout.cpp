@@ -30,7 +30,8 @@ gpu::uint geometricNormalBits(GBufferEncoding encoding) {
 
 namespace {
 
-// Packed: words of what there is. Full: the coat's normal and weight, then all other values.
+// Packed encodings store only words of present layers; `full` stores the coat's normal and weight, then the
+// rest.
 void addLayers(GBufferLayout& layout, bool full) {
     const bool coat = (layout.layers & gpu::LAYER_CLEARCOAT) != 0;
     const bool anisotropy = (layout.layers & gpu::LAYER_ANISOTROPY) != 0;

@@ -76,7 +76,7 @@ float smithLambda(float alpha2, float cosine) {
     float c2 = cosine * cosine;
     return 0.5 * (sqrt(1.0 + alpha2 * max(1.0 - c2, 0.0) / c2) - 1.0);
 }
-// Of a unit vector with components along and across the lobe, and the cosine.
+// `w`: unit vector; its components along the lobe, across it and along the normal.
 float smithLambda(Brdf b, vec3 w) {
     vec2 wide = w.xy * b.alphas;
     float stretched = 0.5 * (sqrt(1.0 + dot(wide, wide) / (w.z * w.z)) - 1.0);

@@ -11,7 +11,7 @@ layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform textu
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_CLEARCOAT) uniform texture2D partial_clearcoat;
 
 vec4 partialDiffuse() { return texelFetch(partial_diffuse, pixelHere(), 0); }
-// Of partialSpecular().
+// The clear coat's part of partialSpecular().
 vec4 partialClearcoat() { return texelFetch(partial_clearcoat, pixelHere(), 0); }
 vec4 partialSpecular() { return texelFetch(partial_specular, pixelHere(), 0); }
 

@@ -21,7 +21,7 @@ struct Brdf {
     float alpha2;
     float n_dot_v;
     float smith_v;   // sqrt((n.v)^2 (1 - alpha^2) + alpha^2)
-    // Of an anisotropic lobe, whose `alpha` is the geometric mean of two; only with LAYER_ANISOTROPY.
+    // An anisotropic lobe has two widths; `alpha` is their geometric mean. Only with LAYER_ANISOTROPY.
     bool anisotropic;
     vec3 along, across;  // unit: where highlights stretch, and perpendicular to it and the normal
     vec2 alphas;         // GGX widths along and across
