@@ -18,8 +18,8 @@ namespace {
 constexpr double unormSlack = 8 * 0x1p-24;
 constexpr double squareSlack = 2 * unormSlack;
 
-// Error of atan2, sine, cosine and the plane's axes in float32, radians. Mesa's polynomial of atan is off by
-// 2^-19. Vulkan permits more (4096 ULP of atan2, 2^-11 of a sine), which no known driver uses.
+// float32 error of the angle's polynomial (shaders/lib/math/angles.glsl, relative 6e-7), of sine and cosine,
+// and of the plane's axes, radians. Vulkan permits a sine 2^-11 off; lavapipe stays within this.
 constexpr double lineSlack = 0x1p-18;
 
 unsigned normalBits(GBufferEncoding packed) {
