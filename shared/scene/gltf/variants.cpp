@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <string_view>
 
 namespace diptych::gltf {
 
@@ -32,9 +33,9 @@ void readOrNote(NoteList& notes, const Read& read) {
     }
 }
 
-const Json& arrayIn(const Json& object, const char* key, const std::string& who) {
+const Json& arrayIn(const Json& object, const char* key, std::string_view who) {
     const Json* found = memberOf(object, key);
-    if (!found || !found->is_array()) fail(who, fmt::format("has no array {}", key));
+    if (!found || !found->is_array()) fail(fmt::format("{}: has no array {}", who, key));
     return *found;
 }
 
