@@ -36,6 +36,11 @@ struct Surface {
     // to `normal`, either sign; 0 where isotropic.
     double anisotropy = 0;
     glm::dvec3 anisotropy_direction{0};
+    // KHR_materials_sheen: colour and perceptual roughness; 0 without one.
+    glm::dvec3 sheen_color{0};
+    double sheen_roughness = 0;
+    // KHR_materials_iridescence: weight, index and thickness (nm) of the thin film; 0 without one.
+    double iridescence = 0, iridescence_ior = 0, iridescence_thickness = 0;
     BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};

@@ -49,6 +49,7 @@
     X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1")       \
     X(45, lit_environment,  3, relative, color,  any,      both,         "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)") \
     X(46, lit_clearcoat,    3, relative, color,  any,      both,         "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)") \
+    X(47, lit_sheen,        3, relative, color,  any,      both,         "sheen's contribution to lit_specular and lit_ambient, W/(sr m^2)") \
     X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
     X(51, lightmap,         3, relative, color,  positive, both,         "lightmap irradiance / pi, W/(sr m^2)") \
     X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent of the normal map, world; 0 without a normal map") \
@@ -60,7 +61,12 @@
     X(61, clearcoat_roughness, 1, absolute, scalar, share, both,         "perceptual roughness of the clear coat, 0 to 1; 0 without one") \
     X(62, clearcoat_normal, 3, angular,  vector, unit_or_zero, both,         "normal of the clear coat, world; 0 without one") \
     X(63, anisotropy,       1, absolute, scalar, share,    both,         "strength of anisotropy, 0 to 1") \
-    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both,         "direction along which highlights stretch, world, either sign; 0 where isotropic")
+    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both,         "direction along which highlights stretch, world, either sign; 0 where isotropic") \
+    X(65, sheen_color,      3, absolute, color,  share,    both,         "colour of the sheen, linear Rec.709") \
+    X(66, sheen_roughness,  1, absolute, scalar, share,    both,         "perceptual roughness of the sheen, 0 to 1; 0 without one") \
+    X(67, iridescence,      1, absolute, scalar, share,    both,         "weight of the thin film, 0 to 1") \
+    X(68, iridescence_ior,  1, absolute, scalar, positive, both,         "index of refraction of the thin film; 0 without one") \
+    X(69, iridescence_thickness, 1, relative, scalar, positive, both,    "thickness of the thin film, nm; 0 without one")
 // clang-format on
 
 // name  image  component: where captures store a channel. Captures render images of four components;
@@ -97,23 +103,29 @@
     X(clearcoat,         11, 3) \
     X(anisotropy_direction, 12, 0) \
     X(anisotropy,        12, 3) \
-    X(clearcoat_roughness, 13, 0) \
-    X(shaded_samples,    14, 0) \
-    X(lit,               15, 0) \
-    X(lit_diffuse,       16, 0) \
-    X(shadow_visibility, 16, 3) \
-    X(lit_specular,      17, 0) \
-    X(local_visibility,  17, 3) \
-    X(lit_ambient,       18, 0) \
-    X(lit_haze,          19, 0) \
-    X(transmittance,     20, 0) \
-    X(lit_environment,   21, 0) \
-    X(lit_clearcoat,     22, 0)
+    X(sheen_color,       13, 0) \
+    X(sheen_roughness,   13, 3) \
+    X(clearcoat_roughness, 14, 0) \
+    X(iridescence,       14, 1) \
+    X(iridescence_ior,   14, 2) \
+    X(iridescence_thickness, 14, 3) \
+    X(shaded_samples,    15, 0) \
+    X(lit,               16, 0) \
+    X(lit_diffuse,       17, 0) \
+    X(shadow_visibility, 17, 3) \
+    X(lit_specular,      18, 0) \
+    X(local_visibility,  18, 3) \
+    X(lit_ambient,       19, 0) \
+    X(lit_haze,          20, 0) \
+    X(transmittance,     21, 0) \
+    X(lit_environment,   22, 0) \
+    X(lit_clearcoat,     23, 0) \
+    X(lit_sheen,         24, 0)
 // clang-format on
 
 CONTRACT_BEGIN
-CONTRACT_CONST(uint, CAPTURE_IMAGES, 23);
-CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 15);
+CONTRACT_CONST(uint, CAPTURE_IMAGES, 25);
+CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 16);
 // Colour attachments of a capture pass; device_support.h requires as many.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
 

@@ -123,7 +123,11 @@
     /* a sum of LAYER_*: those that the G-buffer stores */                                                  \
     X(67, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
     /* KHR_materials_pbrSpecularGlossiness (material.h) */                                                  \
-    X(68, specular_glossiness,        item,    PASSES_SURFACE)
+    X(68, specular_glossiness,        item,    PASSES_SURFACE)                                              \
+    X(69, sheen_color_texture,        item,    PASSES_SURFACE)                                              \
+    X(70, sheen_roughness_texture,    item,    PASSES_SURFACE)                                              \
+    X(71, iridescence_texture,        item,    PASSES_SURFACE)                                              \
+    X(72, iridescence_thickness_texture, item, PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -13,19 +13,20 @@
 //   ids       R32  (only if 10 bits            R32  (only if 12 bits
 //                   are too few)                   are too few)
 //   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
-//   layers    R32 to RGBA32: two words of a clear coat, oct 16.16 and      RGBA32 coat's normal, weight
-//             weight 12, roughness 12; a word of anisotropy, strength 12,  RGBA32 coat's roughness,
-//             anisotropy, angle 16. Bit 28 of the last word: the layer is there                  its
-//             direction
+//   layers    words in LAYERS to LAYERS_4, four each, only for what materials have:
+//               clear coat: oct 16.16; weight 12, roughness 12, bit 28     normal, weight, roughness
+//               anisotropy: strength 12, angle 16, bit 28                  strength, direction 2
+//               sheen: sqrt 8.8.8, roughness 8                             colour, roughness
+//               iridescence: weight 8, ior 9, thickness 15                 weight, ior, thickness
 //   shaded    RG32 shading depth (bits of a float) and sample mask (MSAA only)
-//   bytes     12 to 40, + 4 depth          16 to 44, + 4 depth             64 to 128, + 4 depth
+//   bytes     12 to 44, + 4 depth          16 to 48, + 4 depth             64 to 156, + 4 depth
 //
 // sqrt: the square root is stored, so 0.04, the default F0, is exactly 51/255.
 // emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
 // float if radiance exceeds the range of 9.9.9.e5.
 // lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
 // shaders/lib/surface/gbuffer.glsl distinguishes them from black.
-// layers exists if a material has a clear coat or anisotropy, with a word only for what there is.
+// Bit 28 says that the surface has the layer; a sheen or a film that the surface lacks is a word of 0.
 // specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
 // With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
 // pixel: the mean location of the samples that its triangle covers, and the depth there.
@@ -46,8 +47,10 @@
     X(5, IDS,      fetched_image, "material ids")    \
     X(6, LIGHTMAP, fetched_image, "lightmap")        \
     X(7, LAYERS,   fetched_image, "layers")          \
-    X(8, LAYERS_2, fetched_image, "further layers")  \
-    X(9, SHADED,   fetched_image, "shaded sample locations")
+    X(8, LAYERS_2, fetched_image, "layers 2")        \
+    X(9, LAYERS_3, fetched_image, "layers 3")        \
+    X(10, LAYERS_4, fetched_image, "layers 4")       \
+    X(11, SHADED,   fetched_image, "shaded sample locations")
 // clang-format on
 
 CONTRACT_BEGIN
@@ -86,6 +89,23 @@ CONTRACT_CONST(uint, CLEARCOAT_NORMAL_BITS, 16);
 CONTRACT_CONST(uint, ANISOTROPY_BITS, 12);
 // The direction is an angle in [0, pi) about the decoded normal: highlights stretch both ways.
 CONTRACT_CONST(uint, ANISOTROPY_ANGLE_BITS, 16);
+CONTRACT_CONST(uint, SHEEN_BITS, 8);  // of the roots of its colour, and of its roughness
+CONTRACT_CONST(uint, IRIDESCENCE_BITS, 8);
+// (ior - 1) / (ior + 1), 0 to 1; code 0: no film, so codes from 1 count.
+CONTRACT_CONST(uint, IRIDESCENCE_IOR_BITS, 9);
+// A half without its sign: 10 bits of mantissa from 2^-14 to 65504 nm.
+CONTRACT_CONST(uint, IRIDESCENCE_THICKNESS_BITS, 15);
+
+// Words of each layer by encoding; they follow each other in the order of LAYER_*.
+CONTRACT_CONST(uint, CLEARCOAT_WORDS, 2);
+CONTRACT_CONST(uint, ANISOTROPY_WORDS, 1);
+CONTRACT_CONST(uint, SHEEN_WORDS, 1);
+CONTRACT_CONST(uint, IRIDESCENCE_WORDS, 1);
+CONTRACT_CONST(uint, CLEARCOAT_FULL_WORDS, 5);
+CONTRACT_CONST(uint, ANISOTROPY_FULL_WORDS, 3);
+CONTRACT_CONST(uint, SHEEN_FULL_WORDS, 4);
+CONTRACT_CONST(uint, IRIDESCENCE_FULL_WORDS, 3);
+CONTRACT_CONST(uint, LAYER_WORDS, 16);  // of LAYERS to LAYERS_4
 
 // Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
 CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);

@@ -7,19 +7,23 @@
 // Texture slots of a material, at these bindings of SET_MATERIAL. FEATURE_<name>_texture says whether it
 // has one, and how to read it: TEXEL_*.
 // clang-format off
-#define MATERIAL_SLOTS(X)        \
-    X(0, base_color)             \
-    X(1, metallic_roughness)     \
-    X(2, normal)                 \
-    X(3, occlusion)              \
-    X(4, emissive)               \
-    X(5, specular)               \
-    X(6, specular_color)         \
-    X(7, lightmap)               \
-    X(8, clearcoat)              \
-    X(9, clearcoat_roughness)    \
-    X(10, clearcoat_normal)      \
-    X(11, anisotropy)
+#define MATERIAL_SLOTS(X)            \
+    X(0, base_color)                 \
+    X(1, metallic_roughness)         \
+    X(2, normal)                     \
+    X(3, occlusion)                  \
+    X(4, emissive)                   \
+    X(5, specular)                   \
+    X(6, specular_color)             \
+    X(7, lightmap)                   \
+    X(8, clearcoat)                  \
+    X(9, clearcoat_roughness)        \
+    X(10, clearcoat_normal)          \
+    X(11, anisotropy)                \
+    X(12, sheen_color)               \
+    X(13, sheen_roughness)           \
+    X(14, iridescence)               \
+    X(15, iridescence_thickness)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -52,8 +56,10 @@ CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
 CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
 
 // FEATURE_layers: a sum of the layers of a draw's material, or of a scene's materials.
-CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);   // KHR_materials_clearcoat
-CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);  // KHR_materials_anisotropy
+CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);    // KHR_materials_clearcoat
+CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);   // KHR_materials_anisotropy
+CONTRACT_CONST(uint, LAYER_SHEEN, 4);        // KHR_materials_sheen
+CONTRACT_CONST(uint, LAYER_IRIDESCENCE, 8);  // KHR_materials_iridescence
 
 // FEATURE_specular_aa filters the screen-space change of the interpolated normal or of the normal-mapped
 // one.
@@ -101,7 +107,12 @@ struct Material {
     float clearcoat_normal_scale;
     float anisotropy;          // KHR_materials_anisotropy: anisotropyStrength, 0 to 1
     vec2 anisotropy_rotation;  // cosine and sine of anisotropyRotation, from tangent to bitangent
-    uint second_texcoord;      // bit SLOT_*: the slot reads the second UV set
+    vec3 sheen_color;          // KHR_materials_sheen
+    float sheen_roughness;     // perceptual
+    float iridescence;         // KHR_materials_iridescence: weight of the thin film, 0 to 1
+    float iridescence_ior;     // of the film
+    float iridescence_thickness_least, iridescence_thickness_most;  // of the film, nm
+    uint second_texcoord;  // bit SLOT_*: the slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
     vec4 texels[SLOT_COUNT];  // of slots with TEXEL_CONSTANT, as the device decodes them
 };

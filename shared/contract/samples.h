@@ -44,11 +44,11 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 // number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
-    X(16, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \
-    X(17, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
-    X(18, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
+    X(18, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \
+    X(19, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
+    X(20, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
                                       " batch in compute the diffuse sum")                     \
-    X(19, SPECULAR_TARGET, storage_image, "RGBA32F: of a light batch in compute the specular sum")
+    X(21, SPECULAR_TARGET, storage_image, "RGBA32F: of a light batch in compute the specular sum")
 // clang-format on
 
 #define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);

@@ -22,18 +22,26 @@
     X(7,  geometric_normal)  \
     X(8,  position)          \
     X(9,  dielectric_f0)     \
-    X(11, dielectric_f90)    \
-    X(12, clearcoat)         \
+    X(10, dielectric_f90)    \
+    X(11, clearcoat)         \
     X(13, clearcoat_roughness) \
-    X(20, clearcoat_normal)  \
-    X(21, anisotropy)        \
-    X(22, anisotropy_direction)
+    X(14, clearcoat_normal)  \
+    X(15, anisotropy)        \
+    X(22, anisotropy_direction) \
+    X(23, sheen_color)       \
+    X(24, sheen_roughness)   \
+    X(25, iridescence)       \
+    X(26, iridescence_ior)   \
+    X(27, iridescence_thickness)
 
 // Bindings of SET_GBUFFER after those of samples, for channels alone.
 #define CHANNEL_BINDINGS(X)                                      \
-    X(20, CHANNEL_1, fetched_image, "a channel of a surface")    \
-    X(21, CHANNEL_2, fetched_image, "a channel of a surface")    \
-    X(22, CHANNEL_3, fetched_image, "a channel of a surface")
+    X(22, CHANNEL_1, fetched_image, "a channel of a surface")    \
+    X(23, CHANNEL_2, fetched_image, "a channel of a surface")    \
+    X(24, CHANNEL_3, fetched_image, "a channel of a surface")    \
+    X(25, CHANNEL_4, fetched_image, "a channel of a surface")    \
+    X(26, CHANNEL_5, fetched_image, "a channel of a surface")    \
+    X(27, CHANNEL_6, fetched_image, "a channel of a surface")
 // clang-format on
 
 CONTRACT_BEGIN

@@ -9,11 +9,11 @@
 // number  name  kind  contents
 // clang-format off
 #define TRANSPARENCY_BINDINGS(X)                                                                            \
-    X(11, BLENDED_DEPTHS, fetched_image, "R32F: sums of optical depth")                                             \
-    X(12, BLENDED_MOMENTS, fetched_image, "RGBA32F: sums of optical depth times the first four powers of depth")    \
-    X(13, BLENDED_SUMS, fetched_image, "RGBA32F: sums of weighted radiance, and of weighted opacity")               \
-    X(14, FRAGMENT_KEYS, storage_buffer, "uint64[]: keys, sums, counters: shaders/lib/blending/fragment_list.glsl")  \
-    X(15, FRAGMENTS, storage_buffer, "vec4[layers][pixels]: radiance times opacity, W/(sr m^2), opacity")
+    X(13, BLENDED_DEPTHS, fetched_image, "R32F: sums of optical depth")                                             \
+    X(14, BLENDED_MOMENTS, fetched_image, "RGBA32F: sums of optical depth times the first four powers of depth")    \
+    X(15, BLENDED_SUMS, fetched_image, "RGBA32F: sums of weighted radiance, and of weighted opacity")               \
+    X(16, FRAGMENT_KEYS, storage_buffer, "uint64[]: keys, sums, counters: shaders/lib/blending/fragment_list.glsl")  \
+    X(17, FRAGMENTS, storage_buffer, "vec4[layers][pixels]: radiance times opacity, W/(sr m^2), opacity")
 // clang-format on
 
 CONTRACT_BEGIN

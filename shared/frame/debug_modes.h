@@ -49,7 +49,8 @@ inline constexpr std::array litModes{static_cast<int>(gpu::DEBUG_lit),
                                      static_cast<int>(gpu::DEBUG_lit_specular),
                                      static_cast<int>(gpu::DEBUG_lit_ambient),
                                      static_cast<int>(gpu::DEBUG_lit_environment),
-                                     static_cast<int>(gpu::DEBUG_lit_clearcoat)};
+                                     static_cast<int>(gpu::DEBUG_lit_clearcoat),
+                                     static_cast<int>(gpu::DEBUG_lit_sheen)};
 constexpr bool isLit(int mode) {
     return std::ranges::find(litModes, mode) != litModes.end();
 }
@@ -75,6 +76,12 @@ constexpr gpu::uint layerOf(int mode) {
     if (mode == static_cast<int>(gpu::DEBUG_anisotropy) ||
         mode == static_cast<int>(gpu::DEBUG_anisotropy_direction))
         return gpu::LAYER_ANISOTROPY;
+    if (mode == static_cast<int>(gpu::DEBUG_lit_sheen) || mode == static_cast<int>(gpu::DEBUG_sheen_color) ||
+        mode == static_cast<int>(gpu::DEBUG_sheen_roughness))
+        return gpu::LAYER_SHEEN;
+    if (mode >= static_cast<int>(gpu::DEBUG_iridescence) &&
+        mode <= static_cast<int>(gpu::DEBUG_iridescence_thickness))
+        return gpu::LAYER_IRIDESCENCE;
     return 0;
 }
 

@@ -28,6 +28,10 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::clearcoat_roughness_texture, false},
     {&Material::clearcoat_normal_texture, false},
     {&Material::anisotropy_texture, false},
+    {&Material::sheen_color_texture, true},
+    {&Material::sheen_roughness_texture, true},  // alpha, often of the colour's image
+    {&Material::iridescence_texture, false},
+    {&Material::iridescence_thickness_texture, false},
 }};
 
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
@@ -51,6 +55,12 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
             return material.clearcoat != 0 && material.clearcoat_normal_scale != 0;
         case gpu::SLOT_anisotropy:
             return material.anisotropy != 0;
+        case gpu::SLOT_sheen_color:
+        case gpu::SLOT_sheen_roughness:
+            return material.sheen_color != glm::vec3(0);
+        case gpu::SLOT_iridescence:
+        case gpu::SLOT_iridescence_thickness:
+            return material.iridescence != 0;
         default:
             return true;
     }

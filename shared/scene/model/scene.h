@@ -85,6 +85,10 @@ struct Material {
     float transmission = 0;        // KHR_materials_transmission, infinitely thin
     float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;  // KHR_materials_clearcoat
     float anisotropy = 0, anisotropy_rotation = 0;  // KHR_materials_anisotropy; rad, tangent to bitangent
+    glm::vec3 sheen_color{0, 0, 0};                 // KHR_materials_sheen
+    float sheen_roughness = 0;
+    float iridescence = 0, iridescence_ior = 1.3f;                              // KHR_materials_iridescence
+    float iridescence_thickness_least = 100, iridescence_thickness_most = 400;  // nm
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -95,7 +99,8 @@ struct Material {
     // In the order of SLOT_* in contract/material.h.
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,
-        clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture;
+        clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture, sheen_color_texture,
+        sheen_roughness_texture, iridescence_texture, iridescence_thickness_texture;
 };
 
 // Values that Material stores combined, split into the parts that animations replace.
@@ -113,7 +118,9 @@ inline bool blends(const Material& m) {
 // A sum of LAYER_* of contract/material.h.
 inline std::uint32_t layersOf(const Material& m) {
     if (m.unlit) return 0;
-    return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0);
+    return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0) |
+           (m.sheen_color != glm::vec3(0) ? gpu::LAYER_SHEEN : 0) |
+           (m.iridescence > 0 ? gpu::LAYER_IRIDESCENCE : 0);
 }
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After
