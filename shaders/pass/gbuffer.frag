@@ -40,7 +40,7 @@ void main() {
     write(on(feature_dielectric_specular), t.attachments[GBUFFER_SPECULAR], free);
     write(on(feature_gbuffer_wide_material_id), t.attachments[GBUFFER_IDS], free);
     write(on(feature_lightmap), t.attachments[GBUFFER_LIGHTMAP], free);
-    write(storesLayers(), t.attachments[GBUFFER_LAYERS], free);
-    write(on(feature_gbuffer_layers) && fullGBuffer(), t.attachments[GBUFFER_LAYERS_2], free);
+    for (uint i = 0; i < LAYER_WORDS / 4; ++i)
+        write(hasLayerAttachment(i), t.attachments[GBUFFER_LAYERS + i], free);
     write(multisampled(), t.attachments[GBUFFER_SHADED], free);
 }

@@ -5,8 +5,10 @@
 #include "shared/contract/view.h"
 #include "shared/draw/packed_view.h"
 #include "shared/environment/directional_albedo.h"
+#include "shared/environment/sheen_albedo.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace diptych {
@@ -51,7 +53,8 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
                                                     VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     ltc_ = LtcImage(device, uploader, lights.area() > 0);
     std::vector<glm::vec4> albedo;
-    if (choice.albedo_table) albedo = directionalAlbedoPairs();
+    if (choice.albedo_table || choice.sheen_table) albedo = directionalAlbedoPairs();
+    if (choice.sheen_table) std::ranges::copy(sheenAlbedoRows(), std::back_inserter(albedo));
     albedo_ = makeBuffer<glm::vec4>(device, uploader, "directional albedo", albedo,
                                     VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     albedo_view_ = makeTexelView(device, "directional albedo", albedo_, VK_FORMAT_R32G32B32A32_SFLOAT);

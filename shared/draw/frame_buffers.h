@@ -20,7 +20,7 @@ public:
     struct Choice {
         LightLists::Choice lists{};
         std::optional<std::uint32_t> object_pixel_lights{};  // --pixel-lights with --assign per_object
-        bool albedo_table = false;                           // uploads the table of albedo.h
+        bool albedo_table = false, sheen_table = false;      // uploads the tables of albedo.h
     };
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                  const DrawList& draws, const GpuLights& lights, const Choice& choice);

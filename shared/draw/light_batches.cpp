@@ -2,6 +2,7 @@
 #include "shared/draw/light_batches.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace diptych {
@@ -24,16 +25,9 @@ std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, cons
     return sums;
 }
 
-namespace {
-
-bool isCoated(gpu::uint layers) {
-    return (layers & gpu::LAYER_CLEARCOAT) != 0;
-}
-
-}  // namespace
-
 std::vector<VkFormat> partialSumFormats(gpu::uint layers) {
-    return std::vector<VkFormat>(isCoated(layers) ? 3 : 2, litFormat);
+    return std::vector<VkFormat>(2 + std::popcount(layers & (gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN)),
+                                 litFormat);
 }
 
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
@@ -65,7 +59,8 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
                                  .life = Life::transient});
         };
         PartialSumImages images{sum("partial diffuse sum"), sum("partial specular sum")};
-        if (!stored && isCoated(layers)) images[2] = sum("partial clear coat sum");
+        if (!stored && (layers & gpu::LAYER_CLEARCOAT) != 0) images[2] = sum("partial clear coat sum");
+        if (!stored && (layers & gpu::LAYER_SHEEN) != 0) images[3] = sum("partial sheen sum");
         Pass& pass = stored ? passes.compute(name) : passes.draw(name);
         if (!stored)
             for (const ImageRef image : images)

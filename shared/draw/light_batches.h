@@ -13,8 +13,8 @@
 
 namespace diptych {
 
-// Diffuse, specular, and if the scene has clear coats, their part of the specular sum.
-using PartialSumImages = std::array<ImageRef, 3>;
+// Diffuse, specular, and the parts of the specular sum of clear coats and of sheens, if the scene has them.
+using PartialSumImages = std::array<ImageRef, 4>;
 
 // Range of list entries that one draw evaluates, and the sums that it continues from.
 struct LightBatch {

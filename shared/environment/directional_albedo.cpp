@@ -3,45 +3,19 @@
 
 #include "shared/contract/albedo.h"
 #include "shared/contract/constants.h"
+#include "shared/environment/gauss_legendre.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace diptych {
 namespace {
 
-// Gauss-Legendre nodes and weights on [0, 1], by Newton's method from Tricomi's estimate of the roots.
-constexpr std::size_t points = 16;
-struct Rule {
-    std::array<double, points> at, weight;
-};
-Rule gaussLegendre() {
-    Rule rule{};
-    constexpr double n = points;
-    for (std::size_t i = 0; i < points; ++i) {
-        double z = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5)), slope = 0;
-        for (int step = 0; step < 100; ++step) {
-            double p = 1, before = 0;
-            for (double j = 0; j < n; ++j) {
-                const double last = before;
-                before = p;
-                p = ((2 * j + 1) * z * before - j * last) / (j + 1);
-            }
-            slope = n * (z * p - before) / (z * z - 1);
-            const double move = p / slope;
-            z -= move;
-            if (std::abs(move) < 1e-15) break;
-        }
-        rule.at[i] = (1 - z) / 2;
-        rule.weight[i] = 1 / ((1 - z * z) * slope * slope);
-    }
-    return rule;
-}
-const Rule rule = gaussLegendre();
+constexpr std::size_t points = GaussLegendre::points;
+const GaussLegendre rule;
 
 double schlickWeight(double v_dot_h) {
     const double x = std::clamp(1 - v_dot_h, 0.0, 1.0);

@@ -30,19 +30,29 @@ gpu::uint geometricNormalBits(GBufferEncoding encoding) {
 
 namespace {
 
-// Packed encodings store only words of present layers; `full` stores the coat's normal and weight, then the
-// rest.
+// Words in the attachments LAYERS to LAYERS_4.
+gpu::uint layerWords(gpu::uint layers, bool full) {
+    struct Words {
+        gpu::uint layer, packed, full;
+    };
+    constexpr std::array all{
+        Words{gpu::LAYER_CLEARCOAT, gpu::CLEARCOAT_WORDS, gpu::CLEARCOAT_FULL_WORDS},
+        Words{gpu::LAYER_ANISOTROPY, gpu::ANISOTROPY_WORDS, gpu::ANISOTROPY_FULL_WORDS},
+        Words{gpu::LAYER_SHEEN, gpu::SHEEN_WORDS, gpu::SHEEN_FULL_WORDS},
+        Words{gpu::LAYER_IRIDESCENCE, gpu::IRIDESCENCE_WORDS, gpu::IRIDESCENCE_FULL_WORDS}};
+    gpu::uint sum = 0;
+    for (const Words& words : all)
+        if ((layers & words.layer) != 0) sum += full ? words.full : words.packed;
+    return sum;
+}
+
 void addLayers(GBufferLayout& layout, bool full) {
-    const bool coat = (layout.layers & gpu::LAYER_CLEARCOAT) != 0;
-    const bool anisotropy = (layout.layers & gpu::LAYER_ANISOTROPY) != 0;
-    auto& f = layout.formats;
-    if (full) {
-        if (coat) f[gpu::GBUFFER_LAYERS] = VK_FORMAT_R32G32B32A32_UINT;
-        if (layout.layers != 0) f[gpu::GBUFFER_LAYERS_2] = VK_FORMAT_R32G32B32A32_UINT;
-    } else if (layout.layers != 0) {
-        f[gpu::GBUFFER_LAYERS] = coat && anisotropy ? VK_FORMAT_R32G32B32A32_UINT
-                                 : coat             ? VK_FORMAT_R32G32_UINT
-                                                    : VK_FORMAT_R32_UINT;
+    const gpu::uint words = layerWords(layout.layers, full);
+    for (gpu::uint i = 0; 4 * i < words; ++i) {
+        const gpu::uint left = words - 4 * i;
+        layout.formats[gpu::GBUFFER_LAYERS + i] = left == 1   ? VK_FORMAT_R32_UINT
+                                                  : left == 2 ? VK_FORMAT_R32G32_UINT
+                                                              : VK_FORMAT_R32G32B32A32_UINT;
     }
 }
 

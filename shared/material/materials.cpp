@@ -69,6 +69,12 @@ gpu::Material gpuMaterial(const Material& m) {
     g.clearcoat = m.clearcoat;
     g.clearcoat_roughness = m.clearcoat_roughness;
     g.clearcoat_normal_scale = m.clearcoat_normal_scale;
+    g.sheen_color = m.sheen_color;
+    g.sheen_roughness = m.sheen_roughness;
+    g.iridescence = m.iridescence;
+    g.iridescence_ior = m.iridescence_ior;
+    g.iridescence_thickness_least = m.iridescence_thickness_least;
+    g.iridescence_thickness_most = m.iridescence_thickness_most;
     g.anisotropy = m.anisotropy;
     g.anisotropy_rotation = {std::cos(m.anisotropy_rotation), std::sin(m.anisotropy_rotation)};
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {

@@ -118,7 +118,7 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
         float l1 = abs(d.x) + abs(d.y) + abs(d.z);
         float level = 0.5 * log2(first.z * first.z / (4.0 * count * density * l1 * l1 * l1)) + bias;
         float masking = (1.0 + lambda_v) / (1.0 + lambda_v + smithLambda(b, vec3(l.xy, max(l.z, 1e-6))));
-        vec3 fresnel = b.f0 + (vec3(b.f90) - b.f0) * schlickWeight(v_dot_h);
+        vec3 fresnel = layeredAt(b, v_dot_h).lobe;
         vec3 radiance = levelRadiance(level, octahedralPlace(d)) * fresnel * masking;
         sum += l.z > 0.0 ? radiance : vec3(0.0);
     }

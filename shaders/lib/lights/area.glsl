@@ -9,6 +9,7 @@
 #include "shaders/lib/shading/brdf.glsl"
 #include "shaders/lib/lights/lights.glsl"
 #include "shaders/lib/lights/ltc_tube.glsl"
+#include "shaders/lib/shading/sheen.glsl"
 
 bool areaPoints() { return (feature_area_lights & AREA_POINTS) != 0; }
 
@@ -20,6 +21,14 @@ struct AreaView {
     Ltc ltc;            // of the specular lobe
     float tilt;         // of its cosine
     vec3 sky;           // specular reflection of uniform radiance 1
+    bool woven;         // whether there is a sheen above the material
+    Sheen sheen;
+};
+
+// Radiance towards the viewer, W/(sr m^2).
+struct AreaSums {
+    vec3 diffuse, specular;
+    vec3 sheen;  // its part of specular
 };
 
 // One entry of the table (shared/contract/ltc.h, shared/light/ltc.h).
@@ -44,6 +53,7 @@ float evenShare(LtcCell cell, float f0, float f90) {
 AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
     AreaView a;
     a.brdf = brdf;
+    a.woven = false;
     a.n = n;
     a.v = v;
     vec3 across = v - n * dot(n, v);
@@ -101,11 +111,22 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
 // direction is far from the centre of the lobe.
 const float LTC_MOST_GAIN = 4.0;
 
+// Adds the sheen under a light of which only the mean direction is known. `received`: irradiance over the
+// radiance of the light, with the cosine; `l`: unit.
+void addAreaSheen(AreaView a, vec3 l, float received, vec3 radiance, inout AreaSums sums) {
+    float n_dot_l = clamp(dot(a.n, l), 0.0, 1.0);
+    float perpendicular = received / max(n_dot_l, 1e-4);
+    vec3 reflected = sheenReflected(a.sheen, a.n, a.v, l, radiance * perpendicular);
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    sums.specular += lit ? reflected : vec3(0.0);
+    sums.sheen += lit ? reflected : vec3(0.0);
+}
+
 // Adds one light. `plain`, `lobe`: its form factors (ltc.glsl) under the cosine and under the specular
 // lobe. A small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted
 // density there. A light that fills the lobe reflects the table's albedo. The fourth root of the covered
 // share blends the two; it fits the lights of tests/probe/area_error_test.cpp best.
-void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 diffuse, inout vec3 specular) {
+void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout AreaSums sums) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     vec3 base = reachingBase(a.brdf, weight);
@@ -128,62 +149,61 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout vec3 dif
     vec3 from_lobe = reflected * radiance;
     if (feature_multiscatter == MULTISCATTER_FDEZ)
         from_lobe += a.brdf.between * (PI * max(plain.z, 0.0)) * radiance;
-    if (lit) diffuse += from_base, specular += from_lobe;
+    if (lit) sums.diffuse += from_base, sums.specular += from_lobe;
+    if (a.woven) addAreaSheen(a, unitOrZero(world * plain), PI * max(plain.z, 0.0), radiance, sums);
+}
+
+void addAreaPoint(AreaView a, AreaPoint p, vec3 radiance, inout AreaSums sums) {
+    addAreaPoint(a.brdf, a.n, a.v, p, radiance, sums.diffuse, sums.specular);
+    vec3 l = unitOrZero(p.diffuse_at);
+    if (a.woven) addAreaSheen(a, l, max(dot(a.n, l), 0.0) * p.solid_angle, radiance, sums);
 }
 
 // Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
 // near a huge light and far from a tiny one.
 float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
 
-void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
-             inout vec3 specular) {
+void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
-                     i.radiance, diffuse, specular);
+        addAreaPoint(a, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
         return;
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
     vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
          y = a.surface * (shape.y * (-i.side * unit));
-    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance,
-               diffuse, specular);
+    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance, sums);
 }
 
-void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
-             inout vec3 specular) {
+void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
-                     i.radiance, diffuse, specular);
+        addAreaPoint(a, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
         return;
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
     vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
          y = a.surface * (shape.y * unit);
-    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, diffuse,
-               specular);
+    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, sums);
 }
 
-void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout vec3 diffuse,
-             inout vec3 specular) {
+void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
     bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&
                   abs(along) <= lengthOf(shape.x);
     if (within) i.radiance = vec3(0.0);  // a tube emits outwards only
     if (areaPoints()) {
-        addAreaPoint(a.brdf, a.n, a.v, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)),
-                     i.radiance, diffuse, specular);
+        addAreaPoint(a, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
         return;
     }
     float unit = unitOf(i, shape);
     Ltc plain = Ltc(1.0, 1.0, 0.0);
     Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, lengthOf(shape.x) * unit,
                     shape.radius * unit);
-    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, diffuse, specular);
+    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, sums);
 }
 
 #endif

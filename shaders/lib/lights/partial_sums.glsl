@@ -9,10 +9,12 @@
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_DIFFUSE) uniform texture2D partial_diffuse;
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SPECULAR) uniform texture2D partial_specular;
 layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_CLEARCOAT) uniform texture2D partial_clearcoat;
+layout(set = SET_PARTIAL_SUMS, binding = BINDING_PARTIAL_SHEEN) uniform texture2D partial_sheen;
 
 vec4 partialDiffuse() { return texelFetch(partial_diffuse, pixelHere(), 0); }
-// The clear coat's part of partialSpecular().
+// Layers' parts of partialSpecular().
 vec4 partialClearcoat() { return texelFetch(partial_clearcoat, pixelHere(), 0); }
+vec4 partialSheen() { return texelFetch(partial_sheen, pixelHere(), 0); }
 vec4 partialSpecular() { return texelFetch(partial_specular, pixelHere(), 0); }
 
 #endif

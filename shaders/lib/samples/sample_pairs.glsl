@@ -33,8 +33,10 @@ uint differingPairs(ivec2 p) {
     if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular_samples, p);
     if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids_samples, p);
     if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap_samples, p);
-    if (storesLayers()) differ |= differingPairs(gbuffer_layers_samples, p);
-    if (on(feature_gbuffer_layers) && fullGBuffer()) differ |= differingPairs(gbuffer_layers_2_samples, p);
+    if (hasLayerAttachment(0)) differ |= differingPairs(gbuffer_layers_samples, p);
+    if (hasLayerAttachment(1)) differ |= differingPairs(gbuffer_layers_2_samples, p);
+    if (hasLayerAttachment(2)) differ |= differingPairs(gbuffer_layers_3_samples, p);
+    if (hasLayerAttachment(3)) differ |= differingPairs(gbuffer_layers_4_samples, p);
     return differ;
 }
 

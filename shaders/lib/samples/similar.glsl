@@ -31,6 +31,13 @@ bool alikeLayers(Surface s, Surface t) {
     vec3 turned = s.clearcoat_normal - t.clearcoat_normal;
     vec3 along = anisotropyDirection(s) - anisotropyDirection(t);
     float rough = min(s.clearcoat_roughness, t.clearcoat_roughness), turn = SIMILAR_NORMAL * rough * rough;
+    vec2 film = vec2(s.iridescence_ior, s.iridescence_thickness),
+         other = vec2(t.iridescence_ior, t.iridescence_thickness);
+    if (any(greaterThan(abs(film - other), SIMILAR_ATTRIBUTE * max(film, other)))) return false;
+    if (!within(s.sheen_color, t.sheen_color, SIMILAR_ATTRIBUTE) ||
+        !within(vec3(s.sheen_roughness, s.iridescence, 0.0), vec3(t.sheen_roughness, t.iridescence, 0.0),
+                SIMILAR_ATTRIBUTE))
+        return false;
     return within(vec3(s.clearcoat, s.clearcoat_roughness, s.anisotropy),
                   vec3(t.clearcoat, t.clearcoat_roughness, t.anisotropy), SIMILAR_ATTRIBUTE) &&
            dot(turned, turned) <= turn * turn && dot(along, along) <= SIMILAR_NORMAL * SIMILAR_NORMAL;

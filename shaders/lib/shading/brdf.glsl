@@ -4,6 +4,7 @@
 #ifndef BRDF_GLSL
 #define BRDF_GLSL
 
+#include "shaders/lib/shading/fresnel.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
 #extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
@@ -27,6 +28,12 @@ struct Brdf {
     vec2 alphas;         // GGX widths along and across
     vec2 viewed;         // components of the view vector
     float seen;          // width towards the viewer; of an isotropic lobe, alpha
+    // With LAYER_IRIDESCENCE: f0, f90, base_f0 and base_f90 are then those of filmCurve().
+    Film film;
+    FilmBase dielectric, metal;
+    float dielectric_f90, metallic;
+    vec3 dielectric_gain, metal_gain;  // of multiple scattering and of layers above; 1: none
+    bool base_fixed;                   // the base gets the same from all directions (multiscatter.glsl)
 };
 
 // Light that a base loses to a layer that reflects `layer`: each component, or the largest.
@@ -56,6 +63,32 @@ void stretch(inout Brdf b, Surface s, vec3 v) {
     }
 }
 
+// A curve of Schlick's shape through a filmed Fresnel term `here`, for integrals over directions: its f0. `w`:
+// weight of f90 where it is `here`.
+vec3 filmCurve(vec3 here, float f90, float w) {
+    return clamp((here - f90 * w) / max(1.0 - w, 1e-4), vec3(0.0), vec3(1.0));
+}
+
+// Adds the film of a surface; the gains are known.
+void addFilm(inout Brdf b, Surface s) {
+    b.film = makeFilm(s.iridescence, s.iridescence_ior, s.iridescence_thickness);
+    b.dielectric = makeFilmBase(b.film, s.dielectric_f0);
+    b.metal = makeFilmBase(b.film, s.albedo);
+    b.dielectric_f90 = s.dielectric_f90;
+    b.metallic = s.metallic;
+    if (!(b.film.weight > 0.0)) return;
+    FilmRay ray = filmRay(b.film, b.n_dot_v);
+    float f90 = blend(b.dielectric_f90, 1.0, b.film.weight), w = ray.above;
+    vec3 dielectric = filmCurve(filmedFresnel(b.film, b.dielectric, ray, b.dielectric_f90), f90, w);
+    vec3 metal = filmCurve(filmedFresnel(b.film, b.metal, ray, 1.0), 1.0, w);
+    b.f0 = blend(dielectric * b.dielectric_gain, metal * b.metal_gain, b.metallic);
+    b.f90 = blend(f90 * b.dielectric_gain, b.metal_gain, b.metallic);
+    if (b.base_fixed) return;
+    b.base_f0 = lostBelow(dielectric);
+    b.base_f90 = vec3(f90);
+}
+
+// Without a film; see addFilm().
 Brdf makeBrdf(Surface s, vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
@@ -75,6 +108,11 @@ Brdf makeBrdf(Surface s, vec3 v) {
     b.along = b.across = vec3(0.0);
     b.alphas = b.viewed = vec2(0.0);
     b.seen = b.alpha;
+    b.film = Film(0.0, 1.0, 0.0, 0.0);
+    b.dielectric = b.metal = FilmBase(vec3(0.0), vec3(0.0), vec3(0.0));
+    b.dielectric_f90 = b.metallic = 0.0;
+    b.dielectric_gain = b.metal_gain = vec3(1.0);
+    b.base_fixed = false;
     if (hasLayer(LAYER_ANISOTROPY)) stretch(b, s, v);
     return b;
 }
@@ -126,17 +164,28 @@ float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
     return dot(n, s) > 0.0 && s2 > 1e-12 ? lobe : 0.0;
 }
 
-// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering": the weight of f90.
-float schlickWeight(float v_dot_h) {
-    float x = clamp(1.0 - v_dot_h, 0.0, 1.0);
-    float x2 = x * x;
-    return x2 * x2 * x;
-}
-
 // Fraction of light that reaches the base; `weight` is the weight of f90.
 vec3 reachingBase(Brdf b, float weight) {
     vec3 share = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
     return share;
+}
+
+// Fresnel term of the lobe, and fraction of light that reaches the base, at one half vector.
+struct Layered {
+    vec3 lobe, base;
+};
+Layered layeredAt(Brdf b, float v_dot_h) {
+    float weight = schlickWeight(v_dot_h);
+    Layered plain = Layered(b.f0 + (b.f90 - b.f0) * weight, reachingBase(b, weight));
+    if (!hasLayer(LAYER_IRIDESCENCE)) return plain;
+    FilmRay ray = filmRay(b.film, v_dot_h);
+    vec3 dielectric = filmedFresnel(b.film, b.dielectric, ray, b.dielectric_f90);
+    vec3 metal = filmedFresnel(b.film, b.metal, ray, 1.0);
+    bool filmed = b.film.weight > 0.0;
+    vec3 lobe = blend(dielectric * b.dielectric_gain, metal * b.metal_gain, b.metallic);
+    plain.lobe = filmed ? lobe : plain.lobe;
+    plain.base = filmed && !b.base_fixed ? max(1.0 - lostBelow(dielectric), vec3(0.0)) : plain.base;
+    return plain;
 }
 
 // Reflection of light from one direction.
@@ -182,11 +231,9 @@ Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     vec3 s = l + v;
     float s2 = dot(s, s);
-    float weight = schlickWeight(0.5 * sqrt(s2));  // v.h = |l + v| / 2
-    vec3 fresnel = b.f0 + (b.f90 - b.f0) * weight;
-    vec3 base = reachingBase(b, weight);
+    Layered layered = layeredAt(b, 0.5 * sqrt(s2));  // v.h = |l + v| / 2
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
-    return Reflected(n_dot_l, b.diffuse * base, fresnel * lobe);
+    return Reflected(n_dot_l, b.diffuse * layered.base, layered.lobe * lobe);
 }
 
 // Adds the light that arrives from the unit vector `l` and leaves to `v`. `irradiance`: W/m^2,
@@ -195,7 +242,7 @@ void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffus
     Reflected reflected;
     if (on(feature_half_shading)) {
         reflected = reflectedInHalf(b, n, v, l);
-        if (b.anisotropic) reflected = reflectedLight(b, n, v, l);
+        if (b.anisotropic || b.film.weight > 0.0) reflected = reflectedLight(b, n, v, l);
     } else {
         reflected = reflectedLight(b, n, v, l);
     }

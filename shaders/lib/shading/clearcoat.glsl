@@ -27,7 +27,7 @@ Clearcoat makeClearcoat(Surface s, vec3 v, float weight) {
     coat.roughness = s.clearcoat_roughness;
     coat.metallic = 1.0;
     coat.albedo = vec3(1.0);
-    coat.anisotropy = 0.0;
+    coat.anisotropy = coat.iridescence = 0.0;
     Brdf b = makeBrdf(coat, v);
     b.diffuse = vec3(0.0);
     b.f0 = b.f90 = vec3(weight);
@@ -35,13 +35,14 @@ Clearcoat makeClearcoat(Surface s, vec3 v, float weight) {
     return Clearcoat(coat, b);
 }
 
-// The material below a layer that reflects `weight`.
-void dim(inout Brdf b, float weight) {
-    float rest = 1.0 - weight;
+// The material below layers that let the fraction `rest` pass.
+void dim(inout Brdf b, float rest) {
     b.diffuse *= rest;
     b.f0 *= rest;
     b.f90 *= rest;
     b.between *= rest;
+    b.dielectric_gain *= rest;
+    b.metal_gain *= rest;
 }
 
 #endif

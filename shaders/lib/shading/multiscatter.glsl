@@ -14,6 +14,12 @@ struct SpecularFactors {
     vec3 between;  // multiple scattering as a Lambertian lobe, 1/sr
 };
 
+// Of MULTISCATTER_ENERGY.
+vec3 specularGain(vec3 f0, vec2 albedo) {
+    float all = albedo.x + albedo.y;
+    return 1.0 + f0 * (max(1.0 - all, 0.0) / all);
+}
+
 // `f0`, `f90`: of one material; `albedo`: specularAlbedo() at its alpha and n.v.
 //
 // MULTISCATTER_ENERGY: Turquin 2019, "Practical multiple scattering compensation for microfacet models".
@@ -26,7 +32,7 @@ SpecularFactors specularFactors(vec3 f0, float f90, vec2 albedo) {
     float all = albedo.x + albedo.y, lost = max(1.0 - all, 0.0);
     SpecularFactors s = SpecularFactors(f0, vec3(f90), vec3(0.0));
     if (feature_multiscatter == MULTISCATTER_ENERGY) {
-        vec3 gain = 1.0 + f0 * (lost / all);
+        vec3 gain = specularGain(f0, albedo);
         s.f0 = f0 * gain;
         s.f90 = f90 * gain;
     }
@@ -69,6 +75,11 @@ void setBase(inout Brdf b, vec3 layer) {
 // `albedo`: specularAlbedo() of b.
 Brdf compensated(Brdf b, Surface s, vec2 albedo) {
     b.albedo = albedo;
+    if (feature_multiscatter == MULTISCATTER_ENERGY && hasLayer(LAYER_IRIDESCENCE)) {
+        b.dielectric_gain = specularGain(s.dielectric_f0, albedo);
+        b.metal_gain = specularGain(s.albedo, albedo);
+    }
+    b.base_fixed = !on(feature_base_by_component);
     setSpecular(b, mixedFactors(s.dielectric_f0, s.dielectric_f90, s.albedo, s.metallic, b.albedo));
     if (!on(feature_base_by_component)) setBase(b, layerAlbedo(s.dielectric_f0, s.dielectric_f90, b.albedo));
     return b;

@@ -18,11 +18,12 @@ struct Radiance {
     vec3 haze;             // light that haze adds
     vec3 environment;      // the environment's part of diffuse and specular
     vec3 clearcoat;        // the clear coat's part of specular and ambient
+    vec3 sheen;            // the sheen's part of both
 };
 
 Radiance noRadiance() {
     return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0),
-                    vec3(0.0), vec3(0.0));
+                    vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
 vec3 lit(Radiance radiance) {

@@ -18,6 +18,7 @@
 #include "shaders/lib/lights/object_lights.glsl"
 #include "shaders/lib/geometry/position.glsl"
 #include "shaders/lib/shading/radiance.glsl"
+#include "shaders/lib/shading/sheen.glsl"
 #include "shaders/lib/shadows/shadow.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
@@ -27,6 +28,7 @@ struct Shading {
     vec3 v;
     Brdf brdf;
     Clearcoat coat;  // only with LAYER_CLEARCOAT
+    Sheen sheen;     // only with LAYER_SHEEN
 };
 
 void addFromCoat(vec3 reflected, inout Radiance radiance) {
@@ -34,9 +36,18 @@ void addFromCoat(vec3 reflected, inout Radiance radiance) {
     radiance.clearcoat += reflected;
 }
 
+void addFromSheen(vec3 reflected, inout Radiance radiance) {
+    radiance.specular += reflected;
+    radiance.sheen += reflected;
+}
+
 void addIncident(Shading shading, Incident light, inout Radiance radiance) {
     addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance,
              radiance.diffuse, radiance.specular);
+    if (hasLayer(LAYER_SHEEN))
+        addFromSheen(sheenReflected(shading.sheen, shading.surface.normal, shading.v, light.direction,
+                                    light.irradiance),
+                     radiance);
     if (!hasLayer(LAYER_CLEARCOAT)) return;
     vec3 below = vec3(0.0), reflected = vec3(0.0);
     addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance,
@@ -109,13 +120,14 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
 // loop body costs all the code in it, executed or not.
 #define ADD_AREA(add, end)                                                                              \
     while (walk.more && walk.number < end) {                                                            \
-        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, radiance.diffuse, \
-            radiance.specular);                                                                         \
+        AreaSums sums = AreaSums(radiance.diffuse, radiance.specular, radiance.sheen);                  \
+        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, sums);          \
+        radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;                             \
+        radiance.sheen = sums.sheen;                                                                    \
         if (hasLayer(LAYER_CLEARCOAT)) {                                                                \
-            vec3 below = vec3(0.0), reflected = vec3(0.0);                                              \
-            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, below, \
-                reflected);                                                                             \
-            addFromCoat(reflected, radiance);                                                          \
+            AreaSums of_coat = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));                               \
+            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, of_coat); \
+            addFromCoat(of_coat.specular, radiance);                                                   \
         }                                                                                               \
         step(walk);                                                                                     \
     }
@@ -131,20 +143,29 @@ Radiance shade(Surface s, PixelLights lights) {
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
     if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
+    if (hasLayer(LAYER_IRIDESCENCE)) addFilm(brdf, s);
     radiance.emission = s.emission;
     Clearcoat coat = Clearcoat(s, brdf);
+    Sheen sheen;
+    sheen.color = vec3(0.0);
+    if (hasLayer(LAYER_SHEEN)) {
+        sheen = makeSheen(s, v);
+        dim(brdf, belowSheen(sheen));
+    }
     if (hasLayer(LAYER_CLEARCOAT)) {
         float weight = clearcoatWeight(s, v);
         coat = makeClearcoat(s, v, weight);
-        dim(brdf, weight);
+        dim(brdf, 1.0 - weight);
         radiance.emission *= 1.0 - weight;
+        sheen.color *= 1.0 - weight;
     }
-    Shading shading = Shading(s, v, brdf, coat);
+    Shading shading = Shading(s, v, brdf, coat, sheen);
     if (feature_light_batch == BATCH_LATER) {
         vec4 diffuse = partialDiffuse(), specular = partialSpecular();
         radiance.diffuse = diffuse.rgb;
         radiance.specular = specular.rgb;
         if (hasLayer(LAYER_CLEARCOAT)) radiance.clearcoat = partialClearcoat().rgb;
+        if (hasLayer(LAYER_SHEEN)) radiance.sheen = partialSheen().rgb;
         radiance.local_seen = diffuse.a;
         radiance.local_light = specular.a;
     }
@@ -157,7 +178,12 @@ Radiance shade(Surface s, PixelLights lights) {
         vec3 from_base, from_lobe;
         reflectEnvironment(s, shading.brdf, v, from_base, from_lobe);
         radiance.environment = from_base + from_lobe;
-        vec3 from_coat = vec3(0.0);
+        vec3 from_coat = vec3(0.0), from_sheen = vec3(0.0);
+        if (hasLayer(LAYER_SHEEN)) {
+            from_sheen = sheen.color * (sheen.albedo * environmentFactor() * s.occlusion) *
+                         environmentIrradiance(s.normal);
+            radiance.environment += from_sheen;
+        }
         if (hasLayer(LAYER_CLEARCOAT)) {
             vec3 n = coat.surface.normal;
             from_coat = lobeEnvironment(coat.brdf, n, n, v, environmentFactor() * s.occlusion);
@@ -166,6 +192,7 @@ Radiance shade(Surface s, PixelLights lights) {
         if (feature_light_batch != BATCH_LATER) {
             radiance.diffuse += from_base;
             radiance.specular += from_lobe;
+            if (hasLayer(LAYER_SHEEN)) addFromSheen(from_sheen, radiance);
             if (hasLayer(LAYER_CLEARCOAT)) addFromCoat(from_coat, radiance);
         }
     }
@@ -195,6 +222,7 @@ Radiance shade(Surface s, PixelLights lights) {
     }
     if (on(feature_area_lights)) {
         AreaView area = areaView(shading.brdf, s, v), coat_area = area;
+        if (hasLayer(LAYER_SHEEN)) area.woven = true, area.sheen = sheen;
         if (hasLayer(LAYER_CLEARCOAT)) coat_area = areaView(coat.brdf, coat.surface, v);
         AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
         if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
@@ -203,6 +231,11 @@ Radiance shade(Surface s, PixelLights lights) {
     }
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+    if (on(feature_ambient) && hasLayer(LAYER_SHEEN)) {
+        vec3 reflected = sheen.color * (sheen.albedo * s.occlusion) * view.ambient;
+        radiance.ambient += reflected;
+        radiance.sheen += reflected;
+    }
     if (on(feature_ambient) && hasLayer(LAYER_CLEARCOAT)) {
         vec3 reflected = s.occlusion * (lobeShare(coat.brdf) * view.ambient);
         radiance.ambient += reflected;

@@ -44,11 +44,17 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_tangent_normal: return vec4(s.tangent_normal, 1.0);
         case DEBUG_lightmapped: return vec4(s.lightmapped ? 1.0 : 0.0);
         case DEBUG_lit_clearcoat: return vec4(radiance.clearcoat, 1.0);
+        case DEBUG_lit_sheen: return vec4(radiance.sheen, 1.0);
         case DEBUG_clearcoat: return vec4(s.clearcoat);
         case DEBUG_clearcoat_roughness: return vec4(s.clearcoat_roughness);
         case DEBUG_clearcoat_normal: return vec4(s.clearcoat_normal, 1.0);
         case DEBUG_anisotropy: return vec4(s.anisotropy);
         case DEBUG_anisotropy_direction: return vec4(anisotropyDirection(s), 1.0);
+        case DEBUG_sheen_color: return vec4(s.sheen_color, 1.0);
+        case DEBUG_sheen_roughness: return vec4(s.sheen_roughness);
+        case DEBUG_iridescence: return vec4(s.iridescence);
+        case DEBUG_iridescence_ior: return vec4(s.iridescence_ior);
+        case DEBUG_iridescence_thickness: return vec4(s.iridescence_thickness);
         case DEBUG_dielectric_f0: return vec4(s.dielectric_f0, 1.0);
     }
     return vec4(0.0);

@@ -49,10 +49,21 @@ void decodeLightmap(uvec4 texel, bool wide, inout Surface s) {
 
 bool storesLayer(uint layer) { return (feature_gbuffer_layers & layer) != 0u; }
 
-// Whether there is an attachment LAYERS.
-bool storesLayers() {
-    return fullGBuffer() ? storesLayer(LAYER_CLEARCOAT) : on(feature_gbuffer_layers);
+uint wordsOf(uint layer, uint packed_words, uint full_words) {
+    return !storesLayer(layer) ? 0u : fullGBuffer() ? full_words : packed_words;
 }
+
+// First word of a layer in LAYERS to LAYERS_4.
+uint anisotropyWord() { return wordsOf(LAYER_CLEARCOAT, CLEARCOAT_WORDS, CLEARCOAT_FULL_WORDS); }
+uint sheenWord() {
+    return anisotropyWord() + wordsOf(LAYER_ANISOTROPY, ANISOTROPY_WORDS, ANISOTROPY_FULL_WORDS);
+}
+uint iridescenceWord() { return sheenWord() + wordsOf(LAYER_SHEEN, SHEEN_WORDS, SHEEN_FULL_WORDS); }
+uint layerWords() {
+    return iridescenceWord() + wordsOf(LAYER_IRIDESCENCE, IRIDESCENCE_WORDS, IRIDESCENCE_FULL_WORDS);
+}
+// Whether there is the attachment LAYERS + i.
+bool hasLayerAttachment(uint i) { return layerWords() > 4u * i; }
 
 const uint LAYER_IS_THERE = 1u << 28;
 
@@ -90,31 +101,124 @@ void decodeAnisotropy(uint word, inout Surface s) {
     s.anisotropy_turn = vec2(cos(angle), sin(angle));
 }
 
-uvec4 encodeLayers(Surface s, vec3 decoded_normal) {
-    uvec2 coat = uvec2(0);
-    uint anisotropy = 0u;
-    if (storesLayer(LAYER_CLEARCOAT)) coat = encodeClearcoat(s);
-    if (storesLayer(LAYER_ANISOTROPY)) anisotropy = encodeAnisotropy(s, decoded_normal);
-    return storesLayer(LAYER_CLEARCOAT) ? uvec4(coat, anisotropy, 0) : uvec4(anisotropy, 0, 0, 0);
+// Fields of one word. A surface without a sheen has the word 0.
+uint encodeSheen(Surface s) { return packSqrt(s.sheen_color, s.sheen_roughness); }
+
+void decodeSheen(uint word, inout Surface s) {
+    s.sheen_color = unpackSqrt(word);
+    s.sheen_roughness = unpackUnorm(word, 24, SHEEN_BITS);
 }
 
-void decodeLayers(uvec4 texel, inout Surface s) {
-    if (storesLayer(LAYER_CLEARCOAT)) decodeClearcoat(texel.xy, s);
-    if (storesLayer(LAYER_ANISOTROPY)) decodeAnisotropy(storesLayer(LAYER_CLEARCOAT) ? texel.z : texel.x, s);
+// The nearest half to x in [0, 65504], ties to even.
+uint halfOf(float x) {
+    uint bits = floatBitsToUint(x);
+    uint normal = (bits - (112u << 23) + 0xfffu + (bits >> 13 & 1u)) >> 13;
+    return x < 6.103515625e-5 ? uint(x * 16777216.0 + 0.5) : normal;
+}
+float fromHalf(uint code) {
+    return code < 1024u ? float(code) * 5.9604644775390625e-8 : uintBitsToFloat((code << 13) + (112u << 23));
 }
 
-void decodeFullLayers(GBufferTexel t, inout Surface s) {
-    vec4 further = uintBitsToFloat(t.attachments[GBUFFER_LAYERS_2]);
+const float IRIDESCENCE_IOR_STEPS = float((1u << IRIDESCENCE_IOR_BITS) - 2u);
+
+// A surface without a film has the word 0.
+uint encodeIridescence(Surface s) {
+    if (!(s.iridescence_ior > 0.0)) return 0u;
+    float x = (s.iridescence_ior - 1.0) / (s.iridescence_ior + 1.0);
+    uint ior = 1u + uint(clamp(x, 0.0, 1.0) * IRIDESCENCE_IOR_STEPS + 0.5);
+    return packUnorm(s.iridescence, IRIDESCENCE_BITS) | (ior << IRIDESCENCE_BITS) |
+           (halfOf(s.iridescence_thickness) << (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
+}
+
+void decodeIridescence(uint word, inout Surface s) {
+    uint ior = bitfieldExtract(word, int(IRIDESCENCE_BITS), int(IRIDESCENCE_IOR_BITS));
+    if (ior == 0u) return;
+    float x = min(float(ior - 1u) / IRIDESCENCE_IOR_STEPS, 0.9999);
+    s.iridescence = unpackUnorm(word, 0, IRIDESCENCE_BITS);
+    s.iridescence_ior = (1.0 + x) / (1.0 - x);
+    s.iridescence_thickness = fromHalf(word >> (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
+}
+
+// Layers as words; the last are unused.
+struct LayerWords {
+    uint words[LAYER_WORDS];
+};
+
+// `decoded_normal`: of the packed encodings.
+LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
+    LayerWords w;
+    for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = 0u;
+    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord();
+    if (fullGBuffer()) {
+        if (storesLayer(LAYER_CLEARCOAT)) {
+            for (int i = 0; i < 3; ++i) w.words[i] = floatBitsToUint(s.clearcoat_normal[i]);
+            w.words[3] = floatBitsToUint(s.clearcoat);
+            w.words[4] = floatBitsToUint(s.clearcoat_roughness);
+        }
+        if (storesLayer(LAYER_ANISOTROPY)) {
+            w.words[anisotropy] = floatBitsToUint(s.anisotropy);
+            for (int i = 0; i < 2; ++i) w.words[anisotropy + 1 + i] = floatBitsToUint(s.anisotropy_turn[i]);
+        }
+        if (storesLayer(LAYER_SHEEN)) {
+            for (int i = 0; i < 3; ++i) w.words[sheen + i] = floatBitsToUint(s.sheen_color[i]);
+            w.words[sheen + 3] = floatBitsToUint(s.sheen_roughness);
+        }
+        if (storesLayer(LAYER_IRIDESCENCE)) {
+            w.words[film] = floatBitsToUint(s.iridescence);
+            w.words[film + 1] = floatBitsToUint(s.iridescence_ior);
+            w.words[film + 2] = floatBitsToUint(s.iridescence_thickness);
+        }
+        return w;
+    }
     if (storesLayer(LAYER_CLEARCOAT)) {
-        vec4 coat = uintBitsToFloat(t.attachments[GBUFFER_LAYERS]);
-        s.clearcoat_normal = coat.xyz;
-        s.clearcoat = coat.w;
-        s.clearcoat_roughness = further.x;
+        uvec2 coat = encodeClearcoat(s);
+        w.words[0] = coat.x;
+        w.words[1] = coat.y;
     }
-    if (storesLayer(LAYER_ANISOTROPY)) {
-        s.anisotropy = further.y;
-        s.anisotropy_turn = further.zw;
+    if (storesLayer(LAYER_ANISOTROPY)) w.words[anisotropy] = encodeAnisotropy(s, decoded_normal);
+    if (storesLayer(LAYER_SHEEN)) w.words[sheen] = encodeSheen(s);
+    if (storesLayer(LAYER_IRIDESCENCE)) w.words[film] = encodeIridescence(s);
+    return w;
+}
+
+void decodeLayers(LayerWords w, inout Surface s) {
+    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord();
+    if (fullGBuffer()) {
+        if (storesLayer(LAYER_CLEARCOAT)) {
+            for (int i = 0; i < 3; ++i) s.clearcoat_normal[i] = uintBitsToFloat(w.words[i]);
+            s.clearcoat = uintBitsToFloat(w.words[3]);
+            s.clearcoat_roughness = uintBitsToFloat(w.words[4]);
+        }
+        if (storesLayer(LAYER_ANISOTROPY)) {
+            s.anisotropy = uintBitsToFloat(w.words[anisotropy]);
+            for (int i = 0; i < 2; ++i) s.anisotropy_turn[i] = uintBitsToFloat(w.words[anisotropy + 1 + i]);
+        }
+        if (storesLayer(LAYER_SHEEN)) {
+            for (int i = 0; i < 3; ++i) s.sheen_color[i] = uintBitsToFloat(w.words[sheen + i]);
+            s.sheen_roughness = uintBitsToFloat(w.words[sheen + 3]);
+        }
+        if (storesLayer(LAYER_IRIDESCENCE)) {
+            s.iridescence = uintBitsToFloat(w.words[film]);
+            s.iridescence_ior = uintBitsToFloat(w.words[film + 1]);
+            s.iridescence_thickness = uintBitsToFloat(w.words[film + 2]);
+        }
+        return;
     }
+    if (storesLayer(LAYER_CLEARCOAT)) decodeClearcoat(uvec2(w.words[0], w.words[1]), s);
+    if (storesLayer(LAYER_ANISOTROPY)) decodeAnisotropy(w.words[anisotropy], s);
+    if (storesLayer(LAYER_SHEEN)) decodeSheen(w.words[sheen], s);
+    if (storesLayer(LAYER_IRIDESCENCE)) decodeIridescence(w.words[film], s);
+}
+
+void writeLayers(LayerWords w, inout GBufferTexel t) {
+    for (uint i = 0; i < LAYER_WORDS / 4; ++i)
+        t.attachments[GBUFFER_LAYERS + i] =
+            uvec4(w.words[4 * i], w.words[4 * i + 1], w.words[4 * i + 2], w.words[4 * i + 3]);
+}
+LayerWords layersIn(GBufferTexel t) {
+    LayerWords w;
+    for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = t.attachments[GBUFFER_LAYERS + i / 4][i % 4];
+    return w;
 }
 
 GBufferTexel encodeGBuffer(Surface s) {
@@ -127,9 +231,7 @@ GBufferTexel encodeGBuffer(Surface s) {
         t.attachments[GBUFFER_EMISSION] = uvec4(floatBitsToUint(s.emission), s.material_id);
         t.attachments[GBUFFER_SPECULAR] = floatBitsToUint(vec4(s.dielectric_f0, s.dielectric_f90));
         t.attachments[GBUFFER_LIGHTMAP] = encodeLightmap(s, true);
-        t.attachments[GBUFFER_LAYERS] = floatBitsToUint(vec4(s.clearcoat_normal, s.clearcoat));
-        t.attachments[GBUFFER_LAYERS_2] =
-            floatBitsToUint(vec4(s.clearcoat_roughness, s.anisotropy, s.anisotropy_turn));
+        if (on(feature_gbuffer_layers)) writeLayers(encodeLayers(s, s.normal), t);
         return t;
     }
     t.attachments[GBUFFER_ALBEDO].x = packSqrt(s.albedo, s.occlusion);
@@ -154,7 +256,7 @@ GBufferTexel encodeGBuffer(Surface s) {
     t.attachments[GBUFFER_SPECULAR].x = packSqrt(s.dielectric_f0, s.dielectric_f90);
     t.attachments[GBUFFER_IDS].x = s.material_id;
     if (on(feature_gbuffer_layers))
-        t.attachments[GBUFFER_LAYERS] = encodeLayers(s, decodedNormal(t.attachments[GBUFFER_NORMALS].x));
+        writeLayers(encodeLayers(s, decodedNormal(t.attachments[GBUFFER_NORMALS].x)), t);
     return t;
 }
 
@@ -188,7 +290,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
         }
         s.triangle_normal = s.geometric_normal;
         if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
-        if (on(feature_gbuffer_layers)) decodeFullLayers(t, s);
+        if (on(feature_gbuffer_layers)) decodeLayers(layersIn(t), s);
         return s;
     }
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
@@ -219,7 +321,7 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
         s.dielectric_f0 = unpackSqrt(specular);
         s.dielectric_f90 = unpackUnorm(specular, 24, SPECULAR_BITS);
     }
-    if (on(feature_gbuffer_layers)) decodeLayers(t.attachments[GBUFFER_LAYERS], s);
+    if (on(feature_gbuffer_layers)) decodeLayers(layersIn(t), s);
     return s;
 }
 

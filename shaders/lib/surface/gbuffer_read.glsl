@@ -21,6 +21,8 @@ GBUFFER_IMAGE(GBUFFER_IDS, gbuffer_ids)
 GBUFFER_IMAGE(GBUFFER_LIGHTMAP, gbuffer_lightmap)
 GBUFFER_IMAGE(GBUFFER_LAYERS, gbuffer_layers)
 GBUFFER_IMAGE(GBUFFER_LAYERS_2, gbuffer_layers_2)
+GBUFFER_IMAGE(GBUFFER_LAYERS_3, gbuffer_layers_3)
+GBUFFER_IMAGE(GBUFFER_LAYERS_4, gbuffer_layers_4)
 #undef GBUFFER_IMAGE
 layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform utexture2DMS gbuffer_shaded_samples;
 
@@ -38,10 +40,10 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = FETCHED(gbuffer_specular, p, i);
     if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = FETCHED(gbuffer_ids, p, i);
     if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = FETCHED(gbuffer_lightmap, p, i);
-    if (on(feature_gbuffer_layers)) {
-        if (storesLayers()) t.attachments[GBUFFER_LAYERS] = FETCHED(gbuffer_layers, p, i);
-        if (fullGBuffer()) t.attachments[GBUFFER_LAYERS_2] = FETCHED(gbuffer_layers_2, p, i);
-    }
+    if (hasLayerAttachment(0)) t.attachments[GBUFFER_LAYERS] = FETCHED(gbuffer_layers, p, i);
+    if (hasLayerAttachment(1)) t.attachments[GBUFFER_LAYERS_2] = FETCHED(gbuffer_layers_2, p, i);
+    if (hasLayerAttachment(2)) t.attachments[GBUFFER_LAYERS_3] = FETCHED(gbuffer_layers_3, p, i);
+    if (hasLayerAttachment(3)) t.attachments[GBUFFER_LAYERS_4] = FETCHED(gbuffer_layers_4, p, i);
     if (multisampled()) t.attachments[GBUFFER_SHADED] = texelFetch(gbuffer_shaded_samples, p, i);
     return t;
 }

@@ -25,6 +25,11 @@ layout(set = SET_MATERIAL, binding = SLOT_clearcoat) uniform sampler2D clearcoat
 layout(set = SET_MATERIAL, binding = SLOT_clearcoat_roughness) uniform sampler2D clearcoat_roughness_texture;
 layout(set = SET_MATERIAL, binding = SLOT_clearcoat_normal) uniform sampler2D clearcoat_normal_texture;
 layout(set = SET_MATERIAL, binding = SLOT_anisotropy) uniform sampler2D anisotropy_texture;
+layout(set = SET_MATERIAL, binding = SLOT_sheen_color) uniform sampler2D sheen_color_texture;
+layout(set = SET_MATERIAL, binding = SLOT_sheen_roughness) uniform sampler2D sheen_roughness_texture;
+layout(set = SET_MATERIAL, binding = SLOT_iridescence) uniform sampler2D iridescence_texture;
+layout(set = SET_MATERIAL, binding = SLOT_iridescence_thickness)
+uniform sampler2D iridescence_thickness_texture;
 
 // Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
 // break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
@@ -77,6 +82,14 @@ vec4 specularColorTexel() {
 vec4 emissiveTexel() {
     if (feature_emissive_texture == TEXEL_SHARED) return baseColorTexel();
     return slotTexel(emissive_texture, SLOT_emissive, feature_emissive_texture);
+}
+
+vec4 sheenColorTexel() {
+    return slotTexel(sheen_color_texture, SLOT_sheen_color, feature_sheen_color_texture);
+}
+vec4 sheenRoughnessTexel() {
+    if (feature_sheen_roughness_texture == TEXEL_SHARED) return sheenColorTexel();
+    return slotTexel(sheen_roughness_texture, SLOT_sheen_roughness, feature_sheen_roughness_texture);
 }
 
 vec4 baseColor() {
@@ -272,6 +285,28 @@ void addAnisotropy(Material m, inout Surface s) {
     s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);
 }
 
+void addSheen(Material m, inout Surface s) {
+    s.sheen_color = m.sheen_color;
+    if (on(feature_sheen_color_texture)) s.sheen_color *= sheenColorTexel().rgb;
+    float roughness = m.sheen_roughness;
+    if (on(feature_sheen_roughness_texture)) roughness *= sheenRoughnessTexel().a;
+    s.sheen_roughness = s.sheen_color != vec3(0.0) ? roughness : 0.0;
+}
+
+void addFilm(Material m, inout Surface s) {
+    s.iridescence = m.iridescence;
+    if (on(feature_iridescence_texture))
+        s.iridescence *= slotTexel(iridescence_texture, SLOT_iridescence, feature_iridescence_texture).r;
+    float thickness = m.iridescence_thickness_most;
+    if (on(feature_iridescence_thickness_texture))
+        thickness = blend(m.iridescence_thickness_least, m.iridescence_thickness_most,
+                          slotTexel(iridescence_thickness_texture, SLOT_iridescence_thickness,
+                                    feature_iridescence_thickness_texture).g);
+    bool there = s.iridescence > 0.0;
+    s.iridescence_ior = there ? m.iridescence_ior : 0.0;
+    s.iridescence_thickness = there ? thickness : 0.0;
+}
+
 Surface surfaceFromMaterial(vec4 base_color) {
     Material m = material;
     Surface s;
@@ -335,6 +370,8 @@ Surface surfaceFromMaterial(vec4 base_color) {
     }
     if (hasLayer(LAYER_CLEARCOAT)) addClearcoat(m, towards, s);
     if (hasLayer(LAYER_ANISOTROPY)) addAnisotropy(m, s);
+    if (hasLayer(LAYER_SHEEN)) addSheen(m, s);
+    if (hasLayer(LAYER_IRIDESCENCE)) addFilm(m, s);
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {

@@ -25,6 +25,11 @@ struct Surface {
     vec3 clearcoat_normal;      // unit, shading
     float anisotropy;       // KHR_materials_anisotropy: strength; 0: isotropic, without a direction
     vec2 anisotropy_turn;   // where highlights stretch: cosine and sine about `normal`, from axesAcross()
+    vec3 sheen_color;       // KHR_materials_sheen, linear Rec.709; 0: none, and so is its roughness
+    float sheen_roughness;  // perceptual
+    float iridescence;      // KHR_materials_iridescence: weight of the film; 0: none, and so are its values
+    float iridescence_ior;
+    float iridescence_thickness;  // nm
     float transmission;     // fraction of entering light transmitted without diffusion; blended draws
     uint material_id;
     vec2 texcoord;          // forward+ only
@@ -48,6 +53,8 @@ void removeLayers(inout Surface s) {
     s.clearcoat = s.clearcoat_roughness = s.anisotropy = 0.0;
     s.clearcoat_normal = vec3(0.0);
     s.anisotropy_turn = vec2(0.0);
+    s.sheen_color = vec3(0.0);
+    s.sheen_roughness = s.iridescence = s.iridescence_ior = s.iridescence_thickness = 0.0;
 }
 
 // Two unit vectors perpendicular to the unit vector `n`, right-handed with it (Duff et al. 2017, "Building

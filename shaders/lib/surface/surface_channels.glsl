@@ -41,6 +41,15 @@ Surface surfaceFromChannels(ivec2 p) {
         s.anisotropy = texelFetch(channel_anisotropy, p, 0).r;
         s.anisotropy_turn = turnOf(texelFetch(channel_anisotropy_direction, p, 0).xyz, s.normal);
     }
+    if (hasLayer(LAYER_SHEEN)) {
+        s.sheen_color = texelFetch(channel_sheen_color, p, 0).rgb;
+        s.sheen_roughness = texelFetch(channel_sheen_roughness, p, 0).r;
+    }
+    if (hasLayer(LAYER_IRIDESCENCE)) {
+        s.iridescence = texelFetch(channel_iridescence, p, 0).r;
+        s.iridescence_ior = texelFetch(channel_iridescence_ior, p, 0).r;
+        s.iridescence_thickness = texelFetch(channel_iridescence_thickness, p, 0).r;
+    }
     s.transmission = 0.0;
     s.material_id = 0u;
     s.texcoord = vec2(0.0);
