@@ -232,8 +232,10 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     const bool stored = !storesNothing(inputs);
     // The frame's own G-buffer stores geometric normals only if shadows need them.
     if (stored && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
-                      request.modes.end())
+                      request.modes.end()) {
         addGBuffer(passes, inputs, frame, true);
+        addDepthOfApart(passes, inputs, frame);
+    }
     const FrameImages shaded = forLighting(frame);
     const LightBatch last = stored ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
     for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
