@@ -62,13 +62,13 @@ bool anyBlends(const Scene& scene) {
     return std::ranges::any_of(scene.materials, [](const Material& m) { return blends(m); });
 }
 
-// Error bound of a channel's component decoded from the G-buffer; emission: relative to the largest
-// component.
+// Error bound of a channel's component decoded from the G-buffer; emission and a film's thickness: relative
+// to the largest component.
 std::map<int, double> packedBounds(const Settings& settings) {
     if (settings.path != Path::deferred) return {};
     Requirements needs;
     needs.emission = true;
-    needs.layers = gpu::LAYER_CLEARCOAT;
+    needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
     std::map<int, double> bounds;
     for (const int mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))

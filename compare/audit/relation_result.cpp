@@ -2,6 +2,7 @@
 #include "compare/audit/relation_result.h"
 
 #include "compare/metrics/channel.h"
+#include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -28,8 +29,15 @@ constexpr auto lightMode = static_cast<int>(gpu::DEBUG_lit),
 constexpr auto normalMode = static_cast<int>(gpu::DEBUG_normals),
                roughnessMode = static_cast<int>(gpu::DEBUG_roughness),
                coatNormalMode = static_cast<int>(gpu::DEBUG_clearcoat_normal),
-               coatRoughnessMode = static_cast<int>(gpu::DEBUG_clearcoat_roughness);
+               coatRoughnessMode = static_cast<int>(gpu::DEBUG_clearcoat_roughness),
+               sheenMode = static_cast<int>(gpu::DEBUG_sheen_color),
+               sheenRoughnessMode = static_cast<int>(gpu::DEBUG_sheen_roughness),
+               filmMode = static_cast<int>(gpu::DEBUG_iridescence);
 constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any pixel
+// Largest relative change per radian of a thin film's colours, two terms cos(2.24e6 p) exp(-4.5e9 p^2) with p
+// = 2 pi OPD: as p changes by its own size at most, each changes by at most 14.
+constexpr double filmSlope = 30;
+// No texture changes a film's index, so it follows from material_id.
 constexpr std::array compared{lightMode,
                               static_cast<int>(gpu::DEBUG_albedo),
                               normalMode,
@@ -40,7 +48,11 @@ constexpr std::array compared{lightMode,
                               viewDepth,
                               facet,
                               coatNormalMode,
-                              coatRoughnessMode};
+                              coatRoughnessMode,
+                              sheenMode,
+                              sheenRoughnessMode,
+                              filmMode,
+                              static_cast<int>(gpu::DEBUG_iridescence_thickness)};
 
 // Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
 // steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
@@ -124,7 +136,7 @@ private:
     const Image& given(int mode) const { return given_.channels.at(mode); }
     const Image& changed(int mode) const { return changed_.channels.at(mode); }
 
-    // Scenes without clear coats lack their channels.
+    // Scenes without a layer lack its channels.
     bool isKnown(int mode) const {
         return given_.channels.contains(mode) && changed_.channels.contains(mode);
     }
@@ -166,10 +178,26 @@ private:
         const double roughness = given(roughnesses).data[pixel];
         return (2 / std::max(roughness * roughness, leastAlpha) + 4) * normalApart(normals, pixel);
     }
+    // A sheen's ln D changes by cot(theta_h) / alpha, which is less than 2 / alpha where D is not small. The
+    // sheen has a least roughness, and the normal of the base.
+    double lightBySheen(std::size_t pixel) const {
+        if (!isKnown(sheenMode) || !isKnown(sheenRoughnessMode) ||
+            largest(given(sheenMode).pixel(pixel), 3) == 0)
+            return 0;
+        const double roughness =
+            std::max(double{given(sheenRoughnessMode).data[pixel]}, double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
+        return (2 / (roughness * roughness) + 4) * normalApart(normalMode, pixel);
+    }
+    double lightByFilm(std::size_t pixel) const {
+        return isKnown(filmMode) && given(filmMode).data[pixel] > 0
+                   ? filmSlope * normalApart(normalMode, pixel)
+                   : 0;
+    }
     double lightByNormals(std::size_t pixel) const {
         const bool coated = isKnown(coatNormalMode) && isKnown(coatRoughnessMode);
         return lightByNormal(normalMode, roughnessMode, pixel) +
-               (coated ? lightByNormal(coatNormalMode, coatRoughnessMode, pixel) : 0);
+               (coated ? lightByNormal(coatNormalMode, coatRoughnessMode, pixel) : 0) + lightBySheen(pixel) +
+               lightByFilm(pixel);
     }
 
     // Tolerance of `rounding` for the largest component, without steps of a texture filter.
@@ -184,7 +212,7 @@ private:
         if (mode == facet) allowed += tolerance_.facet;
         if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
         if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
-            allowed += 2 * packed->second * (mode == static_cast<int>(gpu::DEBUG_emission) ? size : 1);
+            allowed += 2 * packed->second * (debugMode(mode).metric == Metric::relative ? size : 1);
         if (mode == lightMode) allowed += size * lightByNormals(pixel);
         if (mode == lightMode && tolerance_.packed_light)
             allowed += double{tolerance_.packed_light->data[pixel]};

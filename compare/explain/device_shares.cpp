@@ -3,6 +3,7 @@
 
 #include "compare/explain/lighting_components.h"
 #include "compare/metrics/channel.h"
+#include "compare/render/channel_shading.h"
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
@@ -22,13 +23,13 @@ enum Part { edges, textures, vertices, shadows, lists, rounding, partCount };
 
 Part partOf(const std::string& cause, bool textured) {
     static const std::set<std::string> places{"position", "geometric_normal"},
-        seen{"shadow_visibility", "local_visibility"},
-        surface{"albedo",    "normals",  "metallic",      "roughness",     "emission",
-                "occlusion", "lightmap", "dielectric_f0", "dielectric_f90"};
+        seen{"shadow_visibility", "local_visibility"};
     if (places.contains(cause)) return vertices;
     if (seen.contains(cause)) return shadows;
     if (cause == "light_count") return lists;
-    if (surface.contains(cause)) return textured ? textures : vertices;
+    const DebugMode* const mode = findDebugMode(cause);
+    if (mode && std::ranges::count(surfaceChannels(), mode->number) > 0)
+        return textured ? textures : vertices;
     return rounding;
 }
 

@@ -43,7 +43,13 @@ bool isRadiance(const DebugMode& mode) {
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;
     return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position ||
-           mode.number == gpu::DEBUG_shaded_samples || isHeat(mode);
+           mode.number == gpu::DEBUG_shaded_samples || mode.number == gpu::DEBUG_iridescence_ior ||
+           mode.number == gpu::DEBUG_iridescence_thickness || isHeat(mode);
+}
+// Of a normalised channel, after a space; empty: none, or unknown.
+const char* unitOf(const DebugMode& mode) {
+    if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior) return "";
+    return mode.number == gpu::DEBUG_iridescence_thickness ? " nm" : " m";
 }
 
 Rgb8 display(Color radiance, const Exposure& exposure) {
@@ -170,8 +176,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
             return {0, heatTop(high), exposure, fmt::format("heat map, 0 to {:g} lights", heatTop(high))};
         if (mode.number == gpu::DEBUG_shaded_samples)
             return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
-        const std::string range =
-            fmt::format("{:.4g} to {:.4g}{}", low, high, mode.shown == Shown::by_metric ? " m" : "");
+        const std::string range = fmt::format("{:.4g} to {:.4g}{}", low, high, unitOf(mode));
         if (low == high) high = low + 1;
         return {low, high, exposure, (mode.width == 1 ? "grey, " : "x, y, z as red, green, blue, ") + range};
     }

@@ -62,7 +62,7 @@ double roundedFloors(const Requirements& needs) {
 }
 
 // Change of a channel per unit of a linear texel, in the channel's unit: directions have components 2 t - 1.
-double perTexel(const DebugMode& mode) {
+double perTexel(const DebugMode& mode, const Requirements& needs) {
     switch (static_cast<gpu::uint>(mode.number)) {
         case gpu::DEBUG_normals:
         case gpu::DEBUG_clearcoat_normal:
@@ -71,6 +71,10 @@ double perTexel(const DebugMode& mode) {
             return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
         case gpu::DEBUG_tangent_normal:
             return 2 * std::sqrt(3.0);
+        case gpu::DEBUG_iridescence_thickness:
+            return double{needs.film_thickness_range};
+        case gpu::DEBUG_iridescence_ior:  // no texture scales it
+            return 0;
         default:
             return 1;
     }
@@ -151,6 +155,7 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
         case gpu::DEBUG_geometric_normal:
             return Kind::facet;
         case gpu::DEBUG_lit_clearcoat:
+        case gpu::DEBUG_lit_sheen:
             return Kind::part;
         case gpu::DEBUG_shadow_visibility:
         case gpu::DEBUG_local_visibility:
@@ -178,6 +183,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       place_(mode, pair, baseline_, test_),
       facet_(pair),
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
+      per_texel_(perTexel(mode, pair.needs)),
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
       texels_(imageOf(across_.texels, mode.number)),
       expected_(imageOf(across_.relit, mode.number)),
@@ -311,6 +317,7 @@ bool DeviceBounds::isColor() const {
         case gpu::DEBUG_specular:
         case gpu::DEBUG_emission:
         case gpu::DEBUG_lightmap:
+        case gpu::DEBUG_sheen_color:
             return true;
         default:
             return false;
@@ -343,7 +350,7 @@ double DeviceBounds::textures(std::size_t i) const {
     // Linear texels; they mix F0.
     if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
         mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
-        most += filterRounding(across_, false) * perTexel(mode_);
+        most += filterRounding(across_, false) * per_texel_;
     return most;
 }
 

@@ -77,6 +77,7 @@ private:
     PlaceBound place_;
     FacetBound facet_;
     double rounded_as_;  // rounding of darker pixels equals that at this value, in the channel's unit
+    double per_texel_;   // change per unit of a linear texel, in the channel's unit
     double bits_;
     const Image *texels_, *expected_;
     bool darkens_;     // albedo, of a scene with specular-glossiness

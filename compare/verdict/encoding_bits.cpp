@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace diptych {
@@ -18,9 +19,16 @@ namespace {
 constexpr double unormSlack = 8 * 0x1p-24;
 constexpr double squareSlack = 2 * unormSlack;
 
+// float32 error of x = (n - 1) / (n + 1): 7 units of 2^-24 of it to encode (two sums and a division), 9 to
+// scale, round and decode it; and of (1 + x) / (1 - x) from x, relative: two sums, a division, doubled.
+constexpr double indexSlack = 16 * 0x1p-24, indexShare = 14 * 0x1p-24;
+
 // float32 error of the angle's polynomial (shaders/lib/math/angles.glsl, relative 6e-7), of sine and cosine,
 // and of the plane's axes, radians. Vulkan permits a sine 2^-11 off; lavapipe stays within this.
 constexpr double lineSlack = 0x1p-18;
+
+static_assert(gpu::IRIDESCENCE_THICKNESS_BITS == 15,
+              "halfBound is that of 5 bits of exponent and 10 of mantissa");
 
 unsigned normalBits(GBufferEncoding packed) {
     return packed == GBufferEncoding::compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS;
@@ -40,6 +48,16 @@ std::optional<StoredField> layerField(int mode, GBufferEncoding packed) {
             return StoredField{unorm, gpu::ANISOTROPY_BITS};
         case gpu::DEBUG_anisotropy_direction:
             return StoredField{line, gpu::ANISOTROPY_ANGLE_BITS, normalBits(packed)};
+        case gpu::DEBUG_sheen_color:
+            return StoredField{root, gpu::SHEEN_BITS};
+        case gpu::DEBUG_sheen_roughness:
+            return StoredField{unorm, gpu::SHEEN_BITS};
+        case gpu::DEBUG_iridescence:
+            return StoredField{unorm, gpu::IRIDESCENCE_BITS};
+        case gpu::DEBUG_iridescence_ior:
+            return StoredField{index, gpu::IRIDESCENCE_IOR_BITS};
+        case gpu::DEBUG_iridescence_thickness:
+            return StoredField{half, gpu::IRIDESCENCE_THICKNESS_BITS};
         default:
             return {};
     }
@@ -69,6 +87,13 @@ double squareBound(unsigned bits) {
 // rounding changes the exponent. Below 2^-16 the exponent is at its minimum and half a step stays 2^-25.
 double radianceBound() {
     return 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1)) * (1 + 1.0 / 512);
+}
+
+// n = (1 + x) / (1 - x), so x + h decodes to n + 2h / ((1 - x) (1 - x - h)), where 1 - x = 2 / (n + 1). The
+// error of x - h is smaller. One code fewer than all counts, because code 0 is free.
+double indexBound(double n, unsigned bits) {
+    const double h = 0.5 / static_cast<double>((1u << bits) - 2) + indexSlack, rest = 2 / (n + 1);
+    return rest > h ? 2 * h / (rest * (rest - h)) + indexShare * n : std::numeric_limits<double>::infinity();
 }
 
 // Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) -
@@ -102,6 +127,10 @@ double StoredField::largestBound() const {
             return lineBound(bits, normal_bits);
         case Code::radiance:
             return radianceBound();
+        case Code::index:
+            return std::numeric_limits<double>::infinity();
+        case Code::half:
+            return halfBound;
     }
     return 0;
 }
@@ -161,7 +190,12 @@ std::span<const int> lightingFields() {
                                        static_cast<int>(gpu::DEBUG_clearcoat_roughness),
                                        static_cast<int>(gpu::DEBUG_clearcoat_normal),
                                        static_cast<int>(gpu::DEBUG_anisotropy),
-                                       static_cast<int>(gpu::DEBUG_anisotropy_direction)};
+                                       static_cast<int>(gpu::DEBUG_anisotropy_direction),
+                                       static_cast<int>(gpu::DEBUG_sheen_color),
+                                       static_cast<int>(gpu::DEBUG_sheen_roughness),
+                                       static_cast<int>(gpu::DEBUG_iridescence),
+                                       static_cast<int>(gpu::DEBUG_iridescence_ior),
+                                       static_cast<int>(gpu::DEBUG_iridescence_thickness)};
     return fields;
 }
 

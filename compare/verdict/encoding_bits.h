@@ -22,6 +22,13 @@ double squareBound(unsigned bits);
 double radianceBound();
 inline constexpr double leastRadianceBound = 0x1p-25;
 
+// For an index of refraction of at least 1: x = (n - 1) / (n + 1), 0 to 1, is stored in `bits` bits, whose
+// code 0 is left free. Infinite where an error of half a step reaches x = 1.
+double indexBound(double n, unsigned bits);
+
+// For a half: bound relative to the value from 2^-14 on, and the bound below.
+inline constexpr double halfBound = 0x1p-11, leastHalfBound = 0x1p-25;
+
 // Largest angle error of an octahedral normal with `bits` per coordinate, degrees.
 double octahedralBound(unsigned bits);
 
@@ -34,13 +41,14 @@ inline constexpr double lengthBound = 10 * 0x1p-24;
 
 // How a field of Surface is stored in fewer bits than float32.
 struct StoredField {
-    // root: the square root of each component; line: an angle, as for lineBound().
-    enum class Code { unorm, root, octahedral, line, radiance };
+    // root: the square root of each component; line: an angle, as for lineBound(); index: of refraction, as
+    // for indexBound(); half: without its sign.
+    enum class Code { unorm, root, octahedral, line, radiance, index, half };
     Code code;
     unsigned bits = 0;         // of each component or coordinate; radiance: of the mantissas
     unsigned normal_bits = 0;  // line: of each coordinate of the normal
 
-    double largestBound() const;  // of any value, in the channel's metric
+    double largestBound() const;  // of any value, in the channel's metric; index: infinite
 };
 
 // Of a channel of a G-buffer of this encoding; empty where it is stored exactly or not at all.

@@ -23,6 +23,15 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
     return use;
 }
 
+// Of values with an exponent: bounded relative to the largest component, or by the smallest step. 0 has a
+// code of its own.
+PixelUse floatUse(const float* read, const float* own, int components, double share, double least,
+                  double slack) {
+    const double size = metrics::largestFinite(own, components);
+    const double bound = size > 0 ? std::max(size * share, least) + size * slack : 0;
+    return {pixelUse(metrics::distance(read, own, components), bound).share, size > 0 ? bound / size : 0};
+}
+
 PixelUse useOf(const StoredField& field, const float* read, const float* own, int components, double slack) {
     switch (field.code) {
         case StoredField::Code::unorm:
@@ -40,14 +49,14 @@ PixelUse useOf(const StoredField& field, const float* read, const float* own, in
             return pixelUse(finite ? between(read, own) : metrics::distance(read, own, components),
                             field.largestBound() + slack);
         }
-        case StoredField::Code::radiance: {
-            // Of the largest component.
-            const double size = metrics::largestFinite(own, components);
-            const double bound =
-                size > 0 ? std::max(size * radianceBound(), leastRadianceBound) + size * slack : 0;
-            return {pixelUse(metrics::distance(read, own, components), bound).share,
-                    size > 0 ? bound / size : 0};
-        }
+        case StoredField::Code::radiance:
+            return floatUse(read, own, components, radianceBound(), leastRadianceBound, slack);
+        case StoredField::Code::half:
+            return floatUse(read, own, components, halfBound, leastHalfBound, slack);
+        case StoredField::Code::index:
+            // 0: no film.
+            return pixelUse(metrics::distance(*read, *own),
+                            (*own > 0 ? indexBound(double{*own}, field.bits) : 0) + slack);
     }
     return {};
 }

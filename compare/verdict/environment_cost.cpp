@@ -11,10 +11,11 @@
 namespace diptych {
 namespace {
 
-// The costs are sums over the lobes of the base and of the clear coat, so they bound the coat's part too.
+// The costs are sums over the lobes of the base, the sheen and the clear coat, so they bound the parts too.
 bool isSpecular(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_specular) ||
-           mode.number == static_cast<int>(gpu::DEBUG_lit_clearcoat);
+           mode.number == static_cast<int>(gpu::DEBUG_lit_clearcoat) ||
+           mode.number == static_cast<int>(gpu::DEBUG_lit_sheen);
 }
 bool isDiffuse(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);

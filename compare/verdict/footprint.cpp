@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace diptych {
@@ -69,6 +70,10 @@ public:
           test_(pair.test.channels.at(mode.number)),
           error_(mode.metric, mode.kind, baseline_, pair.coverage),
           environment_(pair) {
+        for (const DebugMode& of : debugModes())
+            if ((of.number == mode.number || (isLit(mode.number) && isSurface(of))) &&
+                pair.baseline.channels.contains(of.number) && pair.test.channels.contains(of.number))
+                bounds_[of.number] = encodingBound(of, pair);
         if (pair.texels)
             for (std::size_t code = 0; code < 256; ++code) shares_[code] = srgbShare(code);
     }
@@ -147,7 +152,7 @@ private:
             const double size =
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
             const double same = (isAngle(mode.metric) ? degreesPerRadian : size) * sameSurface +
-                                (mode.metric == Metric::relative ? size : 1) * encodingBound(mode, pair_);
+                                (mode.metric == Metric::relative ? size : 1) * bounds_.at(mode.number);
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded =
                 mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) + darkened(mode, *a, i) : 0;
@@ -168,7 +173,11 @@ private:
             case gpu::DEBUG_clearcoat:
             case gpu::DEBUG_clearcoat_roughness:
             case gpu::DEBUG_anisotropy:
+            case gpu::DEBUG_sheen_roughness:
+            case gpu::DEBUG_iridescence:
                 return code;
+            case gpu::DEBUG_iridescence_thickness:
+                return code * double{pair_.needs.film_thickness_range};
             case gpu::DEBUG_normals:
             case gpu::DEBUG_clearcoat_normal:
                 // Three components of 2 t - 1.
@@ -179,12 +188,15 @@ private:
             case gpu::DEBUG_tangent_normal:
                 return 2 * std::sqrt(3.0) * code;
             case gpu::DEBUG_albedo:
+            case gpu::DEBUG_sheen_color:
             case gpu::DEBUG_dielectric_f0:
             case gpu::DEBUG_specular: {
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
                 // The specular texture scales F0, and metallic mixes it with albedo.
-                return most + (mode.number == static_cast<int>(gpu::DEBUG_albedo) ? 0 : code);
+                const bool scaled = mode.number == static_cast<int>(gpu::DEBUG_dielectric_f0) ||
+                                    mode.number == static_cast<int>(gpu::DEBUG_specular);
+                return most + (scaled ? code : 0);
             }
             case gpu::DEBUG_emission:
             case gpu::DEBUG_lightmap:
@@ -210,7 +222,8 @@ private:
     double colours(std::size_t i, double size) const {
         if (!isLit(mode_.number) || !pair_.texels) return 0;
         double share = 0;
-        for (const gpu::uint number : {gpu::DEBUG_albedo, gpu::DEBUG_emission, gpu::DEBUG_lightmap}) {
+        for (const gpu::uint number :
+             {gpu::DEBUG_albedo, gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_sheen_color}) {
             const DebugMode& mode = debugMode(static_cast<int>(number));
             const Image* const image = findChannel(pair_.baseline, number);
             const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
@@ -268,7 +281,7 @@ private:
 
     // Quantization error bound, or for light the encoding's effect, in the channel's metric.
     double encoding(std::size_t i, double unit) const {
-        if (!isLit(mode_.number)) return encodingBound(mode_, pair_);
+        if (!isLit(mode_.number)) return bounds_.at(mode_.number);
         const Frame* const shown = encodingShownBy(mode_, pair_);
         return shown ? metrics::distance(shown->channels.at(mode_.number).pixel(i),
                                          shown->through_gbuffer.at(mode_.number).pixel(i), mode_.width) /
@@ -282,7 +295,8 @@ private:
         result.detailed = count;
         FlipOptions options;
         options.covered = detailed;
-        const double scale = mode_.metric == Metric::relative ? exposure(detailed) : 0;
+        const bool endless = mode_.metric == Metric::relative || mode_.domain == Domain::positive;
+        const double scale = endless ? exposure(detailed) : 0;
         result.flip = ldrFlip(pictureOf(baseline_, scale), pictureOf(test_, scale), options).mean;
     }
 
@@ -298,8 +312,8 @@ private:
         return sum > 0 ? 0.18 * count / sum : 1;
     }
 
-    // The channel as a displayable image: radiance, if `scale` is not 0, by Reinhard's curve and a
-    // display's gamma; other values unchanged.
+    // The channel as a displayable image: values without an upper end, if `scale` is not 0, by Reinhard's
+    // curve and a display's gamma; other values unchanged.
     Image pictureOf(const Image& image, double scale) const {
         Image picture(image.width, image.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -319,6 +333,7 @@ private:
     const Image &baseline_, &test_;
     PixelError error_;
     EnvironmentCost environment_;
+    std::map<int, double> bounds_;      // encodingBound() of the surface's channels
     std::array<double, 256> shares_{};  // srgbShare() of each code
 };
 

@@ -33,6 +33,9 @@ constexpr int texelsSeen = 1;
 struct Use {
     gpu::uint mode;
     std::array<double, 4> factor;  // of each component
+    // Whether texels of 0 take the layer away, so that the channel is 0 there: then `factor` is its largest
+    // value, and the difference where such texels and others may be visible.
+    bool removes = false;
 };
 
 // Degrees per unit of a unit vector 2 t - 1 of three components, and of two.
@@ -90,10 +93,44 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
         case gpu::SLOT_anisotropy:
             return {one(gpu::DEBUG_anisotropy, 2, m.anisotropy),
                     Use{gpu::DEBUG_anisotropy_direction, {turnedInPlane, turnedInPlane, 0, 0}}};
+        case gpu::SLOT_sheen_color: {
+            const double rough = m.sheen_roughness;
+            return {color(gpu::DEBUG_sheen_color, most(m.sheen_color)),
+                    Use{gpu::DEBUG_sheen_roughness, {rough, rough, rough, 0}, true}};
+        }
+        case gpu::SLOT_sheen_roughness:
+            return {one(gpu::DEBUG_sheen_roughness, 3, m.sheen_roughness)};
+        case gpu::SLOT_iridescence: {
+            const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
+            return {one(gpu::DEBUG_iridescence, 0, m.iridescence),
+                    Use{gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true},
+                    Use{gpu::DEBUG_iridescence_thickness, {thickest, 0, 0, 0}, true}};
+        }
+        case gpu::SLOT_iridescence_thickness:
+            return {one(gpu::DEBUG_iridescence_thickness, 1,
+                        std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least))};
         default:
             return {};
     }
 }
+
+// Range of texels' components.
+struct TexelRange {
+    glm::dvec4 least{std::numeric_limits<double>::infinity()}, most{-std::numeric_limits<double>::infinity()};
+
+    // Largest difference that it makes to a channel. `weight`: by how much two means of the texels may
+    // differ, as a fraction of the range.
+    double differs(const Use& use, double weight) const {
+        double most_of_all = 0;
+        for (int c = 0; c < 4; ++c) {
+            const double size = most[c] - least[c], part = !use.removes                ? weight * size
+                                                           : least[c] <= 0 && size > 0 ? 1
+                                                                                       : 0;
+            most_of_all = std::max(most_of_all, use.factor[static_cast<std::size_t>(c)] * part);
+        }
+        return most_of_all;
+    }
+};
 
 // Range of the distance from a position to the next pixel, texels of level 0.
 struct PixelTexels {
@@ -118,12 +155,12 @@ public:
     }
 
     // Range of each component among the texels that may be visible at a position.
-    std::array<double, 4> rangeAt(const glm::dvec2& uv, const PixelTexels& texels) const {
+    TexelRange rangeAt(const glm::dvec2& uv, const PixelTexels& texels) const {
         const auto levelOf = [&](double level) {
             return static_cast<std::size_t>(
                 std::clamp(std::floor(level), 0.0, static_cast<double>(count_ - 1)));
         };
-        Range range;
+        TexelRange range;
         const std::size_t first = levelOf(std::log2(std::max(texels.least, 1e-9)) - levelBelow),
                           last = levelOf(std::log2(std::max(texels.most, 1e-9)) + levelAbove + 1);
         for (std::size_t k = first; k <= last; ++k) {
@@ -133,25 +170,16 @@ public:
             for (long long v = y - texelsSeen; v <= y + texelsSeen; ++v)
                 for (long long u = x - texelsSeen; u <= x + texelsSeen; ++u) add(range, k, u, v);
         }
-        return range.size();
+        return range;
     }
-    std::array<double, 4> wholeRange() const {
-        Range range;
+    TexelRange wholeRange() const {
+        TexelRange range;
         for (int y = 0; y < chain_.height(); ++y)
             for (int x = 0; x < chain_.width(); ++x) add(range, 0, x, y);
-        return range.size();
+        return range;
     }
 
 private:
-    struct Range {
-        glm::dvec4 least{std::numeric_limits<double>::infinity()},
-            most{-std::numeric_limits<double>::infinity()};
-        std::array<double, 4> size() const {
-            const glm::dvec4 s = most - least;
-            return {s.x, s.y, s.z, s.w};
-        }
-    };
-
     static std::size_t wrapped(long long i, long long size, Wrap wrap) {
         if (wrap == Wrap::clamp_to_edge) return static_cast<std::size_t>(std::clamp(i, 0LL, size - 1));
         const long long period = wrap == Wrap::mirrored_repeat ? 2 * size : size;
@@ -159,7 +187,7 @@ private:
         return static_cast<std::size_t>(at < size ? at : period - 1 - at);
     }
 
-    void add(Range& range, std::size_t level, long long x, long long y) const {
+    void add(TexelRange& range, std::size_t level, long long x, long long y) const {
         const int width = chain_.width(level), height = chain_.height(level);
         const std::size_t u = wrapped(x, width, sampler_.wrap_s), v = wrapped(y, height, sampler_.wrap_t);
         const std::size_t at = v * static_cast<std::size_t>(width) + u;
@@ -248,7 +276,7 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
             // An animation may move a texture.
             const bool known =
                 uv && slot.texcoord == 0 && !scene.material_parts.contains(static_cast<int>(id));
-            const std::array<double, 4> all = levels.wholeRange();
+            const TexelRange all = levels.wholeRange();
             tbb::parallel_for(std::size_t{0}, pixels[id].size(), [&](std::size_t k) {
                 const std::size_t i = pixels[id][k];
                 const auto width = static_cast<std::size_t>(ids->width);
@@ -256,7 +284,8 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
                     known ? texelsOfPixel(*uv, surface, slot, image, static_cast<int>(i % width),
                                           static_cast<int>(i / width))
                           : std::nullopt;
-                std::array<double, 4> range = all;
+                TexelRange range = all;
+                double weight = 1;
                 if (texels) {
                     const glm::dvec3 at(uv->pixel(i)[0], uv->pixel(i)[1], 1);
                     const glm::dvec2 place(slot.u.x * at.x + slot.u.y * at.y + slot.u.z,
@@ -265,14 +294,11 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
                     // Magnified: two steps of the weights, and the movement of the position by a vertex
                     // step.
                     if (texture.sampler.magnify_linear && std::log2(texels->most) + levelAbove < 0)
-                        for (double& component : range)
-                            component *= std::min(1.0, 2 * (weighed + placed * texels->most));
+                        weight = std::min(1.0, 2 * (weighed + placed * texels->most));
                 }
-                for (const Use& use : uses) {
-                    double most = 0;
-                    for (std::size_t c = 0; c < 4; ++c) most = std::max(most, use.factor[c] * range[c]);
-                    *ranges.at(static_cast<int>(use.mode)).pixel(i) += static_cast<float>(most);
-                }
+                for (const Use& use : uses)
+                    *ranges.at(static_cast<int>(use.mode)).pixel(i) +=
+                        static_cast<float>(range.differs(use, weight));
             });
         }
     return ranges;

@@ -23,15 +23,27 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// Tolerance of radiance in 9.9.9.e5: emission and lightmaps.
-Tolerance radianceTolerance(const DebugMode& mode, const FramePair& pair) {
+// Tolerance of values with an exponent: half a step relative to the value, or half of the smallest step,
+// which is `least`.
+Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tolerance& relative,
+                         const Tolerance& least) {
     const Image& baseline = pair.baseline.channels.at(mode.number);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
-    const double dark = floor > 0 ? leastRadianceBound / floor : 0;
-    return {std::max(radianceBound(), dark),
-            dark > radianceBound()
-                ? fmt::format("half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel")
-                : "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"};
+    const double smallest = floor > 0 ? least.max / floor : 0;
+    return smallest > relative.max ? Tolerance{smallest, least.because} : relative;
+}
+
+// Tolerance of an index of refraction: the bound of the largest one. Deferred's own indices, which are
+// decoded, do not widen it.
+Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& pair) {
+    const Frame& own = pair.baseline.settings.path == Path::deferred ? pair.test : pair.baseline;
+    const Image& image = own.channels.at(mode.number);
+    double largest = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i)
+        if (pair.coverage.covered[i]) largest = std::max(largest, metrics::largestFinite(image.pixel(i), 1));
+    return {largest > 0 ? indexBound(largest, bits) : 0,
+            fmt::format("(n - 1) / (n + 1) in {} bits: half a step, 0.5 / {}, of the largest index n, {:.4g}",
+                        bits, (1u << bits) - 2, largest)};
 }
 
 Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
@@ -54,7 +66,16 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
                             "a step of an angle in {1} bits, 180 / 2^{2}; degrees",
                             field.normal_bits, bits, bits + 1)};
         case StoredField::Code::radiance:
-            return radianceTolerance(mode, pair);
+            return floatTolerance(
+                mode, pair,
+                {field.largestBound(), "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"},
+                {leastRadianceBound, "half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel"});
+        case StoredField::Code::index:
+            return indexTolerance(bits, mode, pair);
+        case StoredField::Code::half:
+            return floatTolerance(mode, pair,
+                                  {field.largestBound(), "half a step of a half's 10-bit mantissa, 2^-11"},
+                                  {leastHalfBound, "half of a half's smallest step, 2^-25"});
     }
     return {};
 }
@@ -124,6 +145,13 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
         case gpu::DEBUG_anisotropy:
         case gpu::DEBUG_anisotropy_direction:
             return {0, "nothing in the scene is anisotropic"};
+        case gpu::DEBUG_sheen_color:
+        case gpu::DEBUG_sheen_roughness:
+            return {0, "nothing in the scene has a sheen"};
+        case gpu::DEBUG_iridescence:
+        case gpu::DEBUG_iridescence_ior:
+        case gpu::DEBUG_iridescence_thickness:
+            return {0, "nothing in the scene has a thin film"};
         case gpu::DEBUG_material_id:
             return {0, "the index is stored exactly"};
         case gpu::DEBUG_lightmapped:

@@ -88,6 +88,7 @@ std::string unitOf(const DebugMode& mode) {
     if (mode.number == static_cast<int>(gpu::DEBUG_depth) ||
         mode.number == static_cast<int>(gpu::DEBUG_position))
         return ", m";
+    if (mode.number == static_cast<int>(gpu::DEBUG_iridescence_thickness)) return ", nm";
     return {};
 }
 

@@ -19,8 +19,10 @@ struct Requirements {
     bool unlit = false;        // KHR_materials_unlit: the surface emits its base colour
     bool emission = false;     // includes unlit materials
     std::uint32_t layers = 0;  // a sum of LAYER_* of contract/material.h
-    bool lightmap = false;     // a lightmap of non-zero intensity
-    float max_lightmap = 0;    // the largest component of any lightmap, W/(sr m^2)
+    // Largest difference between the thicknesses of a film among which a texture chooses, nm.
+    float film_thickness_range = 0;
+    bool lightmap = false;   // a lightmap of non-zero intensity
+    float max_lightmap = 0;  // the largest component of any lightmap, W/(sr m^2)
     // KHR_materials_specular or _ior differs from its default, specular-glossiness, or unlit.
     bool dielectric_specular = false;
     bool specular_glossiness = false;  // KHR_materials_pbrSpecularGlossiness
