@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/ambient.h"
 
+#include "compare/reference/gauss_legendre.h"
+#include "compare/reference/sheen.h"
 #include "shared/scene/model/axes.h"
 
 #include <glm/geometric.hpp>
@@ -13,50 +15,6 @@
 
 namespace diptych::reference {
 namespace {
-
-// Sixteen-point Gauss-Legendre quadrature on (0, 1). Sign changes on a grid bracket the roots; Newton's
-// method refines them.
-struct Rule {
-    static constexpr int points = 16;
-    std::array<double, points> at, weight;
-};
-
-// The Legendre polynomial of the rule's degree, and its derivative.
-std::array<double, 2> legendre(double x) {
-    double before = 1, p = x;
-    for (int k = 2; k <= Rule::points; ++k) {
-        const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-        before = p;
-        p = next;
-    }
-    return {p, Rule::points * (x * p - before) / (x * x - 1)};
-}
-
-Rule makeRule() {
-    Rule rule{};
-    constexpr int grid = 4000;
-    int found = 0;
-    for (int i = 0; i < grid && found < Rule::points; ++i) {
-        double low = -1 + (2.0 * i + 0.5) / grid, high = low + 2.0 / grid;
-        if (std::signbit(legendre(low)[0]) == std::signbit(legendre(high)[0])) continue;
-        double x = (low + high) / 2;
-        for (int step = 0; step < 20; ++step) {
-            const auto [p, slope] = legendre(x);
-            x -= p / slope;
-        }
-        const double slope = legendre(x)[1];
-        rule.at[static_cast<std::size_t>(found)] = (1 + x) / 2;
-        rule.weight[static_cast<std::size_t>(found++)] = 1 / ((1 - x * x) * slope * slope);
-    }
-    return rule;
-}
-
-template <class F>
-void eachPoint(double from, double to, const F& f) {
-    static const Rule rule = makeRule();
-    for (std::size_t i = 0; i < Rule::points; ++i)
-        f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
-}
 
 // In a frame with the normal +Z and the viewer in the plane y = 0.
 class Integrals {
@@ -183,10 +141,14 @@ private:
 }  // namespace
 
 glm::dvec3 diffuseAlbedo(const Surface& surface, const Compensation& compensation) {
+    if (hasSheen(surface)) return glm::dvec3(0);
     return Integrals(surface, compensation).smooth().diffuse;
 }
 
 glm::dvec3 specularAlbedo(const Surface& surface, const Compensation& compensation) {
+    if (hasSheen(surface))
+        return surface.sheen_color *
+               sheenAlbedo(surface.sheen_roughness, glm::dot(surface.normal, surface.to_viewer));
     const Integrals integrals(surface, compensation);
     const glm::dvec3 lobe = integrals.lobe();
     return compensation.between == glm::dvec3(0) ? lobe : lobe + integrals.smooth().specular;

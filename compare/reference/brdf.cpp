@@ -43,8 +43,14 @@ double schlick(double v_dot_h) {
     const double x = std::clamp(1 - v_dot_h, 0.0, 1.0);
     return square(square(x)) * x;
 }
-glm::dvec3 fresnel(const glm::dvec3& f0, double f90, double weight) {
-    return f0 + (glm::dvec3(f90) - f0) * weight;
+// Schlick's curve, mixed with the film's by its weight.
+glm::dvec3 fresnel(const ThinFilm& film, const glm::dvec3& f0, double f90, double cosine) {
+    const glm::dvec3 plain = f0 + (glm::dvec3(f90) - f0) * schlick(cosine);
+    return film.weight > 0 ? glm::mix(plain, film.reflected(cosine, f0), film.weight) : plain;
+}
+
+double viewCosine(const Surface& s) {
+    return std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
 }
 
 }  // namespace
@@ -97,6 +103,20 @@ double coatWeight(const Surface& s) {
     return s.clearcoat * (0.04 + 0.96 * schlick(std::abs(glm::dot(s.clearcoat_normal, s.to_viewer))));
 }
 
+Surface filmAsSchlick(const Surface& s) {
+    if (!(s.iridescence > 0)) return s;
+    const double cosine = viewCosine(s), weight = schlick(cosine), left = std::max(1 - weight, 1e-4);
+    const auto f0 = [&](const glm::dvec3& given, double f90, double used) {
+        const glm::dvec3 there = fresnel(filmOf(s), given, f90, cosine);
+        return glm::clamp((there - used * weight) / left, glm::dvec3(0), glm::dvec3(1));
+    };
+    Surface result = withoutFilm(s);
+    result.dielectric_f90 = glm::mix(s.dielectric_f90, 1.0, s.iridescence);
+    result.dielectric_f0 = f0(s.dielectric_f0, s.dielectric_f90, result.dielectric_f90);
+    result.albedo = f0(s.albedo, 1, 1);
+    return result;
+}
+
 Brdf::Brdf(const Surface& s, const Compensation& compensation)
     : compensation_(compensation),
       normal_(s.normal),
@@ -107,9 +127,13 @@ Brdf::Brdf(const Surface& s, const Compensation& compensation)
       metallic_(s.metallic),
       scattered_(1 - s.transmission),
       dielectric_f90_(s.dielectric_f90),
+      film_(filmOf(s)),
+      sheen_color_(s.sheen_color),
       widths_(widthsOf(s)),
-      n_dot_v_(std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0)),
-      lambda_v_(lambda(widthTowards(widths_, s.to_viewer), n_dot_v_)) {}
+      n_dot_v_(viewCosine(s)),
+      lambda_v_(lambda(widthTowards(widths_, s.to_viewer), n_dot_v_)) {
+    if (hasSheen(s)) sheen_.emplace(s.sheen_roughness, n_dot_v_);
+}
 
 Reflected Brdf::operator()(const glm::dvec3& to_light) const {
     Reflected f = evaluate(to_light);
@@ -125,13 +149,14 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double length = glm::length(sum);
     const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
     const double n_dot_h = std::min(glm::dot(normal_, half), 1.0);
-    const double weight = schlick(glm::dot(to_viewer_, half));
+    if (sheen_) return {glm::dvec3(0), sheen_color_ * (*sheen_)(n_dot_l, n_dot_h)};
+    const double v_dot_h = glm::dot(to_viewer_, half);
 
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.
     const double masking = 1 / (1 + lambda_v_ + lambda(widthTowards(widths_, to_light), n_dot_l));
     const double lobe = distribution(widths_, half, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
-    const glm::dvec3 layer = fresnel(dielectric_f0_, dielectric_f90_, weight);
-    const glm::dvec3 metal = fresnel(albedo_, 1, weight);
+    const glm::dvec3 layer = fresnel(film_, dielectric_f0_, dielectric_f90_, v_dot_h);
+    const glm::dvec3 metal = fresnel(film_, albedo_, 1, v_dot_h);
     // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
     const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =
@@ -141,11 +166,10 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
 }
 
 glm::dvec3 transmitted(const Surface& s) {
-    const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
-    const glm::dvec3 layer = fresnel(s.dielectric_f0, s.dielectric_f90, schlick(cosine));
+    const glm::dvec3 layer = fresnel(filmOf(s), s.dielectric_f0, s.dielectric_f90, viewCosine(s));
     const glm::dvec3 base =
         s.albedo * (1.0 - lostToLayer(s.base_layer, layer)) * (s.transmission * (1 - s.metallic));
-    return base * (1 - coatWeight(s));
+    return base * ((1 - coatWeight(s)) * keptUnderSheen(s));
 }
 
 }  // namespace diptych::reference

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B,
-// KHR_materials_ior, _specular, _clearcoat and
-// _anisotropy.
+// KHR_materials_ior, _specular, _clearcoat,
+// _anisotropy, _sheen and _iridescence.
 #pragma once
 
+#include "compare/reference/sheen.h"
 #include "compare/reference/surface.h"
+#include "compare/reference/thin_film.h"
 
 #include <cmath>
 #include <optional>
@@ -44,23 +46,30 @@ Surface coatOf(const Surface& surface);
 // Fraction of light that the clear coat reflects instead of the material; 0 without a coat.
 double coatWeight(const Surface& surface);
 
+// The same surface with Schlick's curves through the film's reflectance at n.v, by which the paths
+// approximate it. `albedo` becomes the metal's F0.
+Surface filmAsSchlick(const Surface& surface);
+
 // Fraction of light from straight behind a thin surface that reaches the viewer, for each component. It is
 // the light that the layer admits and the base neither scatters nor absorbs (KHR_materials_transmission
-// without its roughness), and lets through a clear coat.
+// without its roughness), and lets through a sheen and a clear coat.
 glm::dvec3 transmitted(const Surface& surface);
 
+// Reflection by one layer: a sheen (sheenOf()), or a surface without one. Ignores a clear coat.
 class Brdf {
 public:
     explicit Brdf(const Surface& surface, const Compensation& compensation = {});
 
     // f(l, v) n.l of each lobe, 1/sr; 0 for light below the shading normal's horizon. `to_light`: unit.
     Reflected operator()(const glm::dvec3& to_light) const;
-    // The GGX lobe alone: `specular` without Compensation::between.
+    // The GGX or sheen lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
 
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }
+    // Of the GGX lobe; a sheen's are 1.
     const Widths& widths() const { return widths_; }
+    bool isSheen() const { return sheen_.has_value(); }
 
 private:
     Reflected evaluate(const glm::dvec3& to_light) const;
@@ -70,6 +79,9 @@ private:
     glm::dvec3 albedo_, dielectric_f0_;
     BaseLayer base_layer_;
     double metallic_, scattered_, dielectric_f90_;
+    ThinFilm film_;
+    glm::dvec3 sheen_color_;
+    std::optional<SheenLobe> sheen_;
     Widths widths_;
     double n_dot_v_, lambda_v_;
 };

@@ -33,6 +33,8 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return pixel.shading.environment.diffuse + pixel.shading.environment.specular;
         case gpu::DEBUG_lit_clearcoat:
             return pixel.shading.clearcoat;
+        case gpu::DEBUG_lit_sheen:
+            return pixel.shading.sheen;
         case gpu::DEBUG_lit_haze:
             return pixel.haze.scattered;
         case gpu::DEBUG_shadow_visibility:
@@ -95,6 +97,16 @@ glm::dvec3 channelValue(int mode, const Pixel& pixel) {
             return glm::dvec3(s.anisotropy);
         case gpu::DEBUG_anisotropy_direction:
             return s.anisotropy_direction;
+        case gpu::DEBUG_sheen_color:
+            return s.sheen_color;
+        case gpu::DEBUG_sheen_roughness:
+            return glm::dvec3(s.sheen_roughness);
+        case gpu::DEBUG_iridescence:
+            return glm::dvec3(s.iridescence);
+        case gpu::DEBUG_iridescence_ior:
+            return glm::dvec3(s.iridescence_ior);
+        case gpu::DEBUG_iridescence_thickness:
+            return glm::dvec3(s.iridescence_thickness);
     }
     throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
 }
@@ -124,6 +136,15 @@ Surface Captured::surface(std::size_t pixel, const PixelRays& rays, int material
     }
     if (isCaptured(gpu::DEBUG_anisotropy))
         s.stretch(value(gpu::DEBUG_anisotropy, pixel).x, value(gpu::DEBUG_anisotropy_direction, pixel));
+    if (isCaptured(gpu::DEBUG_sheen_color)) {
+        s.sheen_color = value(gpu::DEBUG_sheen_color, pixel);
+        s.sheen_roughness = value(gpu::DEBUG_sheen_roughness, pixel).x;
+    }
+    if (isCaptured(gpu::DEBUG_iridescence)) {
+        s.iridescence = value(gpu::DEBUG_iridescence, pixel).x;
+        s.iridescence_ior = value(gpu::DEBUG_iridescence_ior, pixel).x;
+        s.iridescence_thickness = value(gpu::DEBUG_iridescence_thickness, pixel).x;
+    }
     return s;
 }
 

@@ -197,8 +197,40 @@ double EnvironmentApproximation::range(const glm::dvec3& direction, double reach
     return largest(most - least);
 }
 
+EnvironmentApproximation::Taken EnvironmentApproximation::takenAs(IblDiffuse kind, const glm::dvec3& normal,
+                                                                  const Means& means) const {
+    switch (kind) {
+        case IblDiffuse::map:
+            return {means.irradiance, means.uncertainty + irradianceNodes * peak_};
+        case IblDiffuse::sh_windowed:
+            return {irradiance(normal, window_), windowKnown * peak_};
+        case IblDiffuse::sh:
+            break;
+    }
+    return {irradiance(normal, 0), 0};
+}
+
+// The paths take the sheen's albedo times irradiance / pi, whether they sample the other lobes or not.
+EnvironmentCosts EnvironmentApproximation::sheenCosts(const Surface& sheen, const glm::dvec3& exact,
+                                                      std::uint64_t seed) const {
+    const Means means = meansOf(sheen.normal, sheen.normal, 1, seed);
+    const glm::dvec3 albedo = specularAlbedo(sheen);
+    EnvironmentCosts costs;
+    for (std::size_t i = 0; i < costs.split.size(); ++i) {
+        const Taken here = takenAs(static_cast<IblDiffuse>(i), sheen.normal, means);
+        costs.split[i] = largest(albedo * here.irradiance - exact) + largest(albedo) * here.open;
+    }
+    costs.sampled = *std::ranges::max_element(costs.split);
+    return costs;
+}
+
 EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const Compensation& compensation,
                                                  const Reflected& exact, std::uint64_t seed) const {
+    if (hasSheen(surface)) return sheenCosts(surface, exact.specular, seed);
+    // The base's albedo, below the same curve.
+    const Surface curve = filmAsSchlick(surface);
+    Surface below = curve;
+    below.albedo = surface.albedo;
     const Widths widths = widthsOf(surface);
     const glm::dvec3 n = surface.normal, middle = bentNormal(surface, widths),
                      mirrored = glm::normalize(middle * (2 * glm::dot(middle, surface.to_viewer)) -
@@ -207,9 +239,8 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
     const Means means = meansOf(n, mirrored, alpha, seed);
     Compensation single = compensation;
     single.between = glm::dvec3(0);
-    const glm::dvec3 base = diffuseAlbedo(surface, compensation),
-                     lobe =
-                         specularAlbedo(isotropic(surface, widthTowards(widths, surface.to_viewer)), single),
+    const glm::dvec3 base = diffuseAlbedo(below, compensation),
+                     lobe = specularAlbedo(isotropic(curve, widthTowards(widths, surface.to_viewer)), single),
                      between = compensation.between;
     // For lobes much wider than a cell, the change across a cell falls by the square of their ratio.
     const double coarse =
@@ -224,12 +255,7 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
     costs.lobe = largest(exact.specular);
     double apart = 0;
     for (std::size_t i = 0; i < costs.diffuse.size(); ++i) {
-        const auto kind = static_cast<IblDiffuse>(i);
-        const bool map = kind == IblDiffuse::map, windowed = kind == IblDiffuse::sh_windowed;
-        const glm::dvec3 taken = map ? means.irradiance : irradiance(n, windowed ? window_ : 0);
-        const double open = map        ? means.uncertainty + irradianceNodes * peak_
-                            : windowed ? windowKnown * peak_
-                                       : 0;
+        const auto [taken, open] = takenAs(static_cast<IblDiffuse>(i), n, means);
         costs.diffuse[i] = largest(base * taken - exact.diffuse) + largest(base) * open;
         costs.split[i] = largest(lobe * means.mirrored + between * taken - exact.specular) +
                          largest(lobe) * (means.uncertainty + filtered) + largest(between) * open;

@@ -3,7 +3,7 @@
 // The approximations are irradiance by spherical harmonics up to order 2 (Ramamoorthi and Hanrahan 2001,
 // "An Efficient Representation for Irradiance Environment Maps") and the split sum (Karis 2013, "Real
 // Shading in Unreal Engine 4"). The split sum is the mean radiance about the mirror direction times the
-// lobe's own integral.
+// lobe's own integral. A sheen is lit by irradiance in its place.
 #pragma once
 
 #include "compare/reference/brdf.h"
@@ -20,9 +20,9 @@ namespace diptych::reference {
 // sampled values, and the error of maps with the environment's own resolution.
 struct EnvironmentCosts {
     // By IblDiffuse. `diffuse`: irradiance times the base's albedo under uniform light. `split`: the split
-    // sum, with the Lambertian lobe of multiple scattering lit by that irradiance.
+    // sum, with the Lambertian lobe of multiple scattering lit by that irradiance, or the sheen.
     std::array<double, 3> diffuse{}, split{};
-    double sampled = 0;  // replaces `split` where the lobe is sampled
+    double sampled = 0;  // replaces `split` where the lobe is sampled; a sheen is not
     double wider = 0;    // change of the split sum for a lobe of twice the solid angle
     double lobe = 0;     // radiance that the specular lobe reflects from the environment
 
@@ -35,7 +35,8 @@ public:
     // `light` must outlive it.
     explicit EnvironmentApproximation(const EnvironmentLight& light);
 
-    // `exact`: the environment's light reflected by the whole BRDF, unoccluded. `seed`: as for Lighting.
+    // Of one layer. `exact`: the environment's light reflected by the whole BRDF, unoccluded. `seed`: as for
+    // Lighting.
     EnvironmentCosts costs(const Surface& surface, const Compensation& compensation, const Reflected& exact,
                            std::uint64_t seed) const;
 
@@ -53,6 +54,13 @@ private:
     };
     Means meansOf(const glm::dvec3& normal, const glm::dvec3& mirrored, double alpha,
                   std::uint64_t seed) const;
+    // What the paths take as irradiance / pi, and by how much a path's own value may differ from it.
+    struct Taken {
+        glm::dvec3 irradiance;
+        double open;
+    };
+    Taken takenAs(IblDiffuse kind, const glm::dvec3& normal, const Means& means) const;
+    EnvironmentCosts sheenCosts(const Surface& sheen, const glm::dvec3& exact, std::uint64_t seed) const;
     glm::dvec3 unclamped(const glm::dvec3& normal, double window) const;
     double range(const glm::dvec3& direction, double reach) const;
 

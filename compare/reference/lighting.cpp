@@ -58,8 +58,8 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
 constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
 // Streams of the environment's errors and of occlusion.
 constexpr std::uint64_t costsStream = ~std::uint64_t{2}, surroundingsStream = ~std::uint64_t{3};
-// Stream of a clear coat's lights.
-constexpr std::uint64_t coatStream = ~std::uint64_t{4};
+// Streams of a clear coat's and of a sheen's lights.
+constexpr std::uint64_t coatStream = ~std::uint64_t{4}, sheenStream = ~std::uint64_t{5};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -149,7 +149,7 @@ void Lighting::takeCosts() {
 }
 
 Shading Lighting::operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
-    const Shading base = layer(surface, multiscatter_, visible, seed);
+    const Shading base = underCoat(surface, visible, seed);
     if (!(surface.clearcoat > 0)) return base;
     const double weight = coatWeight(surface);
     Shading coat = layer(coatOf(surface), Multiscatter::off, visible, streamOf(seed, coatStream)) * weight;
@@ -158,8 +158,18 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     return coat;
 }
 
+Shading Lighting::underCoat(const Surface& surface, const Visibility& visible, std::uint64_t seed) const {
+    if (!hasSheen(surface)) return layer(surface, multiscatter_, visible, seed);
+    Shading all = layer(sheenOf(surface), Multiscatter::off, visible, streamOf(seed, sheenStream));
+    all.sheen = all.reflected.specular + all.ambient;
+    all += layer(underSheen(surface), multiscatter_, visible, seed) * keptUnderSheen(surface);
+    return all;
+}
+
 Reflected Lighting::reflectance(const Surface& surface, const glm::dvec3& to_light) const {
-    const Reflected base = Brdf(surface, compensationOf(surface, multiscatter_))(to_light);
+    const Surface under = underSheen(surface);
+    Reflected base = Brdf(under, compensationOf(under, multiscatter_))(to_light) * keptUnderSheen(surface);
+    if (hasSheen(surface)) base += Brdf(sheenOf(surface))(to_light);
     if (!(surface.clearcoat > 0)) return base;
     const double weight = coatWeight(surface);
     return base * (1 - weight) + Brdf(coatOf(surface))(to_light) * weight;
@@ -283,7 +293,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
              {},
              {},
              {glm::dvec3(0), sky}},
-            1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1))};
+            1.0 - lostToLayer(surface.base_layer, layer)};
 }
 
 Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,

@@ -35,7 +35,8 @@ struct Shading {
     EnvironmentCosts costs{};
     Surroundings surroundings{};
     Reflected environment{};  // the environment's part of `reflected`
-    glm::dvec3 clearcoat{0};  // the clear coat's part of `reflected` and `ambient`
+    // parts of `reflected` and `ambient`: the clear coat's, and the sheen's
+    glm::dvec3 clearcoat{0}, sheen{0};
 
     glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -46,11 +47,12 @@ struct Shading {
         surroundings += other.surroundings;
         environment += other.environment;
         clearcoat += other.clearcoat;
+        sheen += other.sheen;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b,    a.uncertainty * b, a.ambient * b,  a.costs * b,
-                a.surroundings * b, a.environment * b, a.clearcoat * b};
+        return {a.reflected * b,    a.uncertainty * b, a.ambient * b,   a.costs * b,
+                a.surroundings * b, a.environment * b, a.clearcoat * b, a.sheen * b};
     }
 };
 
@@ -79,7 +81,7 @@ public:
     Shading operator()(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
 
     // Radiance towards the viewer under unit irradiance from one direction, 1/sr: f(l, v) n.l of the
-    // material with its multiple-scattering terms, and of its clear coat.
+    // material with its multiple-scattering terms, its sheen and its clear coat.
     Reflected reflectance(const Surface& surface, const glm::dvec3& to_light) const;
 
 private:
@@ -92,7 +94,9 @@ private:
         Emitter emitter;
         bool casts;
     };
-    // The light of one layer: the material under its clear coat, or the coat.
+    // Everything under the clear coat.
+    Shading underCoat(const Surface& surface, const Visibility& visible, std::uint64_t seed) const;
+    // The light of one layer: the material under its sheen and clear coat, or one of these.
     Shading layer(const Surface& surface, Multiscatter multiscatter, const Visibility& visible,
                   std::uint64_t seed) const;
     Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,

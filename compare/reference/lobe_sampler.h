@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sampling of the specular lobe.
+// Sampling of the specular lobe, or of a sheen.
 #pragma once
 
 #include "compare/reference/brdf.h"
@@ -16,19 +16,27 @@
 namespace diptych::reference {
 
 // Samples reflected directions, with half vectors distributed as D (n.h); Walter et al. 2007, equation 35.
+// Of a sheen, whose lobe is wide but often at the horizon: all directions above the horizon, denser there.
 class LobeSampler {
 public:
     // An isotropic lobe. `normal`, `to_viewer`: unit; `alpha`: GGX's width.
     LobeSampler(const glm::dvec3& normal, const glm::dvec3& to_viewer, double alpha)
         : LobeSampler(normal, to_viewer, Widths{alpha, alpha}) {}
-    explicit LobeSampler(const Brdf& brdf) : LobeSampler(brdf.normal(), brdf.toViewer(), brdf.widths()) {}
+    explicit LobeSampler(const Brdf& brdf) : LobeSampler(brdf.normal(), brdf.toViewer(), brdf.widths()) {
+        sheen_ = brdf.isSheen();
+    }
 
     // u in [0, 1)^2. Returns a unit vector, which may be below the horizon.
     glm::dvec3 operator()(const glm::dvec2& u) const {
+        if (sheen_) return raised(u.x * u.x, u.y);
         const glm::dvec3 h = widths_.isotropic() ? around(u) : stretched(u);
         return glm::normalize(2 * glm::dot(to_viewer_, h) * h - to_viewer_);
     }
     double density(const glm::dvec3& l) const {  // 1/sr
+        if (sheen_) {
+            const double n_dot_l = glm::dot(normal_, l);
+            return n_dot_l > 0 ? 1 / (4 * std::numbers::pi * std::sqrt(n_dot_l)) : 0;
+        }
         const glm::dvec3 h = glm::normalize(l + to_viewer_);
         const double n_dot_h = glm::dot(normal_, h), v_dot_h = std::abs(glm::dot(to_viewer_, h));
         if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
@@ -51,8 +59,11 @@ private:
           y_(glm::cross(normal, x_)) {}
 
     glm::dvec3 around(const glm::dvec2& u) const {
-        const double cosine = std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x));
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * u.y;
+        return raised(std::sqrt((1 - u.x) / (1 + (alpha2_ - 1) * u.x)), u.y);
+    }
+    // By the cosine to the normal and the azimuth, in turns.
+    glm::dvec3 raised(double cosine, double turns) const {
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), phi = 2 * std::numbers::pi * turns;
         return x_ * (sine * std::cos(phi)) + y_ * (sine * std::sin(phi)) + normal_ * cosine;
     }
     // Slopes of width 1, stretched by both widths.
@@ -66,6 +77,7 @@ private:
     Widths widths_;
     double alpha2_;
     glm::dvec3 x_, y_;
+    bool sheen_ = false;
 };
 
 }  // namespace diptych::reference

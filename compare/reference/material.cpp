@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/material.h"
 
+#include "compare/reference/sheen.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -179,6 +181,25 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
     s.stretch(strength, frame.world(turned));
 }
 
+// KHR_materials_sheen: colour from RGB, roughness from alpha.
+void Materials::sheen(const Hit& hit, const PixelRay& ray, Surface& s) const {
+    const Material& m = material(hit);
+    s.sheen_color = glm::dvec3(m.sheen_color) * glm::dvec3(lookUp(hit, m.sheen_color_texture, true, &ray));
+    if (!hasSheen(s)) return;
+    s.sheen_roughness = double{m.sheen_roughness} * lookUp(hit, m.sheen_roughness_texture, true, &ray).a;
+}
+
+// KHR_materials_iridescence: weight from red, thickness from green.
+void Materials::film(const Hit& hit, const PixelRay& ray, Surface& s) const {
+    const Material& m = material(hit);
+    s.iridescence = double{m.iridescence} * lookUp(hit, m.iridescence_texture, false, &ray).r;
+    if (!(s.iridescence > 0)) return;
+    s.iridescence_ior = double{m.iridescence_ior};
+    s.iridescence_thickness =
+        glm::mix(double{m.iridescence_thickness_least}, double{m.iridescence_thickness_most},
+                 lookUp(hit, m.iridescence_thickness_texture, false, &ray).g);
+}
+
 Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     const Material& m = material(hit);
     Surface s;
@@ -209,6 +230,8 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
     s.transmission = double{m.transmission};
     if (m.clearcoat > 0) coat(hit, ray, frame, s);
     if (m.anisotropy > 0) stretch(hit, ray, frame, s);
+    if (m.sheen_color != glm::vec3(0)) sheen(hit, ray, s);
+    if (m.iridescence > 0) film(hit, ray, s);
     return s;
 }
 

@@ -70,6 +70,8 @@ private:
     void reflect(const Hit& hit, const PixelRay& ray, Surface& s) const;
     void coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
     void stretch(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
+    void sheen(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    void film(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;
     const std::vector<Material>& materials_;

@@ -62,7 +62,7 @@ Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) co
 }
 
 Between::Between(const Surface& surface)
-    : surface_(isotropic(surface)),
+    : surface_(isotropic(withoutFilm(surface))),
       facets_(widthsOf(surface_).across),
       x_(perpendicularTo(surface.normal)),
       y_(glm::cross(surface.normal, x_)) {

@@ -66,8 +66,8 @@ glm::dvec3 Microsurface::trace(const glm::dvec3& from, Random& random, const Vis
     }
 }
 
-// Reflections beyond the first, with Schlick's Fresnel at every facet. Each path sees one of a Surface's
-// two materials throughout; their results are mixed as in the BRDF.
+// Reflections beyond the first, with Schlick's Fresnel at every facet, as without a thin film. Each path sees
+// one of a Surface's two materials throughout; their results are mixed as in the BRDF.
 class Between {
 public:
     explicit Between(const Surface& surface);

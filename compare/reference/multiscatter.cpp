@@ -46,7 +46,7 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
 Compensation compensationOf(const Surface& given, Multiscatter multiscatter) {
     if (multiscatter == Multiscatter::off) return {};
     if (multiscatter == Multiscatter::walk) return {.base = glm::dvec3(1)};
-    const Surface surface = isotropic(given);
+    const Surface surface = isotropic(withoutFilm(given));
     Surface white = surface, metal = surface, dielectric = surface;
     white.albedo = glm::dvec3(1);
     white.metallic = metal.metallic = 1;
@@ -65,8 +65,7 @@ Compensation compensationOf(const Surface& given, Multiscatter multiscatter) {
                                meanFresnel(surface.dielectric_f0, surface.dielectric_f90));
         result.dielectric = of_layer.factor;
         const glm::dvec3 layer = single * of_layer.factor + of_layer.between;
-        if (surface.base_layer == BaseLayer::max)
-            result.base = 1.0 - glm::min(lostToLayer(surface.base_layer, layer), glm::dvec3(1));
+        if (surface.base_layer == BaseLayer::max) result.base = 1.0 - lostToLayer(surface.base_layer, layer);
     }
     result.between = of_layer.between * (1 - surface.metallic) + of_metal.between * surface.metallic;
     return result;

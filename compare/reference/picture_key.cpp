@@ -59,6 +59,9 @@ void addScene(Key& key, const Request& request) {
         key.add(m.lightmap_intensity);
         key.add(glm::vec3(m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale));
         key.add(glm::vec2(m.anisotropy, m.anisotropy_rotation));
+        key.add(glm::vec4(m.sheen_color, m.sheen_roughness));
+        key.add(glm::vec4(m.iridescence, m.iridescence_ior, m.iridescence_thickness_least,
+                          m.iridescence_thickness_most));
         for (const MaterialSlot& slot : materialSlots) addSlot(m.*slot.texture);
     }
     for (const Texture& texture : scene.textures) {
@@ -84,7 +87,7 @@ void addScene(Key& key, const Request& request) {
 
 // Increase the version number whenever the reference itself renders differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 15;
+    constexpr int version = 16;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));

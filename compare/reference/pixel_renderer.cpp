@@ -26,7 +26,7 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// Radiance of the material's emission through its clear coat, W/(sr m^2).
+// Radiance of the material's emission through its clear coat, W/(sr m^2). A sheen does not dim it.
 glm::dvec3 emitted(const Surface& s) {
     return s.emission * (1 - coatWeight(s));
 }

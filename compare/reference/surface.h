@@ -58,9 +58,11 @@ struct Surface {
     }
 };
 
-// Fraction of light that a layer reflecting `layer` takes from the base, for each component.
+// Fraction of light, at most 1, that a layer reflecting `layer` takes from the base, for each component.
 inline glm::dvec3 lostToLayer(BaseLayer rule, const glm::dvec3& layer) {
-    return rule == BaseLayer::component ? layer : glm::dvec3(std::max({layer.r, layer.g, layer.b}));
+    const glm::dvec3 lost =
+        rule == BaseLayer::component ? layer : glm::dvec3(std::max({layer.r, layer.g, layer.b}));
+    return glm::min(lost, glm::dvec3(1));
 }
 
 // A quantity for each of the two lobes: radiance, W/(sr m^2), or a factor of it.
