@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clear coats and anisotropy (builtin:layers) in both paths: bit for bit with a float32 G-buffer under every
+// Layered materials (builtin:layers) in both paths: bit for bit with a float32 G-buffer under every
 // kind of light, within their bits when packed, and as the reference integrates them. A material whose
 // factors are 0 is the base to the bit.
 #include "compare/verdict/pair_reports.h"
@@ -13,7 +13,16 @@ namespace {
 
 constexpr int litCoat = static_cast<int>(gpu::DEBUG_lit_clearcoat),
               litLobe = static_cast<int>(gpu::DEBUG_lit_specular),
+              litSheen = static_cast<int>(gpu::DEBUG_lit_sheen),
               litAmbient = static_cast<int>(gpu::DEBUG_lit_ambient);
+
+void removeLayers(Material& m) {
+    m.clearcoat = m.anisotropy = m.iridescence = m.clearcoat_roughness = 0;
+    m.sheen_color = glm::vec3(0);
+    m.clearcoat_texture = m.clearcoat_roughness_texture = m.clearcoat_normal_texture = {};
+    m.anisotropy_texture = m.sheen_color_texture = m.sheen_roughness_texture = {};
+    m.iridescence_texture = m.iridescence_thickness_texture = {};
+}
 
 // Every kind of light at once.
 Scene litByAll() {
@@ -75,8 +84,7 @@ TEST(Layers, PackedPassesByItsBits) {
 // G-buffer's encoding; the others are decoded as ever.
 TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
     Scene scene = litByAll();
-    for (std::size_t i = 0; i < scene.materials.size(); i += 3)
-        scene.materials[i].clearcoat = scene.materials[i].anisotropy = 0;
+    for (std::size_t i = 0; i < scene.materials.size(); i += 3) removeLayers(scene.materials[i]);
     const Requirements needs = requirements(scene, poseAt(scene, 0));
     Renderer renderer(device(), scene, pipelines());
     std::vector<Settings> all(2, inAllLight(GBufferEncoding::full));
@@ -112,17 +120,19 @@ TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
 TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
     Scene plain = litByAll(), zero = plain;
     for (std::size_t i = 1; i < plain.materials.size(); ++i) {
-        Material &m = plain.materials[i], &z = zero.materials[i];
-        m.clearcoat = z.clearcoat = m.anisotropy = z.anisotropy = 0;
-        m.clearcoat_roughness = 0;
-        m.clearcoat_texture = m.clearcoat_roughness_texture = m.clearcoat_normal_texture = {};
-        m.anisotropy_texture = {};
+        Material& z = zero.materials[i];
+        removeLayers(plain.materials[i]);
+        z.clearcoat = z.anisotropy = z.iridescence = 0;
+        z.sheen_color = glm::vec3(0);
     }
-    // One coat and one stretched ball keep the layers in the scene; in `none` there are none.
-    plain.materials[0].clearcoat = zero.materials[0].clearcoat = 1;
-    plain.materials[0].anisotropy = zero.materials[0].anisotropy = 1;
+    // One ball keeps the layers in the scene; in `none` there are none.
+    for (Scene* scene : {&plain, &zero}) {
+        Material& m = scene->materials[0];
+        m.clearcoat = m.anisotropy = m.iridescence = 1;
+        m.sheen_color = glm::vec3(1);
+    }
     Scene none = plain;
-    none.materials[0].clearcoat = none.materials[0].anisotropy = 0;
+    removeLayers(none.materials[0]);
     const Settings settings = inAllLight(GBufferEncoding::standard);
     const std::vector<Frame> with = bothPaths(zero, settings), without = bothPaths(plain, settings),
                              base = bothPaths(none, settings);
@@ -134,7 +144,7 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
         for (std::size_t i = 0; i < ids.pixels(); ++i)
             if (ids.data[i] != 0) differing += !std::equal(there.pixel(i), there.pixel(i) + 3, here.pixel(i));
         EXPECT_EQ(differing, 0u) << "layers elsewhere in the scene change a surface without them";
-        EXPECT_EQ(base[path].channels.count(litCoat), 0u);
+        EXPECT_EQ(base[path].channels.count(litCoat) + base[path].channels.count(litSheen), 0u);
     }
 }
 
@@ -143,7 +153,10 @@ TEST(Layers, AWhiteFurnaceHolds) {
     Scene scene = loadScene("builtin:layers");
     for (Material& m : scene.materials) {
         m.base_color = {1, 1, 1, 1};
-        m.metallic = 1;  // appendix B's base under a layer does not conserve energy
+        m.metallic = 1;     // appendix B's base under a layer does not conserve energy
+        m.iridescence = 0;  // the extension's colour matching exceeds 1
+        // Smoother sheens reflect more than they receive at grazing views.
+        if (m.sheen_color != glm::vec3(0)) m.sheen_roughness = std::max(m.sheen_roughness, 0.5f);
     }
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
@@ -184,6 +197,12 @@ TEST(Layers, EverySlotReadsItsTexture) {
         m.clearcoat = 0.5f;
         m.clearcoat_roughness = 0.8f;
         m.anisotropy = 0.6f;
+        m.sheen_color = {0.5f, 0.25f, 1};
+        m.sheen_roughness = 0.8f;
+        m.iridescence = 0.5f;
+        m.iridescence_ior = 1.5f;
+        m.iridescence_thickness_least = 200;
+        m.iridescence_thickness_most = 600;
         const auto at = [&](const Frame& frame, gpu::uint mode, int x, int y) {
             return colorAt(frame, static_cast<int>(mode), x, y);
         };
@@ -206,6 +225,23 @@ TEST(Layers, EverySlotReadsItsTexture) {
                         f.name);
             expectColor(at(f, gpu::DEBUG_normals, x, y), {0, 0, 1}, 0, f.name);
         });
+        each(&Material::sheen_color_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            const auto linear = [](float s) {
+                return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+            };
+            const glm::vec3 color =
+                glm::vec3(0.5f, 0.25f, 1) * glm::vec3(linear(t.r), linear(t.g), linear(t.b));
+            expectColor(at(f, gpu::DEBUG_sheen_color, x, y), color, 1e-6f, f.name);
+            EXPECT_NEAR(at(f, gpu::DEBUG_sheen_roughness, x, y).x, 0.8f, float32) << f.name;
+        });
+        each(&Material::iridescence_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence, x, y).x, 0.5f * t.r, float32) << f.name;
+            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_ior, x, y).x, t.r > 0 ? 1.5f : 0, float32) << f.name;
+            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_thickness, x, y).x, t.r > 0 ? 600 : 0, 1e-3f) << f.name;
+        });
+        each(&Material::iridescence_thickness_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
+            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_thickness, x, y).x, 200 + 400 * t.g, 1e-3f) << f.name;
+        });
         each(&Material::anisotropy_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
             EXPECT_NEAR(at(f, gpu::DEBUG_anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
             const glm::vec3 along = glm::normalize(glm::vec3(t.r * 2 - 1, t.g * 2 - 1, 0)),
@@ -213,6 +249,30 @@ TEST(Layers, EverySlotReadsItsTexture) {
             // Either sign.
             EXPECT_NEAR(std::abs(glm::dot(seen, along)), t.b > 0 ? 1 : 0, float32) << f.name;
         });
+    }
+}
+
+// Of both the colour's image, whose alpha is the roughness, and an image of its own.
+TEST(Layers, ASheensRoughnessIsTheAlphaOfItsTexture) {
+    for (const bool shared : {true, false}) {
+        Scene scene = square();
+        TextureImage& image = scene.images[0];
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+            image.rgba[i] = static_cast<std::uint8_t>(60 + 40 * (i / 4));
+        Material& m = scene.materials[0];
+        m.base_color_texture = {};
+        m.sheen_color = glm::vec3(1);
+        m.sheen_roughness = 0.5f;
+        m.sheen_roughness_texture.texture = 0;
+        if (shared) m.sheen_color_texture.texture = 0;
+        for (const Frame& frame : draw(scene))
+            for (const int y : {0, 3})
+                for (const int x : {0, 3}) {
+                    const float alpha = static_cast<float>(60 + 40 * (2 * (y / 2) + x / 2)) / 255;
+                    EXPECT_NEAR(colorAt(frame, static_cast<int>(gpu::DEBUG_sheen_roughness), x, y).x,
+                                0.5f * alpha, float32)
+                        << frame.name << " " << shared;
+                }
     }
 }
 
@@ -245,7 +305,7 @@ TEST(Layers, TheReferenceAgrees) {
     for (const Frame& path : bothPaths(renderer, settings)) {
         const Coverage covered = coverage(reference, path);
         ASSERT_GT(covered.count, 3000u);
-        for (const int mode : {lit, litLobe, litCoat, 60, 61, 62, 63, 64}) {
+        for (const int mode : {lit, litLobe, litCoat, litSheen, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69}) {
             const DebugMode& m = debugMode(mode);
             const ChannelStats stats =
                 channelStats(m.metric, m.kind, reference.channels.at(mode), path.channels.at(mode), covered);
