@@ -127,7 +127,7 @@ Scene layers() {
                                 "film's weight and index",
                                 "all"};
     const Maps maps = addMaps(b);
-    const Primitive ball = sphere(0.44, 30, 16);
+    const Primitive ball = sphere(0.44, 40, 20);
     for (int row = 0; row < 11; ++row)
         for (int column = 0; column < columns; ++column) {
             const float t = static_cast<float>(column) / (columns - 1);

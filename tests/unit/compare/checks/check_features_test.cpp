@@ -24,7 +24,7 @@ TEST(CheckFeatures, BuiltinScenesHaveTheirs) {
         {"mirrored", {"mirrored instances", "normal maps"}},
         {"cutout", {"alpha masks", "double-sided surfaces", "normal maps"}},
         {"unlit_materials", {"unlit materials", "vertex colours"}},
-        {"layers", {"clear coats", "anisotropy", "sheens", "thin films", "normal maps"}},
+        {"layers", {"clear coats", "anisotropy", "normal maps"}},
         {"gallery", {"normal maps", "samplers"}}};
     for (const auto& [name, features] : expected) {
         const Scene scene = loadScene(std::string("builtin:") + name);
@@ -125,11 +125,7 @@ TEST(CheckFeatures, LayersOfLitMaterials) {
     EXPECT_NE(what(scene, "anisotropy").find("the mesh's own tangents"), std::string::npos);
     scene.meshes[0].primitives[0].tangents_made = true;
     EXPECT_NE(what(scene, "anisotropy").find("generated tangents"), std::string::npos);
-    scene.materials[0].sheen_color.r = scene.materials[0].iridescence = 0.5f;
-    EXPECT_NE(what(scene, "sheens").find("velvet"), std::string::npos);
-    EXPECT_NE(what(scene, "thin films").find("soap bubble"), std::string::npos);
     scene.materials[0].unlit = true;
-    EXPECT_EQ(what(scene, "sheens") + what(scene, "thin films"), "");
     EXPECT_EQ(what(scene, "clear coats"), "");
     EXPECT_EQ(what(scene, "anisotropy"), "");
 }

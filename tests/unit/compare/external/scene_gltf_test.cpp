@@ -125,16 +125,6 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             if (one.anisotropy > 0) {
                 EXPECT_EQ(one.anisotropy_rotation, other.anisotropy_rotation) << one.name;
             }
-            EXPECT_EQ(one.sheen_color, other.sheen_color) << one.name;
-            EXPECT_EQ(one.iridescence, other.iridescence) << one.name;
-            if (one.sheen_color != glm::vec3(0)) {
-                EXPECT_EQ(one.sheen_roughness, other.sheen_roughness) << one.name;
-            }
-            if (one.iridescence > 0) {
-                EXPECT_EQ(one.iridescence_ior, other.iridescence_ior) << one.name;
-                EXPECT_EQ(one.iridescence_thickness_least, other.iridescence_thickness_least) << one.name;
-                EXPECT_EQ(one.iridescence_thickness_most, other.iridescence_thickness_most) << one.name;
-            }
             EXPECT_NEAR(one.normal_texture.u.x, other.normal_texture.u.x, 1e-6) << name;
             EXPECT_NEAR(one.normal_texture.v.x, other.normal_texture.v.x, 1e-6) << name;
         }

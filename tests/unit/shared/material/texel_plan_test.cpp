@@ -56,9 +56,7 @@ TEST(TexelPlan, AnImageHasOneColorWhereASlotReadsIt) {
         {gpu::SLOT_emissive, "rgb"},         {gpu::SLOT_specular, "a"},
         {gpu::SLOT_specular_color, "rgb"},   {gpu::SLOT_lightmap, "rgb"},
         {gpu::SLOT_clearcoat, "r"},          {gpu::SLOT_clearcoat_roughness, "g"},
-        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"},
-        {gpu::SLOT_sheen_color, "rgb"},      {gpu::SLOT_sheen_roughness, "a"},
-        {gpu::SLOT_iridescence, "r"},        {gpu::SLOT_iridescence_thickness, "g"}};
+        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"}};
     ASSERT_EQ(reads.size(), gpu::SLOT_COUNT);
     for (const auto& [slot, components] : reads)
         for (std::size_t c = 0; c < 4; ++c) {
@@ -86,8 +84,7 @@ TEST(TexelPlan, OneColorIsAFactor) {
     scene.images[0].rgba.assign(scene.images[0].rgba.size(), 9);
     Material m;
     m.emissive = {1, 1, 1};
-    m.clearcoat = m.anisotropy = m.iridescence = 1;
-    m.sheen_color = {1, 1, 1};
+    m.clearcoat = m.anisotropy = 1;
     for (const MaterialSlot& slot : materialSlots) (m.*slot.texture).texture = 0;
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
 }

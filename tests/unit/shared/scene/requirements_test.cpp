@@ -133,13 +133,6 @@ TEST(Requirements, LayersOfDrawnLitMaterialsAreSummed) {
     scene.materials[0].anisotropy = 0.5f;
     EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY);
     EXPECT_TRUE(line(of(scene).lines(), "anisotropy").modelled);
-    EXPECT_FALSE(line(of(scene).lines(), "sheens").modelled);
-    EXPECT_FALSE(line(of(scene).lines(), "thin films").modelled);
-    scene.materials[0].sheen_color.g = scene.materials[0].iridescence = 0.5f;
-    EXPECT_EQ(of(scene).layers,
-              gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE);
-    EXPECT_TRUE(line(of(scene).lines(), "sheens").modelled);
-    EXPECT_TRUE(line(of(scene).lines(), "thin films").modelled);
     scene.materials[0].unlit = true;
     EXPECT_EQ(of(scene).layers, 0u);
 }

@@ -42,10 +42,7 @@ struct PointerFile : GltfFile {
                 {{"clearcoatTexture", texture},
                  {"clearcoatRoughnessTexture", texture},
                  {"clearcoatNormalTexture", texture}}},
-               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}},
-               {"KHR_materials_sheen", {{"sheenColorTexture", texture}, {"sheenRoughnessTexture", texture}}},
-               {"KHR_materials_iridescence",
-                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}}}}}};
+               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}}}}}};
         json["images"] = {{{"uri", onePixel}}};
         json["textures"] = {{{"source", 0}}};
         json["cameras"] = {{{"type", "perspective"},
@@ -157,17 +154,6 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
         {m + "extensions/KHR_materials_anisotropy/anisotropyStrength", 1, material(&Material::anisotropy)},
         {m + "extensions/KHR_materials_anisotropy/anisotropyRotation", 1,
          material(&Material::anisotropy_rotation)},
-        {m + "extensions/KHR_materials_sheen/sheenColorFactor", 3,
-         [](const Scene&, const Pose& pose) {
-             const glm::vec3 c = pose.materials.at(0).sheen_color;
-             return std::vector<double>{c.r, c.g, c.b};
-         }},
-        {m + "extensions/KHR_materials_sheen/sheenRoughnessFactor", 1, material(&Material::sheen_roughness)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceFactor", 1, material(&Material::iridescence)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", 1,
-         material(&Material::iridescence_thickness_least)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1,
-         material(&Material::iridescence_thickness_most)},
     };
     for (const auto& [pointer, width, read] : cases) {
         PointerFile f;
@@ -245,12 +231,7 @@ TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
         {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
          &Material::clearcoat_roughness_texture},
         {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", &Material::clearcoat_normal_texture},
-        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture},
-        {"extensions/KHR_materials_sheen/sheenColorTexture", &Material::sheen_color_texture},
-        {"extensions/KHR_materials_sheen/sheenRoughnessTexture", &Material::sheen_roughness_texture},
-        {"extensions/KHR_materials_iridescence/iridescenceTexture", &Material::iridescence_texture},
-        {"extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
-         &Material::iridescence_thickness_texture}};
+        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture}};
     for (const auto& [slot, member] : slots) {
         const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
         PointerFile f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_clearcoat, _anisotropy, _sheen and _iridescence: factors, textures, tangents, animation.
+// KHR_materials_clearcoat and KHR_materials_anisotropy: factors, textures, tangents, animation.
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/posed.h"
 #include "shared/scene/requirements.h"
@@ -25,12 +25,6 @@ Json coated(Json coat) {
 }
 Json brushed(Json anisotropy) {
     return Json{{"extensions", {{"KHR_materials_anisotropy", std::move(anisotropy)}}}};
-}
-Json woven(Json sheen) {
-    return Json{{"extensions", {{"KHR_materials_sheen", std::move(sheen)}}}};
-}
-Json filmed(Json film) {
-    return Json{{"extensions", {{"KHR_materials_iridescence", std::move(film)}}}};
 }
 Json merged(Json a, const Json& b) {
     a.merge_patch(b);
@@ -96,51 +90,6 @@ TEST(GltfLayers, FactorsAndTexturesAreRead) {
     EXPECT_FALSE(mentions(scene.notes, "KHR_materials")) << "nothing is left out";
 }
 
-TEST(GltfLayers, SheensAndFilmsAreRead) {
-    const Json texture = {{"index", 0}, {"texCoord", 1}};
-    const Scene scene = withMaterial(merged(woven({{"sheenColorFactor", {0.25, 0.5, 1}},
-                                                   {"sheenColorTexture", texture},
-                                                   {"sheenRoughnessFactor", 0.75},
-                                                   {"sheenRoughnessTexture", {{"index", 1}}}}),
-                                            filmed({{"iridescenceFactor", 0.5},
-                                                    {"iridescenceTexture", {{"index", 2}}},
-                                                    {"iridescenceIor", 1.75},
-                                                    {"iridescenceThicknessMinimum", 250},
-                                                    {"iridescenceThicknessMaximum", 50},
-                                                    {"iridescenceThicknessTexture", {{"index", 3}}}})),
-                                     4)
-                            .load();
-    const Material& m = scene.materials.at(0);
-    EXPECT_EQ(m.sheen_color, glm::vec3(0.25f, 0.5f, 1));
-    EXPECT_EQ(m.sheen_roughness, 0.75f);
-    EXPECT_EQ(m.iridescence, 0.5f);
-    EXPECT_EQ(m.iridescence_ior, 1.75f);
-    EXPECT_EQ(m.iridescence_thickness_least, 250) << "the minimum may be the larger one";
-    EXPECT_EQ(m.iridescence_thickness_most, 50);
-    EXPECT_EQ(m.sheen_color_texture.texture, 0);
-    EXPECT_EQ(m.sheen_color_texture.texcoord, 1);
-    EXPECT_EQ(m.sheen_roughness_texture.texture, 1);
-    EXPECT_EQ(m.iridescence_texture.texture, 2);
-    EXPECT_EQ(m.iridescence_thickness_texture.texture, 3);
-    EXPECT_EQ(scene.images.size(), 4u);
-    EXPECT_FALSE(mentions(scene.notes, "KHR_materials")) << "nothing is left out";
-    EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE);
-}
-
-TEST(GltfLayers, DefaultsAreNoSheenAndNoFilm) {
-    for (const Json& empty : {Json::object(), woven({{"sheenRoughnessFactor", 0}}),
-                              filmed({{"iridescenceTexture", {{"index", 0}}}})}) {
-        const Material m = materialOf(empty);
-        EXPECT_EQ(m.sheen_color, glm::vec3(0));
-        EXPECT_EQ(m.sheen_roughness, 0);
-        EXPECT_EQ(m.iridescence, 0);
-        EXPECT_EQ(m.iridescence_ior, 1.3f);
-        EXPECT_EQ(m.iridescence_thickness_least, 100);
-        EXPECT_EQ(m.iridescence_thickness_most, 400);
-        EXPECT_EQ(layersOf(m), 0u);
-    }
-}
-
 TEST(GltfLayers, DefaultsAreNoCoatAndNoAnisotropy) {
     for (const Json& empty : {Json::object(), coated(Json::object()), brushed(Json::object()),
                               coated({{"clearcoatNormalTexture", {{"index", 0}}}})}) {
@@ -154,11 +103,9 @@ TEST(GltfLayers, DefaultsAreNoCoatAndNoAnisotropy) {
 }
 
 TEST(GltfLayers, RequiredExtensionsAreSupported) {
-    GltfFile f = withMaterial(merged(merged(coated({{"clearcoatFactor", 1}}), brushed(Json::object())),
-                                     merged(woven(Json::object()), filmed(Json::object()))));
+    GltfFile f = withMaterial(merged(coated({{"clearcoatFactor", 1}}), brushed(Json::object())));
     f.json["extensionsUsed"] =
-        f.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy",
-                                        "KHR_materials_sheen", "KHR_materials_iridescence"};
+        f.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy"};
     EXPECT_EQ(f.error(), "");
 }
 
@@ -177,46 +124,27 @@ TEST(GltfLayers, FactorsOutsideTheirRangeAreNoted) {
         {coated({{"clearcoatNormalTexture", {{"index", 0}, {"scale", 1e30}}}}),
          &Material::clearcoat_normal_scale, 1e12f, "material 0: clearcoatNormalTexture.scale 1e+30 "},
         {brushed({{"anisotropyStrength", 2}}), &Material::anisotropy, 1,
-         "material 0: anisotropyStrength 2 is outside 0 to 1: 1 is used"},
-        {woven({{"sheenRoughnessFactor", 3}}), &Material::sheen_roughness, 1,
-         "material 0: sheenRoughnessFactor 3 is outside 0 to 1: 1 is used"},
-        {filmed({{"iridescenceFactor", 2}}), &Material::iridescence, 1,
-         "material 0: iridescenceFactor 2 is outside 0 to 1: 1 is used"},
-        {filmed({{"iridescenceIor", 0.5}}), &Material::iridescence_ior, 1,
-         "material 0: iridescenceIor 0.5 is outside 1 to 1e+12: 1 is used"},
-        {filmed({{"iridescenceThicknessMinimum", -1}}), &Material::iridescence_thickness_least, 0,
-         "material 0: iridescenceThicknessMinimum -1 is outside 0 to 65504: 0 is used"},
-        {filmed({{"iridescenceThicknessMaximum", 1e6}}), &Material::iridescence_thickness_most, 65504,
-         "material 0: iridescenceThicknessMaximum 1000000 is outside 0 to 65504: 65504 is used"}};
+         "material 0: anisotropyStrength 2 is outside 0 to 1: 1 is used"}};
     for (const Case& c : cases) {
         const Scene scene = withMaterial(c.material).load();
         EXPECT_EQ(scene.materials[0].*c.member, c.expected) << c.note;
         EXPECT_TRUE(mentions(scene.notes, c.note)) << c.note;
     }
-    const Scene dyed = withMaterial(woven({{"sheenColorFactor", {0.5, 2, -1}}})).load();
-    EXPECT_EQ(dyed.materials[0].sheen_color, glm::vec3(0.5f, 1, 0));
-    EXPECT_TRUE(mentions(dyed.notes, "material 0: sheenColorFactor 2 is outside 0 to 1: 1 is used"));
-    for (const Json& wrong : {coated({{"clearcoatFactor", "all"}}), woven({{"sheenColorFactor", {1, 1}}}),
-                              filmed({{"iridescenceThicknessTexture", Json::object()}}),
-                              brushed({{"anisotropyStrength", Json::array({1})}}),
-                              coated({{"clearcoatTexture", {{"index", 7}}}})})
+    for (const Json& wrong :
+         {coated({{"clearcoatFactor", "all"}}), brushed({{"anisotropyStrength", Json::array({1})}}),
+          coated({{"clearcoatTexture", {{"index", 7}}}})})
         EXPECT_NE(withMaterial(wrong).error(), "") << wrong;
 }
 
 TEST(GltfLayers, UnlitMaterialsHaveNone) {
     Json material = merged(coated({{"clearcoatFactor", 1}, {"clearcoatTexture", {{"index", 0}}}}),
                            brushed({{"anisotropyStrength", 1}, {"anisotropyTexture", {{"index", 0}}}}));
-    material = merged(material,
-                      merged(woven({{"sheenColorFactor", {1, 1, 1}}, {"sheenColorTexture", {{"index", 0}}}}),
-                             filmed({{"iridescenceFactor", 1}})));
     material["extensions"]["KHR_materials_unlit"] = Json::object();
     const Scene scene = withMaterial(material).load();
     const Material& m = scene.materials.at(0);
     EXPECT_TRUE(m.unlit);
     EXPECT_EQ(m.clearcoat, 0);
     EXPECT_EQ(m.anisotropy, 0);
-    EXPECT_EQ(m.sheen_color, glm::vec3(0));
-    EXPECT_EQ(m.iridescence, 0);
     EXPECT_EQ(m.clearcoat_texture.texture, -1);
     EXPECT_EQ(m.anisotropy_texture.texture, -1);
     EXPECT_TRUE(scene.images.empty());
@@ -291,21 +219,6 @@ TEST(GltfLayers, AnimatedStrengthNeedsTangentsFromTheStart) {
     EXPECT_TRUE(mentions(bare.load().notes, arbitrary));
 }
 
-// A layer that is animated from 0 is in the scene while it is above 0.
-TEST(GltfLayers, AnimatedFactorsMakeLayers) {
-    const std::tuple<Json, const char*, gpu::uint> cases[] = {
-        {coated(Json::object()), "KHR_materials_clearcoat/clearcoatFactor", gpu::LAYER_CLEARCOAT},
-        {filmed(Json::object()), "KHR_materials_iridescence/iridescenceFactor", gpu::LAYER_IRIDESCENCE}};
-    for (const auto& [material, factor, layer] : cases) {
-        GltfFile f = mapped(material);
-        animate(f, factor, 0, 1);
-        const Scene scene = f.load();
-        ASSERT_EQ(scene.animations.size(), 1u) << factor;
-        EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u) << factor;
-        EXPECT_EQ(requirements(scene, poseAt(scene, 0.5)).layers, layer) << factor;
-    }
-}
-
 // Turns the texture whose coordinates define tangents by half a turn; the other one leaves them.
 TEST(GltfLayers, TangentsTurnWithTheMapThatDefinesThem) {
     const Json info = {{"index", 0}};
@@ -332,13 +245,8 @@ TEST(GltfLayers, TangentsTurnWithTheMapThatDefinesThem) {
 TEST(GltfLayers, TransformsOfMissingTexturesAreNotAnimated) {
     for (const char* slot :
          {"KHR_materials_clearcoat/clearcoatTexture", "KHR_materials_clearcoat/clearcoatRoughnessTexture",
-          "KHR_materials_clearcoat/clearcoatNormalTexture", "KHR_materials_anisotropy/anisotropyTexture",
-          "KHR_materials_sheen/sheenColorTexture", "KHR_materials_sheen/sheenRoughnessTexture",
-          "KHR_materials_iridescence/iridescenceTexture",
-          "KHR_materials_iridescence/iridescenceThicknessTexture"}) {
-        GltfFile f = mapped(
-            merged(merged(coated({{"clearcoatFactor", 1}}), brushed({{"anisotropyStrength", 1}})),
-                   merged(woven({{"sheenColorFactor", {1, 1, 1}}}), filmed({{"iridescenceFactor", 1}}))));
+          "KHR_materials_clearcoat/clearcoatNormalTexture", "KHR_materials_anisotropy/anisotropyTexture"}) {
+        GltfFile f = mapped(merged(coated({{"clearcoatFactor", 1}}), brushed({{"anisotropyStrength", 1}})));
         animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), 0, 1);
         const Scene scene = f.load();
         EXPECT_TRUE(scene.animations.empty()) << slot;
@@ -360,9 +268,6 @@ TEST(GltfLayers, RealFilesHaveTheirLayers) {
     for (const Row& row :
          {Row{"ClearCoatTest/ClearCoatTest.glb", 6, 0, gpu::LAYER_CLEARCOAT},
           Row{"AnisotropyRotationTest/AnisotropyRotationTest.glb", 0, 4, gpu::LAYER_ANISOTROPY},
-          Row{"SheenTestGrid/SheenTestGrid.glb", 0, 0, gpu::LAYER_SHEEN},
-          Row{"SheenChair/SheenChair.gltf", 0, 0, gpu::LAYER_SHEEN},
-          Row{"IridescenceMetallicSpheres/IridescenceMetallicSpheres.gltf", 0, 0, gpu::LAYER_IRIDESCENCE},
           // 7 x 7 balls, strength 0 in the first column
           Row{"AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 0, 42, gpu::LAYER_ANISOTROPY}}) {
         const Scene scene = loadScene((assets / row.file).string());
