@@ -21,10 +21,9 @@ namespace diptych {
 namespace {
 
 constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour",       "metallic-roughness", "normal",       "occlusion",       "emission",
-    "specular",          "specular colour",    "lightmap",     "clear coat",      "clear coat roughness",
-    "clear coat normal", "anisotropy",         "sheen colour", "sheen roughness", "film weight",
-    "film thickness"};
+    "base colour",       "metallic-roughness", "normal",   "occlusion",  "emission",
+    "specular",          "specular colour",    "lightmap", "clear coat", "clear coat roughness",
+    "clear coat normal", "anisotropy"};
 
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
@@ -177,8 +176,6 @@ CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materi
     add(CheckFeature::normal_map, readsSlot(m, gpu::SLOT_normal) || readsSlot(m, gpu::SLOT_clearcoat_normal));
     add(CheckFeature::clearcoat, !m.unlit && m.clearcoat > 0);
     add(CheckFeature::anisotropy, !m.unlit && m.anisotropy > 0);
-    add(CheckFeature::sheen, !m.unlit && m.sheen_color != glm::vec3(0));
-    add(CheckFeature::iridescence, !m.unlit && m.iridescence > 0);
     add(CheckFeature::vertex_colors,
         std::ranges::any_of(primitive.colors, [](const glm::vec4& c) { return c != glm::vec4(1); }));
     add(CheckFeature::alpha_mask, m.alpha_mode == AlphaMode::mask);
@@ -270,11 +267,6 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
         case CheckFeature::anisotropy:
             return fmt::format("Highlights are stretched along the surface, as on brushed metal ({}).",
                                primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
-        case CheckFeature::sheen:
-            return "A sheen lies over it, as on velvet: brighter towards its edges, darker where seen from "
-                   "the front.";
-        case CheckFeature::iridescence:
-            return "A thin film colours its reflections, as on a soap bubble: hues change with the angle.";
         case CheckFeature::vertex_colors:
             return "Vertex colours tint it: gradients are smooth; ticks stand out, crosses do not.";
         case CheckFeature::alpha_mask:

@@ -21,8 +21,6 @@ namespace diptych {
     X(normal_map, "normal maps")                  \
     X(clearcoat, "clear coats")                   \
     X(anisotropy, "anisotropy")                   \
-    X(sheen, "sheens")                            \
-    X(iridescence, "thin films")                  \
     X(vertex_colors, "vertex colours")            \
     X(alpha_mask, "alpha masks")                  \
     X(blend, "blending")                          \

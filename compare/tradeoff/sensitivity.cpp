@@ -47,8 +47,8 @@ Reflectors reflectorsOf(const Scene* scene) {
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
             found.base = found.base || material.metallic < 1 || textured;
-            found.specular = found.specular || material.metallic > 0 || material.specular > 0 ||
-                             material.clearcoat > 0 || material.iridescence > 0;
+            found.specular =
+                found.specular || material.metallic > 0 || material.specular > 0 || material.clearcoat > 0;
         }
     if (scene->environment) found.windowed = leastWindow(project(LatLong(*scene->environment))) > 0;
     return found;

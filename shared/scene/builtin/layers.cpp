@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The test scene of layered materials.
+// The test scene of clear coats and anisotropy.
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
@@ -16,7 +16,7 @@ constexpr int columns = 6;
 
 // Textures of the layers.
 struct Maps {
-    TextureSlot relief, ripples, coat, brushed, woven, films;
+    TextureSlot relief, ripples, coat, brushed;
 };
 
 Maps addMaps(Builder& b) {
@@ -25,17 +25,13 @@ Maps addMaps(Builder& b) {
             // weight in R, roughness in G
             b.texture(checker("coat", 128, 8, {255, 40, 0, 255}, {110, 190, 0, 255}), 2),
             // along the tangent at full strength; along the bitangent at less
-            b.texture(checker("brushed", 128, 8, {255, 128, 255, 255}, {128, 255, 170, 255}), 2),
-            // colour in RGB, roughness in A
-            b.texture(checker("woven", 128, 8, {230, 200, 255, 255}, {255, 150, 90, 120}), 2),
-            // weight in R, thickness in G
-            b.texture(checker("films", 128, 8, {255, 20, 0, 255}, {200, 255, 0, 255}), 2)};
+            b.texture(checker("brushed", 128, 8, {255, 128, 255, 255}, {128, 255, 170, 255}), 2)};
 }
 
 // A ball of one row; `t` grows from 0 to 1 along it.
 Material ballOf(int row, float t, const Maps& maps) {
     Material m;
-    const bool metal = row >= 2 && row != 6 && row != 7 && row != 8;
+    const bool metal = row >= 2;
     m.base_color = metal ? glm::vec4(0.8f, 0.7f, 0.55f, 1) : glm::vec4(0.5f, 0.03f, 0.03f, 1);
     m.metallic = metal ? 1.0f : 0.0f;
     m.roughness = metal ? 0.3f : 0.7f;
@@ -62,36 +58,6 @@ Material ballOf(int row, float t, const Maps& maps) {
             m.anisotropy = 0.8f;
             m.anisotropy_rotation = t * glm::radians(90.0f);
             break;
-        case 6:
-        case 7:
-            m.base_color = {0.05f, 0.06f, 0.2f, 1};
-            m.roughness = 0.9f;
-            m.sheen_color = glm::vec3(0.9f, 0.8f, 1) * (row == 6 ? t : 1.0f);
-            m.sheen_roughness = row == 6 ? 0.4f : t;
-            break;
-        case 8:
-            m.base_color = {0.02f, 0.02f, 0.02f, 1};
-            m.roughness = 0.2f;
-            m.iridescence = 1;
-            m.iridescence_ior = 1.8f;
-            m.iridescence_thickness_most = 100 + 900 * t;
-            break;
-        case 9:
-            m.iridescence = t;
-            m.iridescence_ior = 1.2f + t;
-            break;
-        case 10:
-            m.metallic = t;
-            m.sheen_color = glm::vec3(0.8f);
-            m.sheen_roughness = 1;
-            m.sheen_color_texture = m.sheen_roughness_texture = maps.woven;
-            m.iridescence = 1;
-            m.iridescence_thickness_least = 150 + 200 * t;
-            m.iridescence_thickness_most = 700;
-            m.iridescence_texture = m.iridescence_thickness_texture = maps.films;
-            m.clearcoat = t;
-            m.anisotropy = 0.6f * t;
-            break;
         default:
             m.anisotropy = 1 - 0.5f * t;
             m.anisotropy_rotation = t * glm::radians(45.0f);
@@ -106,37 +72,24 @@ Material ballOf(int row, float t, const Maps& maps) {
 
 }  // namespace
 
-// Columns of balls, the left ones from above: weight of a coat over a rough dielectric; its roughness; a
-// smooth coat over a metal's normal map, on the right with a normal map of its own; strength of anisotropy on
-// a metal; its rotation from 0 to 90 degrees; both layers, textured. The right ones: strength of a sheen; its
-// roughness; thickness of a film from 100 to 1000 nm on a dark dielectric; weight and index of a film on a
-// metal; all four layers, textured, from a dielectric to a metal.
+// Rows, from above: weight of a coat over a rough dielectric; its roughness; a smooth coat over a metal's
+// normal map, on the right with a normal map of its own; strength of anisotropy on a metal; its rotation
+// from 0 to 90 degrees; both layers, textured.
 Scene layers() {
     Builder b;
     b.camera("front", {0, 0.3, 12}, {0, 0, 0}, 30, 0.1, 100);
     b.scene.background = glm::vec3(0.05f);
-    const char* const rows[] = {"coat's weight",
-                                "coat's roughness",
-                                "coat over relief",
-                                "anisotropy strength",
-                                "anisotropy rotation",
-                                "both",
-                                "sheen's colour",
-                                "sheen's roughness",
-                                "film's thickness",
-                                "film's weight and index",
-                                "all"};
+    const char* const rows[] = {"coat's weight",       "coat's roughness",    "coat over relief",
+                                "anisotropy strength", "anisotropy rotation", "both"};
     const Maps maps = addMaps(b);
-    const Primitive ball = sphere(0.44, 40, 20);
-    for (int row = 0; row < 11; ++row)
+    const Primitive ball = sphere(0.46, 40, 20);
+    for (int row = 0; row < 6; ++row)
         for (int column = 0; column < columns; ++column) {
             const float t = static_cast<float>(column) / (columns - 1);
             Material material = ballOf(row, t, maps);
             material.name = fmt::format("{} {:.1f}", rows[row], t);
             b.scene.materials.push_back(material);
-            const bool right = row >= 6;
-            b.add(material.name, ball, row * columns + column,
-                  glm::dvec3(0.88 * column + (right ? 0.44 : -4.84), 2.5 - (right ? row - 6 : row), 0));
+            b.add(material.name, ball, row * columns + column, glm::dvec3(column - 2.5, 2.5 - row, 0));
         }
     b.sun({-0.4, -0.8, -0.6}, glm::vec3(1), 2);
     b.point({-4, 3, 5}, {1.0f, 0.75f, 0.5f}, 40, 20);

@@ -64,8 +64,6 @@ public:
             readTransmission(m);
             readClearcoat(m);
             readAnisotropy(m);
-            readSheen(m);
-            readIridescence(m);
         }
         readLightmap(m);
         return m;
@@ -90,14 +88,9 @@ private:
         if (name == "diffuseTexture") return gpu::SLOT_base_color;
         if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
         constexpr std::string_view names[gpu::SLOT_COUNT] = {
-            "baseColorTexture",       "metallicRoughnessTexture",
-            "normalTexture",          "occlusionTexture",
-            "emissiveTexture",        "specularTexture",
-            "specularColorTexture",   lightmapName,
-            "clearcoatTexture",       "clearcoatRoughnessTexture",
-            "clearcoatNormalTexture", "anisotropyTexture",
-            "sheenColorTexture",      "sheenRoughnessTexture",
-            "iridescenceTexture",     "iridescenceThicknessTexture"};
+            "baseColorTexture", "metallicRoughnessTexture",  "normalTexture",          "occlusionTexture",
+            "emissiveTexture",  "specularTexture",           "specularColorTexture",   lightmapName,
+            "clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture", "anisotropyTexture"};
         return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
     }
 
@@ -273,32 +266,6 @@ private:
         m.anisotropy_rotation =
             within("anisotropyRotation", numberIn(*e, "anisotropyRotation", 0, who_), -any, any);
         m.anisotropy_texture = slotIn(*e, "anisotropyTexture");
-    }
-
-    void readSheen(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_sheen");
-        if (!e) return;
-        const std::vector<double> color = numbersIn(*e, "sheenColorFactor", {0, 0, 0}, who_);
-        for (int c = 0; c < 3; ++c)
-            m.sheen_color[c] = within("sheenColorFactor", color[static_cast<std::size_t>(c)], 0, 1);
-        m.sheen_roughness =
-            within("sheenRoughnessFactor", numberIn(*e, "sheenRoughnessFactor", 0, who_), 0, 1);
-        m.sheen_color_texture = slotIn(*e, "sheenColorTexture");
-        m.sheen_roughness_texture = slotIn(*e, "sheenRoughnessTexture");
-    }
-
-    void readIridescence(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_iridescence");
-        if (!e) return;
-        const auto thickness = [&](const char* name, double otherwise) {
-            return within(name, numberIn(*e, name, otherwise, who_), 0, mostFilmThickness);
-        };
-        m.iridescence = within("iridescenceFactor", numberIn(*e, "iridescenceFactor", 0, who_), 0, 1);
-        m.iridescence_ior = within("iridescenceIor", numberIn(*e, "iridescenceIor", 1.3, who_), 1, maxFactor);
-        m.iridescence_thickness_least = thickness("iridescenceThicknessMinimum", 100);
-        m.iridescence_thickness_most = thickness("iridescenceThicknessMaximum", 400);
-        m.iridescence_texture = slotIn(*e, "iridescenceTexture");
-        m.iridescence_thickness_texture = slotIn(*e, "iridescenceThicknessTexture");
     }
 
     void readSpecular(Material& m) {

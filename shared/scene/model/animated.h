@@ -20,8 +20,6 @@ namespace diptych {
 // Bound for material factors that glTF leaves unbounded: keeps their squares and products finite in
 // float32.
 inline constexpr double maxFactor = 1e12;
-// nm: the largest half, as the packed G-buffer stores a film's thickness.
-inline constexpr double mostFilmThickness = 65504;
 
 struct PartFacts {
     // Components per key; for weights, per morph target.
@@ -68,7 +66,6 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::base_color:
             return {4, 0, 1};
         case AnimatedPart::specular_f0:
-        case AnimatedPart::sheen_color:
             return {3, 0, 1};
         case AnimatedPart::emissive:
             return {3, 0, any};
@@ -83,14 +80,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::clearcoat:
         case AnimatedPart::clearcoat_roughness:
         case AnimatedPart::anisotropy:
-        case AnimatedPart::sheen_roughness:
-        case AnimatedPart::iridescence:
             return {1, 0, 1};
-        case AnimatedPart::iridescence_ior:
-            return {1, 1, maxFactor};
-        case AnimatedPart::iridescence_thickness_least:
-        case AnimatedPart::iridescence_thickness_most:
-            return {1, 0, mostFilmThickness};
         case AnimatedPart::normal_scale:
         case AnimatedPart::clearcoat_normal_scale:
             return {1, -maxFactor, maxFactor};
