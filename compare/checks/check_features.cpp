@@ -21,9 +21,10 @@ namespace diptych {
 namespace {
 
 constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour",       "metallic-roughness", "normal",   "occlusion",  "emission",
-    "specular",          "specular colour",    "lightmap", "clear coat", "clear coat roughness",
-    "clear coat normal", "anisotropy"};
+    "base colour",       "metallic-roughness", "normal",       "occlusion",       "emission",
+    "specular",          "specular colour",    "lightmap",     "clear coat",      "clear coat roughness",
+    "clear coat normal", "anisotropy",         "sheen colour", "sheen roughness", "iridescence",
+    "film thickness"};
 
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
@@ -174,8 +175,11 @@ CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materi
     });
     add(CheckFeature::orientation, readsSlot(m, gpu::SLOT_base_color) || readsSlot(m, gpu::SLOT_emissive));
     add(CheckFeature::normal_map, readsSlot(m, gpu::SLOT_normal) || readsSlot(m, gpu::SLOT_clearcoat_normal));
-    add(CheckFeature::clearcoat, !m.unlit && m.clearcoat > 0);
-    add(CheckFeature::anisotropy, !m.unlit && m.anisotropy > 0);
+    const std::uint32_t layers = layersOf(m);
+    add(CheckFeature::clearcoat, (layers & gpu::LAYER_CLEARCOAT) != 0);
+    add(CheckFeature::anisotropy, (layers & gpu::LAYER_ANISOTROPY) != 0);
+    add(CheckFeature::sheen, (layers & gpu::LAYER_SHEEN) != 0);
+    add(CheckFeature::iridescence, (layers & gpu::LAYER_IRIDESCENCE) != 0);
     add(CheckFeature::vertex_colors,
         std::ranges::any_of(primitive.colors, [](const glm::vec4& c) { return c != glm::vec4(1); }));
     add(CheckFeature::alpha_mask, m.alpha_mode == AlphaMode::mask);
@@ -267,6 +271,11 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
         case CheckFeature::anisotropy:
             return fmt::format("Highlights are stretched along the surface, as on brushed metal ({}).",
                                primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
+        case CheckFeature::sheen:
+            return "A soft sheen lies over it, brightest towards its outline, as on cloth.";
+        case CheckFeature::iridescence:
+            return "A thin film tints what it reflects: the colours change with the angle, as on a soap "
+                   "bubble.";
         case CheckFeature::vertex_colors:
             return "Vertex colours tint it: gradients are smooth; ticks stand out, crosses do not.";
         case CheckFeature::alpha_mask:

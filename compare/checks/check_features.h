@@ -21,6 +21,8 @@ namespace diptych {
     X(normal_map, "normal maps")                  \
     X(clearcoat, "clear coats")                   \
     X(anisotropy, "anisotropy")                   \
+    X(sheen, "sheen")                             \
+    X(iridescence, "iridescence")                 \
     X(vertex_colors, "vertex colours")            \
     X(alpha_mask, "alpha masks")                  \
     X(blend, "blending")                          \

@@ -217,6 +217,16 @@ private:
         }
         if (extensions.contains("KHR_materials_anisotropy"))
             put(extensions["KHR_materials_anisotropy"], "anisotropyTexture", gpu::SLOT_anisotropy);
+        if (extensions.contains("KHR_materials_sheen")) {
+            Json& sheen = extensions["KHR_materials_sheen"];
+            put(sheen, "sheenColorTexture", gpu::SLOT_sheen_color);
+            put(sheen, "sheenRoughnessTexture", gpu::SLOT_sheen_roughness);
+        }
+        if (extensions.contains("KHR_materials_iridescence")) {
+            Json& film = extensions["KHR_materials_iridescence"];
+            put(film, "iridescenceTexture", gpu::SLOT_iridescence);
+            put(film, "iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness);
+        }
     }
 
     // Empty if the image cannot be written.

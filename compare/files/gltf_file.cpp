@@ -140,6 +140,15 @@ Json gltfMaterial(const Material& material) {
     if (material.anisotropy > 0)
         extensions["KHR_materials_anisotropy"] = {{"anisotropyStrength", material.anisotropy},
                                                   {"anisotropyRotation", material.anisotropy_rotation}};
+    if (material.sheen_color != glm::vec3(0))
+        extensions["KHR_materials_sheen"] = {{"sheenColorFactor", listOf(glm::dvec3(material.sheen_color))},
+                                             {"sheenRoughnessFactor", material.sheen_roughness}};
+    if (material.iridescence > 0)
+        extensions["KHR_materials_iridescence"] = {
+            {"iridescenceFactor", material.iridescence},
+            {"iridescenceIor", material.iridescence_ior},
+            {"iridescenceThicknessMinimum", material.iridescence_thickness_least},
+            {"iridescenceThicknessMaximum", material.iridescence_thickness_most}};
     written["extensions"] = std::move(extensions);
     return written;
 }
@@ -148,7 +157,8 @@ std::vector<std::string> gltfMaterialExtensions() {
     return {"KHR_materials_ior",       "KHR_materials_specular",
             specularGlossiness,        "KHR_materials_emissive_strength",
             "KHR_materials_unlit",     "KHR_materials_transmission",
-            "KHR_materials_clearcoat", "KHR_materials_anisotropy"};
+            "KHR_materials_clearcoat", "KHR_materials_anisotropy",
+            "KHR_materials_sheen",     "KHR_materials_iridescence"};
 }
 
 Json gltfCamera(const Camera& camera, double aspect) {

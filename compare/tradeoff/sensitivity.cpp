@@ -20,8 +20,8 @@ bool hasPlace(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
-// Properties of a scene: diffuse or specular surfaces, an environment, windowed spherical harmonics,
-// skinned or morphed vertices, blended materials, textured materials, layers.
+// Properties of a scene: surfaces that reflect irradiance, specular surfaces, an environment, windowed
+// spherical harmonics, skinned or morphed vertices, blended materials, textured materials, layers.
 struct Reflectors {
     bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true,
          textured = true, layered = true;
@@ -46,9 +46,11 @@ Reflectors reflectorsOf(const Scene* scene) {
             found.layered = found.layered || layersOf(material) != 0;
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
-            found.base = found.base || material.metallic < 1 || textured;
-            found.specular =
-                found.specular || material.metallic > 0 || material.specular > 0 || material.clearcoat > 0;
+            // A sheen reflects irradiance; a film reflects even where F0 is 0.
+            const bool sheen = (layersOf(material) & gpu::LAYER_SHEEN) != 0;
+            found.base = found.base || material.metallic < 1 || textured || sheen;
+            found.specular = found.specular || material.metallic > 0 || material.specular > 0 ||
+                             material.clearcoat > 0 || material.iridescence > 0;
         }
     if (scene->environment) found.windowed = leastWindow(project(LatLong(*scene->environment))) > 0;
     return found;

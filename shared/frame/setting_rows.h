@@ -151,16 +151,14 @@ void Settings::rows(Visit&& visit) {
                 .sweep = "all",
                 .for_surfaces = "fragment"},
           &Settings::lighting);
-    visit(
-        Field{.option = "layers",
-              .help =
-                  "clear coats and anisotropy in the deferred path: stored in the G-buffer, or drawn by the "
-                  "forward shader after deferred lighting",
-              .ignored = {.forward_plus = "forward_plus shades what it draws",
-                          .reference = "the reference has no G-buffer"},
-              .sweep = "all",
-              .for_surfaces = "gbuffer"},
-        &Settings::layers);
+    visit(Field{.option = "layers",
+                .help = "clear coats, anisotropy, sheen and iridescence in the deferred path: stored in the "
+                        "G-buffer, or drawn by the forward shader after deferred lighting",
+                .ignored = {.forward_plus = "forward_plus shades what it draws",
+                            .reference = "the reference has no G-buffer"},
+                .sweep = "all",
+                .for_surfaces = "gbuffer"},
+          &Settings::layers);
     visit(Field{.option = "depth-format",
                 .help = "depth format: reversed float, standard float, or reversed integers of 24 or 16 bits",
                 .default_only = {"cannot be used with --msaa 4, which shades interpolated positions instead "

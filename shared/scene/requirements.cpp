@@ -34,8 +34,7 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
         r.max_emission = std::max(r.max_emission, emission);
         r.emission = true;
     }
-    if (!m.unlit && m.clearcoat > 0) r.layers |= gpu::LAYER_CLEARCOAT;
-    if (!m.unlit && m.anisotropy > 0) r.layers |= gpu::LAYER_ANISOTROPY;
+    r.layers |= layersOf(m);
     r.normal_maps |= readsSlot(m, gpu::SLOT_normal);
     r.occlusion |= readsSlot(m, gpu::SLOT_occlusion);
     for (std::size_t i = 0; i < materialSlots.size(); ++i) {
@@ -169,6 +168,12 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say((layers & gpu::LAYER_ANISOTROPY) != 0, "anisotropy",
         "a lit material has anisotropyStrength above 0: stretched highlights, which need tangents",
         "no lit material has KHR_materials_anisotropy with a strength above 0");
+    say((layers & gpu::LAYER_SHEEN) != 0, "sheen",
+        "a lit material has sheenColorFactor above 0: a layer of fibres that dims what lies below",
+        "no lit material has KHR_materials_sheen with a colour above 0");
+    say((layers & gpu::LAYER_IRIDESCENCE) != 0, "iridescence",
+        "a lit material has iridescenceFactor above 0: a thin film colours what its base reflects",
+        "no lit material has KHR_materials_iridescence with a factor above 0");
     say(animations > 0, "animation",
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),

@@ -127,7 +127,19 @@ GltfFile dressed() {
              {"clearcoatRoughnessTexture", texture},
              {"clearcoatNormalTexture", {{"index", 0}, {"scale", 2}}}}},
            {"KHR_materials_anisotropy",
-            {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}}}}},
+            {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1}, {"anisotropyTexture", texture}}},
+           {"KHR_materials_sheen",
+            {{"sheenColorFactor", {1, 0.5, 0.25}},
+             {"sheenColorTexture", texture},
+             {"sheenRoughnessFactor", 0.5},
+             {"sheenRoughnessTexture", texture}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 0.5},
+             {"iridescenceTexture", texture},
+             {"iridescenceIor", 1.5},
+             {"iridescenceThicknessMinimum", 50},
+             {"iridescenceThicknessMaximum", 500},
+             {"iridescenceThicknessTexture", texture}}}}}},
         {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}},
         {{"extensions",
           {{"KHR_materials_pbrSpecularGlossiness",
@@ -143,11 +155,12 @@ GltfFile dressed() {
         {{"type", "perspective"},
          {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}, {"aspectRatio", 2}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}}};
-    m.json["extensionsUsed"] = {"KHR_lights_punctual",      "KHR_materials_emissive_strength",
-                                "KHR_materials_ior",        "KHR_materials_pbrSpecularGlossiness",
-                                "KHR_materials_specular",   "KHR_materials_clearcoat",
-                                "KHR_materials_anisotropy", "KHR_materials_unlit",
-                                "KHR_mesh_quantization",    "KHR_texture_transform"};
+    m.json["extensionsUsed"] = {"KHR_lights_punctual",       "KHR_materials_emissive_strength",
+                                "KHR_materials_ior",         "KHR_materials_pbrSpecularGlossiness",
+                                "KHR_materials_specular",    "KHR_materials_clearcoat",
+                                "KHR_materials_anisotropy",  "KHR_materials_sheen",
+                                "KHR_materials_iridescence", "KHR_materials_unlit",
+                                "KHR_mesh_quantization",     "KHR_texture_transform"};
     m.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     m.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3}, {"extras", {{"diptych", {{"angle", 0.0093}}}}}},
@@ -195,6 +208,8 @@ GltfFile pointed() {
         {0, "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength"},
         {0, "/materials/0/extensions/KHR_materials_ior/ior"},
         {0, "/materials/0/extensions/KHR_materials_transmission/transmissionFactor"},
+        {2, "/materials/0/extensions/KHR_materials_sheen/sheenColorFactor"},
+        {0, "/materials/0/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum"},
         {0, "/materials/0/normalTexture/scale"},
         {1, "/materials/0/emissiveTexture/extensions/KHR_texture_transform/offset"},
         {0, "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation"}};

@@ -87,6 +87,8 @@ void requireSound(const Material& material, const Scene& scene) {
         require(finite(slot.u) && finite(slot.v), "a texture's transform is finite");
     }
     require(finite(material.base_color) && finite(material.emissive) && finite(material.specular_color) &&
+                finite(material.sheen_color) && std::isfinite(material.sheen_roughness) &&
+                std::isfinite(material.iridescence) && std::isfinite(material.iridescence_ior) &&
                 std::isfinite(material.metallic) && std::isfinite(material.roughness) &&
                 std::isfinite(material.normal_scale) && std::isfinite(material.occlusion_strength) &&
                 std::isfinite(material.ior) && std::isfinite(material.specular) &&
@@ -95,6 +97,9 @@ void requireSound(const Material& material, const Scene& scene) {
                 std::isfinite(material.clearcoat_normal_scale) && std::isfinite(material.anisotropy) &&
                 std::isfinite(material.anisotropy_rotation),
             "a material's factors are finite");
+    for (const float thickness : {material.iridescence_thickness_least, material.iridescence_thickness_most})
+        require(thickness >= 0 && double{thickness} <= maxFilmThickness, "a film has a thickness");
+    require(material.iridescence_ior >= 1, "a film refracts");
 }
 
 void requireTrees(const Scene& scene) {

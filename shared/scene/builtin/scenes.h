@@ -53,7 +53,8 @@ Scene calibration();
 Scene tangents();  // tangents of untransformed or resting texture coordinates
 
 // layers.cpp: layers over and within the base
-Scene layers();  // coats and directions of highlights lost, shared with the base, or on wrong tangents
+// coats, sheens, films and directions of highlights lost, shared with the base, or on wrong tangents
+Scene layers();
 
 // motion.cpp: animation
 Scene motion();  // a pose that is missing, late or incomplete

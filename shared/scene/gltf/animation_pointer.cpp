@@ -73,6 +73,14 @@ constexpr Pattern pointerPatterns[] = {
     {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyStrength", AnimatedPart::anisotropy},
     {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyRotation",
      AnimatedPart::anisotropy_rotation},
+    {"/materials/{}/extensions/KHR_materials_sheen/sheenColorFactor", AnimatedPart::sheen_color},
+    {"/materials/{}/extensions/KHR_materials_sheen/sheenRoughnessFactor", AnimatedPart::sheen_roughness},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceFactor", AnimatedPart::iridescence},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceIor", AnimatedPart::iridescence_ior},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum",
+     AnimatedPart::iridescence_thickness_least},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum",
+     AnimatedPart::iridescence_thickness_most},
 };
 
 // Paths to a material's textures; one of transformPatterns follows.
@@ -96,6 +104,12 @@ constexpr Pattern texturePatterns[] = {
      {},
      gpu::SLOT_clearcoat_normal},
     {"/materials/{}/extensions/KHR_materials_anisotropy/anisotropyTexture", {}, gpu::SLOT_anisotropy},
+    {"/materials/{}/extensions/KHR_materials_sheen/sheenColorTexture", {}, gpu::SLOT_sheen_color},
+    {"/materials/{}/extensions/KHR_materials_sheen/sheenRoughnessTexture", {}, gpu::SLOT_sheen_roughness},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceTexture", {}, gpu::SLOT_iridescence},
+    {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
+     {},
+     gpu::SLOT_iridescence_thickness},
 };
 constexpr Pattern transformPatterns[] = {
     {"/extensions/KHR_texture_transform/offset", AnimatedPart::texture_offset},
@@ -300,8 +314,16 @@ private:
                 return has("KHR_materials_clearcoat", "clearcoatRoughnessTexture");
             case gpu::SLOT_clearcoat_normal:
                 return has("KHR_materials_clearcoat", "clearcoatNormalTexture");
-            default:
+            case gpu::SLOT_anisotropy:
                 return has("KHR_materials_anisotropy", "anisotropyTexture");
+            case gpu::SLOT_sheen_color:
+                return has("KHR_materials_sheen", "sheenColorTexture");
+            case gpu::SLOT_sheen_roughness:
+                return has("KHR_materials_sheen", "sheenRoughnessTexture");
+            case gpu::SLOT_iridescence:
+                return has("KHR_materials_iridescence", "iridescenceTexture");
+            default:
+                return has("KHR_materials_iridescence", "iridescenceThicknessTexture");
         }
     }
 };

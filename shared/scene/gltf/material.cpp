@@ -64,6 +64,8 @@ public:
             readTransmission(m);
             readClearcoat(m);
             readAnisotropy(m);
+            readSheen(m);
+            readIridescence(m);
         }
         readLightmap(m);
         return m;
@@ -88,9 +90,14 @@ private:
         if (name == "diffuseTexture") return gpu::SLOT_base_color;
         if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
         constexpr std::string_view names[gpu::SLOT_COUNT] = {
-            "baseColorTexture", "metallicRoughnessTexture",  "normalTexture",          "occlusionTexture",
-            "emissiveTexture",  "specularTexture",           "specularColorTexture",   lightmapName,
-            "clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture", "anisotropyTexture"};
+            "baseColorTexture",       "metallicRoughnessTexture",
+            "normalTexture",          "occlusionTexture",
+            "emissiveTexture",        "specularTexture",
+            "specularColorTexture",   lightmapName,
+            "clearcoatTexture",       "clearcoatRoughnessTexture",
+            "clearcoatNormalTexture", "anisotropyTexture",
+            "sheenColorTexture",      "sheenRoughnessTexture",
+            "iridescenceTexture",     "iridescenceThicknessTexture"};
         return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
     }
 
@@ -266,6 +273,32 @@ private:
         m.anisotropy_rotation =
             within("anisotropyRotation", numberIn(*e, "anisotropyRotation", 0, who_), -any, any);
         m.anisotropy_texture = slotIn(*e, "anisotropyTexture");
+    }
+
+    void readSheen(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_sheen");
+        if (!e) return;
+        const std::vector<double> color = numbersIn(*e, "sheenColorFactor", {0, 0, 0}, who_);
+        for (int c = 0; c < 3; ++c)
+            m.sheen_color[c] = within("sheenColorFactor", color[static_cast<std::size_t>(c)], 0, 1);
+        m.sheen_roughness =
+            within("sheenRoughnessFactor", numberIn(*e, "sheenRoughnessFactor", 0, who_), 0, 1);
+        m.sheen_color_texture = slotIn(*e, "sheenColorTexture");
+        m.sheen_roughness_texture = slotIn(*e, "sheenRoughnessTexture");
+    }
+
+    void readIridescence(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_iridescence");
+        if (!e) return;
+        const auto number = [&](const char* name, double otherwise, double least, double most) {
+            return within(name, numberIn(*e, name, otherwise, who_), least, most);
+        };
+        m.iridescence = number("iridescenceFactor", 0, 0, 1);
+        m.iridescence_ior = number("iridescenceIor", 1.3, 1, maxFactor);
+        m.iridescence_thickness_least = number("iridescenceThicknessMinimum", 100, 0, maxFilmThickness);
+        m.iridescence_thickness_most = number("iridescenceThicknessMaximum", 400, 0, maxFilmThickness);
+        m.iridescence_texture = slotIn(*e, "iridescenceTexture");
+        m.iridescence_thickness_texture = slotIn(*e, "iridescenceThicknessTexture");
     }
 
     void readSpecular(Material& m) {

@@ -166,11 +166,21 @@ constexpr Property clearcoat[] = {
     object("clearcoatRoughnessTexture", textureInfo), object("clearcoatNormalTexture", normalInfo)};
 constexpr Property anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"),
                                    object("anisotropyTexture", textureInfo)};
+constexpr Property sheen[] = {numbers("sheenColorFactor", 3), object("sheenColorTexture", textureInfo),
+                              number("sheenRoughnessFactor"), object("sheenRoughnessTexture", textureInfo)};
+constexpr Property iridescence[] = {number("iridescenceFactor"),
+                                    object("iridescenceTexture", textureInfo),
+                                    number("iridescenceIor"),
+                                    number("iridescenceThicknessMinimum"),
+                                    number("iridescenceThicknessMaximum"),
+                                    object("iridescenceThicknessTexture", textureInfo)};
 constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", anisotropy),
                                            object("KHR_materials_clearcoat", clearcoat),
                                            object("KHR_materials_emissive_strength", emissiveStrength),
                                            object("KHR_materials_ior", ior),
+                                           object("KHR_materials_iridescence", iridescence),
                                            object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
+                                           object("KHR_materials_sheen", sheen),
                                            object("KHR_materials_specular", specular),
                                            object("KHR_materials_transmission", transmission),
                                            object("KHR_materials_unlit", {}),

@@ -21,6 +21,9 @@ namespace diptych {
 // float32.
 inline constexpr double maxFactor = 1e12;
 
+// nm: the largest half; packed G-buffers store the thickness as one.
+inline constexpr double maxFilmThickness = 65504;
+
 struct PartFacts {
     // Components per key; for weights, per morph target.
     std::size_t width;
@@ -66,6 +69,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::base_color:
             return {4, 0, 1};
         case AnimatedPart::specular_f0:
+        case AnimatedPart::sheen_color:
             return {3, 0, 1};
         case AnimatedPart::emissive:
             return {3, 0, any};
@@ -80,7 +84,14 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::clearcoat:
         case AnimatedPart::clearcoat_roughness:
         case AnimatedPart::anisotropy:
+        case AnimatedPart::sheen_roughness:
+        case AnimatedPart::iridescence:
             return {1, 0, 1};
+        case AnimatedPart::iridescence_ior:
+            return {1, 1, maxFactor};
+        case AnimatedPart::iridescence_thickness_least:
+        case AnimatedPart::iridescence_thickness_most:
+            return {1, 0, maxFilmThickness};
         case AnimatedPart::normal_scale:
         case AnimatedPart::clearcoat_normal_scale:
             return {1, -maxFactor, maxFactor};

@@ -131,6 +131,12 @@ enum class AnimatedPart {
     clearcoat_normal_scale,
     anisotropy,
     anisotropy_rotation,
+    sheen_color,
+    sheen_roughness,
+    iridescence,
+    iridescence_ior,
+    iridescence_thickness_least,
+    iridescence_thickness_most,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale

@@ -157,6 +157,24 @@ public:
             case AnimatedPart::anisotropy_rotation:
                 m_.anisotropy_rotation = number;
                 break;
+            case AnimatedPart::sheen_color:
+                m_.sheen_color = rgb(v);
+                break;
+            case AnimatedPart::sheen_roughness:
+                m_.sheen_roughness = number;
+                break;
+            case AnimatedPart::iridescence:
+                m_.iridescence = number;
+                break;
+            case AnimatedPart::iridescence_ior:
+                m_.iridescence_ior = number;
+                break;
+            case AnimatedPart::iridescence_thickness_least:
+                m_.iridescence_thickness_least = number;
+                break;
+            case AnimatedPart::iridescence_thickness_most:
+                m_.iridescence_thickness_most = number;
+                break;
             case AnimatedPart::texture_offset:
                 transform(element).offset = {v[0], v[1]};
                 place(element);

@@ -24,7 +24,7 @@ TEST(CheckFeatures, BuiltinScenesHaveTheirs) {
         {"mirrored", {"mirrored instances", "normal maps"}},
         {"cutout", {"alpha masks", "double-sided surfaces", "normal maps"}},
         {"unlit_materials", {"unlit materials", "vertex colours"}},
-        {"layers", {"clear coats", "anisotropy", "normal maps"}},
+        {"layers", {"clear coats", "anisotropy", "sheen", "iridescence", "normal maps"}},
         {"gallery", {"normal maps", "samplers"}}};
     for (const auto& [name, features] : expected) {
         const Scene scene = loadScene(std::string("builtin:") + name);
@@ -125,9 +125,30 @@ TEST(CheckFeatures, LayersOfLitMaterials) {
     EXPECT_NE(what(scene, "anisotropy").find("the mesh's own tangents"), std::string::npos);
     scene.meshes[0].primitives[0].tangents_made = true;
     EXPECT_NE(what(scene, "anisotropy").find("generated tangents"), std::string::npos);
+    EXPECT_EQ(what(scene, "sheen"), "");
+    scene.materials[0].sheen_color = {0, 0.5f, 0};
+    EXPECT_NE(what(scene, "sheen").find("soft sheen"), std::string::npos);
+    EXPECT_EQ(what(scene, "iridescence"), "");
+    scene.materials[0].iridescence = 0.5f;
+    EXPECT_NE(what(scene, "iridescence").find("thin film"), std::string::npos);
     scene.materials[0].unlit = true;
-    EXPECT_EQ(what(scene, "clear coats"), "");
-    EXPECT_EQ(what(scene, "anisotropy"), "");
+    for (const char* layer : {"clear coats", "anisotropy", "sheen", "iridescence"})
+        EXPECT_EQ(what(scene, layer), "") << layer;
+}
+
+TEST(CheckFeatures, TexturesOfLayersAreToldByName) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.sheen_color = {1, 1, 1};
+    m.iridescence = 1;
+    for (const auto& [slot, name] : {std::pair{&Material::sheen_color_texture, "Sheen colour: "},
+                                     {&Material::sheen_roughness_texture, "Sheen roughness: "},
+                                     {&Material::iridescence_texture, "Iridescence: "},
+                                     {&Material::iridescence_thickness_texture, "Film thickness: "}}) {
+        m.*slot = {0, 1, {1, 0, 0}, {0, 1, 0}};
+        EXPECT_TRUE(what(scene, "second UV set").starts_with(name)) << name;
+        m.*slot = {};
+    }
 }
 
 TEST(CheckFeatures, WhiteVertexColoursShowNothing) {

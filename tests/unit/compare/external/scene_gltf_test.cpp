@@ -112,6 +112,8 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             EXPECT_EQ(one.roughness, other.roughness);
             EXPECT_EQ(one.clearcoat, other.clearcoat) << one.name;
             EXPECT_EQ(one.anisotropy, other.anisotropy) << one.name;
+            EXPECT_EQ(one.sheen_color, other.sheen_color) << one.name;
+            EXPECT_EQ(one.iridescence, other.iridescence) << one.name;
             for (std::size_t s = 0; s < materialSlots.size(); ++s) {
                 if (s == gpu::SLOT_lightmap) continue;
                 EXPECT_EQ(readsSlot(one, s), readsSlot(other, s)) << one.name << ", slot " << s;
@@ -125,10 +127,37 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             if (one.anisotropy > 0) {
                 EXPECT_EQ(one.anisotropy_rotation, other.anisotropy_rotation) << one.name;
             }
+            if (one.sheen_color != glm::vec3(0)) {
+                EXPECT_EQ(one.sheen_roughness, other.sheen_roughness) << one.name;
+            }
+            if (one.iridescence > 0) {
+                EXPECT_EQ(one.iridescence_ior, other.iridescence_ior) << one.name;
+                EXPECT_EQ(one.iridescence_thickness_least, other.iridescence_thickness_least) << one.name;
+                EXPECT_EQ(one.iridescence_thickness_most, other.iridescence_thickness_most) << one.name;
+            }
             EXPECT_NEAR(one.normal_texture.u.x, other.normal_texture.u.x, 1e-6) << name;
             EXPECT_NEAR(one.normal_texture.v.x, other.normal_texture.v.x, 1e-6) << name;
         }
     }
+}
+
+// Their slots stay apart: colour and roughness of a sheen, weight and thickness of a film.
+TEST(SceneGltf, TexturesOfSheensAndFilmsKeepTheirPlaces) {
+    Scene scene = loadScene("builtin:gallery");
+    Material& m = scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).primitives.at(0).material));
+    m.sheen_color = {0.5f, 0.5f, 0.5f};
+    m.iridescence = 0.5f;
+    m.sheen_color_texture = {0, 0, {2, 0, 0}, {0, 1, 0}};
+    m.sheen_roughness_texture = {0, 0, {3, 0, 0}, {0, 1, 0}};
+    m.iridescence_texture = {0, 0, {4, 0, 0}, {0, 1, 0}};
+    m.iridescence_thickness_texture = {0, 0, {5, 0, 0}, {0, 1, 0}};
+    const Scene back = readBack(sceneGltf(scene, viewAt(scene, 0), SkinNormals::joints).glb);
+    const auto same = std::ranges::find(back.materials, m.name, &Material::name);
+    ASSERT_NE(same, back.materials.end());
+    EXPECT_NEAR(same->sheen_color_texture.u.x, 2, 1e-6);
+    EXPECT_NEAR(same->sheen_roughness_texture.u.x, 3, 1e-6);
+    EXPECT_NEAR(same->iridescence_texture.u.x, 4, 1e-6);
+    EXPECT_NEAR(same->iridescence_thickness_texture.u.x, 5, 1e-6);
 }
 
 // In its own extension: no other states F0, glossiness and diffuse in the same textures.

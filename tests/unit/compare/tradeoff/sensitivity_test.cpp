@@ -123,6 +123,9 @@ TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     Material lacquered = matte;
     lacquered.clearcoat = 1;
     EXPECT_GT(valuesOf(sensitiveUnder(lacquered, false), "ibl").size(), 1u) << "the coat is specular";
+    Material bubble = matte;
+    bubble.iridescence = 1;
+    EXPECT_GT(valuesOf(sensitiveUnder(bubble, false), "ibl").size(), 1u) << "the film is specular";
     const SweepRows of_matte = sensitiveUnder(matte, false);
     for (const char* option : {"ibl", "ibl-samples", "ibl-bias", "specular-albedo", "multiscatter"}) {
         EXPECT_EQ(valuesOf(of_matte, option).size(), 1u) << option;
@@ -135,6 +138,9 @@ TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
         EXPECT_TRUE(row.ibl_diffuse == IblDiffuse::sh || row.multiscatter == Multiscatter::fdez);
     metal.metallic_roughness_texture.texture = 0;
     EXPECT_EQ(valuesOf(sensitiveUnder(metal, false), "ibl-diffuse").size(), 3u) << "a texture darkens it";
+    metal.metallic_roughness_texture = {};
+    metal.sheen_color = {0, 1, 0};
+    EXPECT_EQ(valuesOf(sensitiveUnder(metal, false), "ibl-diffuse").size(), 3u) << "a sheen reflects it";
 }
 
 TEST(TradeoffSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {

@@ -56,7 +56,9 @@ TEST(TexelPlan, AnImageHasOneColorWhereASlotReadsIt) {
         {gpu::SLOT_emissive, "rgb"},         {gpu::SLOT_specular, "a"},
         {gpu::SLOT_specular_color, "rgb"},   {gpu::SLOT_lightmap, "rgb"},
         {gpu::SLOT_clearcoat, "r"},          {gpu::SLOT_clearcoat_roughness, "g"},
-        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"}};
+        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"},
+        {gpu::SLOT_sheen_color, "rgb"},      {gpu::SLOT_sheen_roughness, "a"},
+        {gpu::SLOT_iridescence, "r"},        {gpu::SLOT_iridescence_thickness, "g"}};
     ASSERT_EQ(reads.size(), gpu::SLOT_COUNT);
     for (const auto& [slot, components] : reads)
         for (std::size_t c = 0; c < 4; ++c) {
@@ -84,7 +86,8 @@ TEST(TexelPlan, OneColorIsAFactor) {
     scene.images[0].rgba.assign(scene.images[0].rgba.size(), 9);
     Material m;
     m.emissive = {1, 1, 1};
-    m.clearcoat = m.anisotropy = 1;
+    m.clearcoat = m.anisotropy = m.iridescence = 1;
+    m.sheen_color = {1, 1, 1};
     for (const MaterialSlot& slot : materialSlots) (m.*slot.texture).texture = 0;
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
 }
@@ -137,6 +140,22 @@ TEST(TexelPlan, SlotsThatReadAlikeShareASample) {
     Material rough = m;  // only occlusion reads the texture
     rough.metallic_roughness_texture.texture = -1;
     EXPECT_EQ(plannedTexel(gpu::SLOT_occlusion, rough, scene), gpu::TEXEL_OWN);
+}
+
+// A sheen's roughness is the alpha of its colour.
+TEST(TexelPlan, ASheensRoughnessSharesTheSampleOfItsColour) {
+    const Scene scene = fourImages();
+    Material m;
+    m.sheen_color = {1, 1, 1};
+    m.sheen_color_texture.texture = m.sheen_roughness_texture.texture = 0;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_color, m, scene), gpu::TEXEL_OWN);
+    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, m, scene), gpu::TEXEL_SHARED);
+    Material other = m;
+    other.sheen_roughness_texture.texture = 1;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, other, scene), gpu::TEXEL_OWN) << "another image";
+    other = m;
+    other.sheen_roughness_texture.texcoord = 1;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, other, scene), gpu::TEXEL_OWN) << "another UV set";
 }
 
 TEST(TexelPlan, RoughnessAndMetallicAreInAlphasOfOpaqueSurfaces) {

@@ -124,8 +124,10 @@ TEST(Requirements, LayersOfDrawnLitMaterialsAreSummed) {
     Scene scene = plainScene();
     EXPECT_EQ(of(scene).layers, 0u);
     EXPECT_FALSE(line(of(scene).lines(), "clear coats").modelled);
-    EXPECT_FALSE(line(of(scene).lines(), "anisotropy").modelled);
-    scene.materials[1].clearcoat = scene.materials[1].anisotropy = 1;
+    for (const char* name : {"anisotropy", "sheen", "iridescence"})
+        EXPECT_FALSE(line(of(scene).lines(), name).modelled) << name;
+    scene.materials[1].clearcoat = scene.materials[1].anisotropy = scene.materials[1].iridescence = 1;
+    scene.materials[1].sheen_color = {1, 1, 1};
     EXPECT_EQ(of(scene).layers, 0u) << "of an unused material";
     scene.materials[0].clearcoat = 0.5f;
     EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT);
@@ -133,8 +135,29 @@ TEST(Requirements, LayersOfDrawnLitMaterialsAreSummed) {
     scene.materials[0].anisotropy = 0.5f;
     EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY);
     EXPECT_TRUE(line(of(scene).lines(), "anisotropy").modelled);
+    scene.materials[0].sheen_color = {0, 0, 0.5f};
+    EXPECT_EQ(of(scene).layers, gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN);
+    EXPECT_TRUE(line(of(scene).lines(), "sheen").modelled);
+    EXPECT_FALSE(line(of(scene).lines(), "iridescence").modelled);
+    scene.materials[0].iridescence = 0.5f;
+    EXPECT_EQ(of(scene).layers,
+              gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE);
+    EXPECT_TRUE(line(of(scene).lines(), "iridescence").modelled);
     scene.materials[0].unlit = true;
     EXPECT_EQ(of(scene).layers, 0u);
+}
+
+TEST(Requirements, TexturesOfALayerAreReadWhereItIs) {
+    Scene scene = plainScene();
+    scene.textures.resize(2);
+    Material& m = scene.materials[0];
+    m.sheen_roughness_texture.texture = 0;
+    m.iridescence_thickness_texture.texture = 1;
+    EXPECT_EQ(of(scene).textures, 0u);
+    m.sheen_color = {1, 0, 0};
+    EXPECT_EQ(of(scene).textures, 1u);
+    m.iridescence = 1;
+    EXPECT_EQ(of(scene).textures, 2u);
 }
 
 TEST(Requirements, OcclusionOfStrengthZeroIsNone) {

@@ -4,6 +4,8 @@
 #include "shared/scene/builtin/shapes.h"
 #include "shared/scene/builtin/textures.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/scene/motion/pose.h"
+#include "shared/scene/view.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -244,22 +246,44 @@ TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
         }
 }
 
-// Coats beside none, both layers at once, and every one of their textures.
+// Each layer beside none, all at once, and every one of their textures.
 TEST(Builtin, LayersHoldEveryLayerAndTexture) {
     const Scene scene = makeBuiltin("layers");
     EXPECT_LT(triangles(scene), 60000u);
-    bool plain = false, both = false;
+    std::set<std::uint32_t> layers;
     std::set<std::size_t> slots;
     for (const Material& m : scene.materials) {
-        plain |= m.clearcoat == 0 && m.anisotropy == 0;
-        both |= m.clearcoat > 0 && m.anisotropy > 0;
+        layers.insert(layersOf(m));
         for (std::size_t s = 0; s < materialSlots.size(); ++s)
             if (readsSlot(m, s)) slots.insert(s);
     }
-    EXPECT_TRUE(plain && both);
-    for (const gpu::uint slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat, gpu::SLOT_clearcoat_roughness,
-                                 gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
+    constexpr std::uint32_t all =
+        gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
+    for (const std::uint32_t some :
+         {0u, gpu::LAYER_CLEARCOAT, gpu::LAYER_ANISOTROPY, gpu::LAYER_SHEEN, gpu::LAYER_IRIDESCENCE,
+          gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY, gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE, all})
+        EXPECT_TRUE(layers.contains(some)) << some;
+    for (const gpu::uint slot :
+         {gpu::SLOT_normal, gpu::SLOT_clearcoat, gpu::SLOT_clearcoat_roughness, gpu::SLOT_clearcoat_normal,
+          gpu::SLOT_anisotropy, gpu::SLOT_sheen_color, gpu::SLOT_sheen_roughness, gpu::SLOT_iridescence,
+          gpu::SLOT_iridescence_thickness})
         EXPECT_TRUE(slots.contains(slot)) << slot;
+}
+
+// Whatever the picture's shape, no ball is cut off.
+TEST(Builtin, LayersAreWhollyInThePicture) {
+    const Scene scene = makeBuiltin("layers");
+    const Pose pose = poseAt(scene, 0);
+    for (const auto& [width, height] : {std::pair{1600, 900}, {900, 900}, {2100, 900}, {450, 900}}) {
+        const View view = makeView(scene, pose, "", width, height);
+        const glm::dmat4 clip = view.clipFromWorld();
+        for (const Instance& instance : pose.instances)
+            for (const glm::vec3& p : primitiveOf(scene, instance).positions) {
+                const glm::dvec3 world(instance.world_from_object * glm::dvec4(p, 1));
+                const glm::dvec4 at = clip * glm::dvec4(world - view.eye(), 1);
+                EXPECT_LT(std::max(std::abs(at.x), std::abs(at.y)), 0.99 * at.w) << width << " " << height;
+            }
+    }
 }
 
 // Under constant radiance 1, a white Lambertian plane has irradiance pi in any orientation. 64 suns sample

@@ -42,7 +42,10 @@ struct PointerFile : GltfFile {
                 {{"clearcoatTexture", texture},
                  {"clearcoatRoughnessTexture", texture},
                  {"clearcoatNormalTexture", texture}}},
-               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}}}}}};
+               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}},
+               {"KHR_materials_sheen", {{"sheenColorTexture", texture}, {"sheenRoughnessTexture", texture}}},
+               {"KHR_materials_iridescence",
+                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}}}}}};
         json["images"] = {{{"uri", onePixel}}};
         json["textures"] = {{{"source", 0}}};
         json["cameras"] = {{{"type", "perspective"},
@@ -154,6 +157,14 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
         {m + "extensions/KHR_materials_anisotropy/anisotropyStrength", 1, material(&Material::anisotropy)},
         {m + "extensions/KHR_materials_anisotropy/anisotropyRotation", 1,
          material(&Material::anisotropy_rotation)},
+        {m + "extensions/KHR_materials_sheen/sheenColorFactor", 3,
+         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).sheen_color); }},
+        {m + "extensions/KHR_materials_sheen/sheenRoughnessFactor", 1, material(&Material::sheen_roughness)},
+        {m + "extensions/KHR_materials_iridescence/iridescenceFactor", 1, material(&Material::iridescence)},
+        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", 1,
+         material(&Material::iridescence_thickness_least)},
+        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1,
+         material(&Material::iridescence_thickness_most)},
     };
     for (const auto& [pointer, width, read] : cases) {
         PointerFile f;
@@ -231,7 +242,12 @@ TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
         {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
          &Material::clearcoat_roughness_texture},
         {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", &Material::clearcoat_normal_texture},
-        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture}};
+        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture},
+        {"extensions/KHR_materials_sheen/sheenColorTexture", &Material::sheen_color_texture},
+        {"extensions/KHR_materials_sheen/sheenRoughnessTexture", &Material::sheen_roughness_texture},
+        {"extensions/KHR_materials_iridescence/iridescenceTexture", &Material::iridescence_texture},
+        {"extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
+         &Material::iridescence_thickness_texture}};
     for (const auto& [slot, member] : slots) {
         const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
         PointerFile f;
@@ -339,6 +355,19 @@ TEST(GltfAnimationPointer, KeysBeyondTheRangeAreNoted) {
     EXPECT_EQ(poseAt(scene, 1).materials.at(0).ior, 2);
 }
 
+TEST(GltfAnimationPointer, FilmsStayWithinTheirRange) {
+    const std::string film = "/materials/0/extensions/KHR_materials_iridescence/iridescence";
+    PointerFile f;
+    f.channel(film + "Ior", {0.5f, 2}).channel(film + "ThicknessMaximum", {-1, 70000});
+    const Scene scene = f.load();
+    const Material first = poseAt(scene, 0).materials.at(0), last = poseAt(scene, 1).materials.at(0);
+    EXPECT_EQ(first.iridescence_ior, 1);
+    EXPECT_EQ(last.iridescence_ior, 2);
+    EXPECT_EQ(first.iridescence_thickness_most, 0);
+    EXPECT_EQ(last.iridescence_thickness_most, 65504);
+    EXPECT_TRUE(mentions(scene.notes, "channel 1: -1 is outside 0 to 65504: the nearest value is used"));
+}
+
 TEST(GltfAnimationPointer, ConesAndPlanesStayInOrder) {
     PointerFile f;
     f.channel("/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", {0.5f, 0.0625f});
@@ -390,7 +419,7 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/nodes//scale", nothing},
         {"/nodes/99999999999999999999/scale", nothing},
         {"/nodes/0/matrix", nothing},
-        {"/materials/0/extensions/KHR_materials_iridescence/iridescenceFactor", nothing},
+        {"/materials/0/extensions/KHR_materials_dispersion/dispersion", nothing},
         {"/materials/0/doubleSided", nothing},
         {"/materials/0/extras/a", nothing},
         {"/nodes/3/scale", "the file has 3"},

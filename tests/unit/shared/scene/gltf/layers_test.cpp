@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// KHR_materials_clearcoat and KHR_materials_anisotropy: factors, textures, tangents, animation.
+// KHR_materials_clearcoat, _anisotropy, _sheen and _iridescence: factors, textures, tangents, animation.
+#include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/posed.h"
 #include "shared/scene/requirements.h"
@@ -26,6 +27,12 @@ Json coated(Json coat) {
 Json brushed(Json anisotropy) {
     return Json{{"extensions", {{"KHR_materials_anisotropy", std::move(anisotropy)}}}};
 }
+Json sheened(Json sheen) {
+    return Json{{"extensions", {{"KHR_materials_sheen", std::move(sheen)}}}};
+}
+Json filmed(Json film) {
+    return Json{{"extensions", {{"KHR_materials_iridescence", std::move(film)}}}};
+}
 Json merged(Json a, const Json& b) {
     a.merge_patch(b);
     return a;
@@ -39,12 +46,16 @@ GltfFile mapped(Json material) {
     return f;
 }
 
-// Keys of one number at 0 s and 1 s; `property`: from the material on.
-void animate(GltfFile& f, const std::string& property, float from, float to) {
+// Keys at 0 s and 1 s, each of one number or three; `property`: from the material on.
+void animate(GltfFile& f, const std::string& property, const std::vector<float>& from,
+             const std::vector<float>& to) {
+    std::vector<float> keys = from;
+    keys.insert(keys.end(), to.begin(), to.end());
+    const int output = f.accessor<float>(keys, FLOAT, from.size() == 1 ? "SCALAR" : "VEC3", from.size());
     const Json pointer = {{"pointer", "/materials/0/extensions/" + property}};
     f.json["animations"] = Json::array(
-        {{{"samplers", Json::array({{{"input", f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1)},
-                                     {"output", f.accessor<float>({from, to}, FLOAT, "SCALAR", 1)}}})},
+        {{{"samplers",
+           Json::array({{{"input", f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1)}, {"output", output}}})},
           {"channels",
            Json::array({{{"sampler", 0},
                          {"target",
@@ -90,6 +101,71 @@ TEST(GltfLayers, FactorsAndTexturesAreRead) {
     EXPECT_FALSE(mentions(scene.notes, "KHR_materials")) << "nothing is left out";
 }
 
+TEST(GltfLayers, SheensAndTheirTexturesAreRead) {
+    const Json texture = {{"index", 0}, {"texCoord", 1}};
+    const Scene scene = withMaterial(sheened({{"sheenColorFactor", {0.25, 0.5, 1}},
+                                              {"sheenColorTexture", {{"index", 1}}},
+                                              {"sheenRoughnessFactor", 0.75},
+                                              {"sheenRoughnessTexture", texture}}),
+                                     2)
+                            .load();
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0.25f, 0.5f, 1));
+    EXPECT_EQ(m.sheen_roughness, 0.75f);
+    EXPECT_EQ(m.sheen_color_texture.texture, 1);
+    EXPECT_EQ(m.sheen_color_texture.texcoord, 0);
+    EXPECT_EQ(m.sheen_roughness_texture.texture, 0);
+    EXPECT_EQ(m.sheen_roughness_texture.texcoord, 1);
+    EXPECT_EQ(scene.images.size(), 2u);
+    EXPECT_FALSE(mentions(scene.notes, "KHR_materials")) << "nothing is left out";
+}
+
+TEST(GltfLayers, FilmsAndTheirTexturesAreRead) {
+    const Json texture = {{"index", 0}, {"texCoord", 1}};
+    const Scene scene = withMaterial(filmed({{"iridescenceFactor", 0.25},
+                                             {"iridescenceTexture", {{"index", 1}}},
+                                             {"iridescenceIor", 1.75},
+                                             {"iridescenceThicknessMinimum", 600},
+                                             {"iridescenceThicknessMaximum", 50},
+                                             {"iridescenceThicknessTexture", texture}}),
+                                     2)
+                            .load();
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.iridescence, 0.25f);
+    EXPECT_EQ(m.iridescence_ior, 1.75f);
+    EXPECT_EQ(m.iridescence_thickness_least, 600) << "may be above the other";
+    EXPECT_EQ(m.iridescence_thickness_most, 50);
+    EXPECT_EQ(m.iridescence_texture.texture, 1);
+    EXPECT_EQ(m.iridescence_texture.texcoord, 0);
+    EXPECT_EQ(m.iridescence_thickness_texture.texture, 0);
+    EXPECT_EQ(m.iridescence_thickness_texture.texcoord, 1);
+    EXPECT_EQ(scene.images.size(), 2u);
+    EXPECT_FALSE(mentions(scene.notes, "KHR_materials")) << "nothing is left out";
+}
+
+TEST(GltfLayers, DefaultsAreNoSheenAndNoFilm) {
+    for (const Json& empty : {Json::object(), sheened(Json::object()), filmed(Json::object()),
+                              sheened({{"sheenRoughnessFactor", 0.5}})}) {
+        const Material m = materialOf(empty);
+        EXPECT_EQ(m.sheen_color, glm::vec3(0));
+        EXPECT_EQ(m.iridescence, 0);
+        EXPECT_EQ(m.iridescence_ior, 1.3f);
+        EXPECT_EQ(m.iridescence_thickness_least, 100);
+        EXPECT_EQ(m.iridescence_thickness_most, 400);
+        EXPECT_EQ(layersOf(m), 0u);
+    }
+    EXPECT_EQ(materialOf(sheened({{"sheenColorFactor", {0, 0, 1}}})).sheen_roughness, 0);
+}
+
+// One component of the colour is a sheen.
+TEST(GltfLayers, ASheenOfOneComponentIsALayer) {
+    for (int c = 0; c < 3; ++c) {
+        std::vector<double> color(3, 0.0);
+        color[static_cast<std::size_t>(c)] = 0.01;
+        EXPECT_EQ(layersOf(materialOf(sheened({{"sheenColorFactor", color}}))), gpu::LAYER_SHEEN) << c;
+    }
+}
+
 TEST(GltfLayers, DefaultsAreNoCoatAndNoAnisotropy) {
     for (const Json& empty : {Json::object(), coated(Json::object()), brushed(Json::object()),
                               coated({{"clearcoatNormalTexture", {{"index", 0}}}})}) {
@@ -105,7 +181,8 @@ TEST(GltfLayers, DefaultsAreNoCoatAndNoAnisotropy) {
 TEST(GltfLayers, RequiredExtensionsAreSupported) {
     GltfFile f = withMaterial(merged(coated({{"clearcoatFactor", 1}}), brushed(Json::object())));
     f.json["extensionsUsed"] =
-        f.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy"};
+        f.json["extensionsRequired"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy",
+                                        "KHR_materials_sheen", "KHR_materials_iridescence"};
     EXPECT_EQ(f.error(), "");
 }
 
@@ -124,7 +201,17 @@ TEST(GltfLayers, FactorsOutsideTheirRangeAreNoted) {
         {coated({{"clearcoatNormalTexture", {{"index", 0}, {"scale", 1e30}}}}),
          &Material::clearcoat_normal_scale, 1e12f, "material 0: clearcoatNormalTexture.scale 1e+30 "},
         {brushed({{"anisotropyStrength", 2}}), &Material::anisotropy, 1,
-         "material 0: anisotropyStrength 2 is outside 0 to 1: 1 is used"}};
+         "material 0: anisotropyStrength 2 is outside 0 to 1: 1 is used"},
+        {sheened({{"sheenRoughnessFactor", 1.5}}), &Material::sheen_roughness, 1,
+         "material 0: sheenRoughnessFactor 1.5 is outside 0 to 1: 1 is used"},
+        {filmed({{"iridescenceFactor", -0.5}}), &Material::iridescence, 0,
+         "material 0: iridescenceFactor -0.5 is outside 0 to 1: 0 is used"},
+        {filmed({{"iridescenceIor", 0.5}}), &Material::iridescence_ior, 1,
+         "material 0: iridescenceIor 0.5 is outside 1 to 1e+12: 1 is used"},
+        {filmed({{"iridescenceThicknessMinimum", -1}}), &Material::iridescence_thickness_least, 0,
+         "material 0: iridescenceThicknessMinimum -1 is outside 0 to 65504: 0 is used"},
+        {filmed({{"iridescenceThicknessMaximum", 65505}}), &Material::iridescence_thickness_most, 65504,
+         "material 0: iridescenceThicknessMaximum 65505 is outside 0 to 65504: 65504 is used"}};
     for (const Case& c : cases) {
         const Scene scene = withMaterial(c.material).load();
         EXPECT_EQ(scene.materials[0].*c.member, c.expected) << c.note;
@@ -132,13 +219,26 @@ TEST(GltfLayers, FactorsOutsideTheirRangeAreNoted) {
     }
     for (const Json& wrong :
          {coated({{"clearcoatFactor", "all"}}), brushed({{"anisotropyStrength", Json::array({1})}}),
-          coated({{"clearcoatTexture", {{"index", 7}}}})})
+          coated({{"clearcoatTexture", {{"index", 7}}}}), sheened({{"sheenColorFactor", {1, 1}}}),
+          sheened({{"sheenRoughnessTexture", {{"index", 7}}}}), filmed({{"iridescenceIor", "glass"}}),
+          filmed({{"iridescenceThicknessTexture", Json::object()}})})
         EXPECT_NE(withMaterial(wrong).error(), "") << wrong;
+}
+
+TEST(GltfLayers, SheenColoursOutsideTheirRangeAreNoted) {
+    const Scene scene = withMaterial(sheened({{"sheenColorFactor", {-1, 0.5, 2}}})).load();
+    EXPECT_EQ(scene.materials.at(0).sheen_color, glm::vec3(0, 0.5f, 1));
+    for (const char* note : {"material 0: sheenColorFactor -1 is outside 0 to 1: 0 is used",
+                             "material 0: sheenColorFactor 2 is outside 0 to 1: 1 is used"})
+        EXPECT_TRUE(mentions(scene.notes, note)) << note;
 }
 
 TEST(GltfLayers, UnlitMaterialsHaveNone) {
     Json material = merged(coated({{"clearcoatFactor", 1}, {"clearcoatTexture", {{"index", 0}}}}),
                            brushed({{"anisotropyStrength", 1}, {"anisotropyTexture", {{"index", 0}}}}));
+    material =
+        merged(material, sheened({{"sheenColorFactor", {1, 1, 1}}, {"sheenColorTexture", {{"index", 0}}}}));
+    material = merged(material, filmed({{"iridescenceFactor", 1}, {"iridescenceTexture", {{"index", 0}}}}));
     material["extensions"]["KHR_materials_unlit"] = Json::object();
     const Scene scene = withMaterial(material).load();
     const Material& m = scene.materials.at(0);
@@ -147,6 +247,10 @@ TEST(GltfLayers, UnlitMaterialsHaveNone) {
     EXPECT_EQ(m.anisotropy, 0);
     EXPECT_EQ(m.clearcoat_texture.texture, -1);
     EXPECT_EQ(m.anisotropy_texture.texture, -1);
+    EXPECT_EQ(m.sheen_color, glm::vec3(0));
+    EXPECT_EQ(m.iridescence, 0);
+    EXPECT_EQ(m.sheen_color_texture.texture, -1);
+    EXPECT_EQ(m.iridescence_texture.texture, -1);
     EXPECT_TRUE(scene.images.empty());
     EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u);
 }
@@ -208,15 +312,43 @@ TEST(GltfLayers, AnisotropyWithoutTangentsAndCoordinatesIsNoted) {
 TEST(GltfLayers, AnimatedStrengthNeedsTangentsFromTheStart) {
     const char* const strength = "KHR_materials_anisotropy/anisotropyStrength";
     GltfFile f = mapped(brushed(Json::object()));
-    animate(f, strength, 0, 1);
+    animate(f, strength, {0}, {1});
     const Scene scene = f.load();
     ASSERT_EQ(scene.animations.size(), 1u);
     expectTangents(f.only(scene).tangents, {0, 1, 0}, strength);
     EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u);
     EXPECT_EQ(requirements(scene, poseAt(scene, 0.5)).layers, gpu::LAYER_ANISOTROPY);
     GltfFile bare = withMaterial(brushed(Json::object()));
-    animate(bare, strength, 0, 1);
+    animate(bare, strength, {0}, {1});
     EXPECT_TRUE(mentions(bare.load().notes, arbitrary));
+}
+
+// A factor that is 0 at rest keeps its textures, and adds its layer once it is not.
+TEST(GltfLayers, AnimatedFactorsAddTheirLayerWhenTheyRise) {
+    const Json info = {{"index", 0}};
+    struct Case {
+        Json material;
+        const char* property;
+        std::size_t width;
+        gpu::uint slot, layer;
+    };
+    const Case cases[] = {
+        {coated({{"clearcoatTexture", info}}), "KHR_materials_clearcoat/clearcoatFactor", 1,
+         gpu::SLOT_clearcoat, gpu::LAYER_CLEARCOAT},
+        {sheened({{"sheenColorTexture", info}}), "KHR_materials_sheen/sheenColorFactor", 3,
+         gpu::SLOT_sheen_color, gpu::LAYER_SHEEN},
+        {filmed({{"iridescenceThicknessTexture", info}}), "KHR_materials_iridescence/iridescenceFactor", 1,
+         gpu::SLOT_iridescence_thickness, gpu::LAYER_IRIDESCENCE}};
+    for (const Case& c : cases) {
+        GltfFile f = mapped(c.material);
+        animate(f, c.property, std::vector<float>(c.width, 0), std::vector<float>(c.width, 1));
+        const Scene scene = f.load();
+        EXPECT_TRUE(mayReadSlot(scene.materials.at(0), c.slot, true)) << c.property;
+        EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u) << c.property;
+        const Pose pose = poseAt(scene, 0.5);
+        EXPECT_EQ(requirements(scene, pose).layers, c.layer) << c.property;
+        EXPECT_TRUE(readsSlot(pose.materials.at(0), c.slot)) << c.property;
+    }
 }
 
 // Turns the texture whose coordinates define tangents by half a turn; the other one leaves them.
@@ -231,8 +363,8 @@ TEST(GltfLayers, TangentsTurnWithTheMapThatDefinesThem) {
          "KHR_materials_anisotropy/anisotropyTexture", -1}};
     for (const auto& [material, slot, sign] : cases) {
         GltfFile f = mapped(material);
-        animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), 0,
-                std::numbers::pi_v<float>);
+        animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), {0},
+                {std::numbers::pi_v<float>});
         const Scene scene = f.load();
         const Pose pose = poseAt(scene, 1);
         ASSERT_EQ(pose.instances.size(), 1u);
@@ -245,9 +377,14 @@ TEST(GltfLayers, TangentsTurnWithTheMapThatDefinesThem) {
 TEST(GltfLayers, TransformsOfMissingTexturesAreNotAnimated) {
     for (const char* slot :
          {"KHR_materials_clearcoat/clearcoatTexture", "KHR_materials_clearcoat/clearcoatRoughnessTexture",
-          "KHR_materials_clearcoat/clearcoatNormalTexture", "KHR_materials_anisotropy/anisotropyTexture"}) {
-        GltfFile f = mapped(merged(coated({{"clearcoatFactor", 1}}), brushed({{"anisotropyStrength", 1}})));
-        animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), 0, 1);
+          "KHR_materials_clearcoat/clearcoatNormalTexture", "KHR_materials_anisotropy/anisotropyTexture",
+          "KHR_materials_sheen/sheenColorTexture", "KHR_materials_sheen/sheenRoughnessTexture",
+          "KHR_materials_iridescence/iridescenceTexture",
+          "KHR_materials_iridescence/iridescenceThicknessTexture"}) {
+        GltfFile f = mapped(
+            merged(merged(coated({{"clearcoatFactor", 1}}), brushed({{"anisotropyStrength", 1}})),
+                   merged(sheened({{"sheenColorFactor", {1, 1, 1}}}), filmed({{"iridescenceFactor", 1}}))));
+        animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), {0}, {1});
         const Scene scene = f.load();
         EXPECT_TRUE(scene.animations.empty()) << slot;
         EXPECT_TRUE(mentions(scene.notes, "the material has no such texture")) << slot;
@@ -262,22 +399,29 @@ TEST(GltfLayers, RealFilesHaveTheirLayers) {
         GTEST_SKIP() << "NO ASSETS at " << assets << ": real files are not tried";
     struct Row {
         const char* file;
-        std::size_t coats, anisotropic;
+        std::size_t coats, anisotropic, sheens, films;
         gpu::uint layers;
     };
     for (const Row& row :
-         {Row{"ClearCoatTest/ClearCoatTest.glb", 6, 0, gpu::LAYER_CLEARCOAT},
-          Row{"AnisotropyRotationTest/AnisotropyRotationTest.glb", 0, 4, gpu::LAYER_ANISOTROPY},
+         {Row{"ClearCoatTest/ClearCoatTest.glb", 6, 0, 0, 0, gpu::LAYER_CLEARCOAT},
+          Row{"AnisotropyRotationTest/AnisotropyRotationTest.glb", 0, 4, 0, 0, gpu::LAYER_ANISOTROPY},
           // 7 x 7 balls, strength 0 in the first column
-          Row{"AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 0, 42, gpu::LAYER_ANISOTROPY}}) {
+          Row{"AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 0, 42, 0, 0, gpu::LAYER_ANISOTROPY},
+          // 4 x 4 balls, colour 0 in the first row
+          Row{"SheenTestGrid/SheenTestGrid.glb", 0, 0, 12, 0, gpu::LAYER_SHEEN},
+          Row{"IridescenceLamp/IridescenceLamp.gltf", 0, 0, 0, 2, gpu::LAYER_IRIDESCENCE}}) {
         const Scene scene = loadScene((assets / row.file).string());
-        std::size_t coats = 0, anisotropic = 0;
+        std::size_t coats = 0, anisotropic = 0, sheens = 0, films = 0;
         for (const Material& m : scene.materials) {
             coats += m.clearcoat > 0;
             anisotropic += m.anisotropy > 0;
+            sheens += m.sheen_color != glm::vec3(0);
+            films += m.iridescence > 0;
         }
         EXPECT_EQ(coats, row.coats) << row.file;
         EXPECT_EQ(anisotropic, row.anisotropic) << row.file;
+        EXPECT_EQ(sheens, row.sheens) << row.file;
+        EXPECT_EQ(films, row.films) << row.file;
         EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, row.layers) << row.file;
         EXPECT_FALSE(mentions(scene.notes, "arbitrary")) << row.file;
     }

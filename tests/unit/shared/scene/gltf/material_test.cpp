@@ -81,12 +81,12 @@ TEST(GltfMaterial, MaterialsTexturesSamplersAndTransforms) {
 
 TEST(GltfMaterial, WhatIsDrawnOtherwiseIsNoted) {
     GltfFile f = GltfFile::triangle();
-    f.json["extensionsUsed"] = {"KHR_materials_iridescence"};
+    f.json["extensionsUsed"] = {"KHR_materials_dispersion"};
     f.json["materials"] = {{{"name", "glass"}, {"alphaMode", "BLEND"}}, {{"name", "plain"}}};
     const Scene scene = f.load();
     EXPECT_EQ(scene.materials.size(), 3u);
     EXPECT_EQ(f.only(scene).material, 2) << "the default material comes last";
-    EXPECT_TRUE(mentions(scene.notes, "KHR_materials_iridescence"));
+    EXPECT_TRUE(mentions(scene.notes, "KHR_materials_dispersion"));
 }
 
 // Base colour, alpha and sidedness are kept; the rest is ignored, and its images are not even opened.

@@ -114,6 +114,8 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
     more["KHR_materials_volume"] = Json::object();
     more["KHR_materials_clearcoat"] = {{"clearcoatFactor", 0.5}, {"clearcoatTexture", {{"index", 0}}}};
     more["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}, {"anisotropyTexture", {{"index", 0}}}};
+    more["KHR_materials_sheen"] = {{"sheenColorFactor", {1, 1, 1}}, {"sheenColorTexture", {{"index", 0}}}};
+    more["KHR_materials_iridescence"] = {{"iridescenceFactor", 1}, {"iridescenceTexture", {{"index", 0}}}};
     const Scene scene = withMaterial(material).load();
     const Material& m = scene.materials.at(0);
     EXPECT_EQ(m.ior, 0);
@@ -124,10 +126,13 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
     EXPECT_EQ(layersOf(m), 0u);
     EXPECT_EQ(m.clearcoat_texture.texture, -1);
     EXPECT_EQ(m.anisotropy_texture.texture, -1);
-    for (const char* name : {"ior", "specular", "transmission", "volume", "clearcoat", "anisotropy"})
+    EXPECT_EQ(m.sheen_color_texture.texture, -1);
+    EXPECT_EQ(m.iridescence_texture.texture, -1);
+    for (const char* name :
+         {"ior", "specular", "transmission", "volume", "clearcoat", "anisotropy", "sheen", "iridescence"})
         EXPECT_TRUE(mentions(scene.notes, std::string("material 0: KHR_materials_") + name +
                                               " beside KHR_materials_pbrSpecularGlossiness: ignored"));
-    EXPECT_EQ(scene.notes.size(), 6u);
+    EXPECT_EQ(scene.notes.size(), 8u);
 }
 
 // KHR_materials_unlit shows the base colour of pbrMetallicRoughness.
@@ -197,7 +202,9 @@ TEST(GltfSpecularGlossiness, WhatIsReplacedDoesNotMove) {
                                           {"extensions/KHR_materials_specular/specularColorFactor", 3u},
                                           {"extensions/KHR_materials_transmission/transmissionFactor", 1u},
                                           {"extensions/KHR_materials_clearcoat/clearcoatFactor", 1u},
-                                          {"extensions/KHR_materials_anisotropy/anisotropyStrength", 1u}})
+                                          {"extensions/KHR_materials_anisotropy/anisotropyStrength", 1u},
+                                          {"extensions/KHR_materials_sheen/sheenColorFactor", 3u},
+                                          {"extensions/KHR_materials_iridescence/iridescenceFactor", 1u}})
         animate(f, property, std::vector<float>(2 * width, 0.125f));
     for (const char* of :
          {"pbrMetallicRoughness/baseColor", "extensions/KHR_materials_specular/specularColor"})

@@ -89,6 +89,27 @@ const SlotCase slotCases[] = {
          return Json{{"extensions", {{"KHR_materials_anisotropy", {{"anisotropyTexture", info}}}}}};
      },
      &Material::anisotropy_texture},
+    {"sheenColorTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_sheen", {{"sheenColorTexture", info}}}}}};
+     },
+     &Material::sheen_color_texture},
+    {"sheenRoughnessTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_sheen", {{"sheenRoughnessTexture", info}}}}}};
+     },
+     &Material::sheen_roughness_texture},
+    {"iridescenceTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_iridescence", {{"iridescenceTexture", info}}}}}};
+     },
+     &Material::iridescence_texture},
+    {"iridescenceThicknessTexture",
+     [](Json info) {
+         return Json{
+             {"extensions", {{"KHR_materials_iridescence", {{"iridescenceThicknessTexture", info}}}}}};
+     },
+     &Material::iridescence_thickness_texture},
 };
 
 Json transformed(Json transform, int texcoord = 0) {
