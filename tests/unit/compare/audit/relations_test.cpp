@@ -61,6 +61,16 @@ RelationTolerance toleranceFor(Equality equality) {
     return tolerance;
 }
 
+// Turns a normal of two walls, and changes its light by `slope` times as much.
+bool passesTurned(const Frame& given, double slope) {
+    Frame changed = given;
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.relative = 1e-5;
+    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
+    changed.channels[relatedLight].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
+    return evaluate(given, changed, tolerance).passes();
+}
+
 float above(float value, int ulps = 1) {
     for (int i = 0; i < ulps; ++i) value = std::nextafter(value, 10.0f);
     return value;
@@ -136,16 +146,6 @@ TEST(Relations, ACoatsNormalMovesLight) {
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     for (Frame* frame : {&given, &changed}) frame->channels.erase(normals);
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "without a coat";
-}
-
-// Turns a normal of two walls, and changes its light by `slope` times as much.
-bool passesTurned(const Frame& given, double slope) {
-    Frame changed = given;
-    RelationTolerance tolerance = toleranceFor(Equality::rounding);
-    tolerance.relative = 1e-5;
-    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
-    changed.channels[relatedLight].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
-    return evaluate(given, changed, tolerance).passes();
 }
 
 // The base's lobe grants 12 times the normal's rotation, a sheen of roughness 0.1 204 times more.
