@@ -40,7 +40,7 @@ void expectExplained(const std::vector<Frame>& frames) {
     expectExplainedLight(frames);
     Requirements all;
     all.emission = all.lightmap = all.dielectric_specular = true;
-    all.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
+    all.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
     all.min_emission = all.max_emission = all.max_lightmap = 1;
     const Coverage covered = coverage(frames[0], frames[1]);
     for (const int mode : lightingFields())

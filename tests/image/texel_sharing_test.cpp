@@ -116,7 +116,10 @@ TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
                 one.textures[0].sampler = sampler;
                 for (const MaterialSlot& slot : materialSlots)
                     one.materials[0].*slot.texture = {0, 0, {0.5, 0, 0.1}, {0, 0.5, 0.1}};
-                one.materials[0].clearcoat = one.materials[0].anisotropy = 0.7f;
+                one.materials[0].clearcoat = one.materials[0].anisotropy = one.materials[0].iridescence =
+                    0.7f;
+                one.materials[0].sheen_color = glm::vec3(0.7f);
+                one.materials[0].sheen_roughness = 0.7f;
                 Scene sampled = one;
                 for (std::size_t c = 0; c < 4; ++c)
                     sampled.images[0].rgba[sampled.images[0].rgba.size() - 4 + c] ^= 255;
