@@ -47,7 +47,7 @@ bool isNormalised(const DebugMode& mode) {
            mode.number == gpu::DEBUG_iridescence_thickness || isHeat(mode);
 }
 // Of a normalised channel, after a space; empty: none, or unknown.
-const char* unitOf(const DebugMode& mode) {
+const char* normalisedUnit(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior) return "";
     return mode.number == gpu::DEBUG_iridescence_thickness ? " nm" : " m";
 }
@@ -176,7 +176,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
             return {0, heatTop(high), exposure, fmt::format("heat map, 0 to {:g} lights", heatTop(high))};
         if (mode.number == gpu::DEBUG_shaded_samples)
             return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
-        const std::string range = fmt::format("{:.4g} to {:.4g}{}", low, high, unitOf(mode));
+        const std::string range = fmt::format("{:.4g} to {:.4g}{}", low, high, normalisedUnit(mode));
         if (low == high) high = low + 1;
         return {low, high, exposure, (mode.width == 1 ? "grey, " : "x, y, z as red, green, blue, ") + range};
     }

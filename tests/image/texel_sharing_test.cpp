@@ -116,9 +116,10 @@ TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
                 one.textures[0].sampler = sampler;
                 for (const MaterialSlot& slot : materialSlots)
                     one.materials[0].*slot.texture = {0, 0, {0.5, 0, 0.1}, {0, 0.5, 0.1}};
-                Material& m = one.materials[0];
-                m.clearcoat = m.anisotropy = m.iridescence = 0.7f;
-                m.sheen_color = {0.5f, 0.6f, 0.7f};
+                one.materials[0].clearcoat = one.materials[0].anisotropy = one.materials[0].iridescence =
+                    0.7f;
+                one.materials[0].sheen_color = glm::vec3(0.7f);
+                one.materials[0].sheen_roughness = 0.7f;
                 Scene sampled = one;
                 for (std::size_t c = 0; c < 4; ++c)
                     sampled.images[0].rgba[sampled.images[0].rgba.size() - 4 + c] ^= 255;

@@ -251,25 +251,25 @@ const NegativeControl negativeControls[] = {
     {"lit_sheen", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }, {}, "builtin:layers"},
     {"sheen_color",
      [](Scene& s) {
-         for (Material& m : s.materials) m.sheen_color *= 0.98f;
+         for (Material& m : s.materials) m.sheen_color *= 0.99f;
      },
      {},
      "builtin:layers"},
     {"sheen_roughness",
      [](Scene& s) {
-         for (Material& m : s.materials) m.sheen_roughness *= 0.99f;
+         for (Material& m : s.materials) m.sheen_roughness *= 0.995f;
      },
      {},
      "builtin:layers"},
     {"iridescence",
      [](Scene& s) {
-         for (Material& m : s.materials) m.iridescence *= 0.99f;
+         for (Material& m : s.materials) m.iridescence *= 0.995f;
      },
      {},
      "builtin:layers"},
     {"iridescence_ior",
      [](Scene& s) {
-         for (Material& m : s.materials) m.iridescence_ior *= 1.01f;
+         for (Material& m : s.materials) m.iridescence_ior += 0.01f;
      },
      {},
      "builtin:layers"},

@@ -32,7 +32,8 @@ constexpr auto relatedLight = static_cast<int>(gpu::DEBUG_lit),
                relatedAlbedo = static_cast<int>(gpu::DEBUG_albedo);
 constexpr int relatedWidth = 16, relatedHeight = 8;
 
-// Two walls, of material 0 on the left at 2 m and of material 1 on the right at 3 m, lit evenly.
+// Without a sheen and a film: two walls, of material 0 on the left at 2 m and of material 1 on the right at 3
+// m, lit evenly.
 Frame twoWalls() {
     Frame frame;
     frame.settings.size = {relatedWidth, relatedHeight};
@@ -46,6 +47,9 @@ Frame twoWalls() {
             for (const int mode : {relatedNormal, relatedFacet})
                 for (int c = 0; c < 3; ++c) frame.channels[mode].at(x, y, c) = c == 2 ? 1.0f : 0.0f;
         }
+    for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence,
+                                 gpu::DEBUG_iridescence_thickness})
+        std::ranges::fill(frame.channels.at(static_cast<int>(mode)).data, 0.0f);
     return frame;
 }
 
@@ -55,6 +59,16 @@ RelationTolerance toleranceFor(Equality equality) {
     if (equality != Equality::bits) tolerance.relative = 1e-6;
     if (equality == Equality::rounding) tolerance.step = 0x1p-7;
     return tolerance;
+}
+
+// Turns a normal of two walls, and changes its light by `slope` times as much.
+bool passesTurned(const Frame& given, double slope) {
+    Frame changed = given;
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.relative = 1e-5;
+    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
+    changed.channels[relatedLight].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
+    return evaluate(given, changed, tolerance).passes();
 }
 
 float above(float value, int ulps = 1) {
@@ -132,6 +146,42 @@ TEST(Relations, ACoatsNormalMovesLight) {
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     for (Frame* frame : {&given, &changed}) frame->channels.erase(normals);
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "without a coat";
+}
+
+// The base's lobe grants 12 times the normal's rotation, a sheen of roughness 0.1 204 times more.
+TEST(Relations, ASheensLightMovesWithTheNormal) {
+    Frame given = twoWalls();
+    std::ranges::fill(given.channels[gpu::DEBUG_sheen_roughness].data, 0.1f);
+    EXPECT_FALSE(passesTurned(given, 200)) << "a sheen without colour is none";
+    std::ranges::fill(given.channels[gpu::DEBUG_sheen_color].data, 0.5f);
+    EXPECT_TRUE(passesTurned(given, 200));
+    EXPECT_FALSE(passesTurned(given, 230));
+    // No sheen is smoother than 0.045.
+    std::ranges::fill(given.channels[gpu::DEBUG_sheen_roughness].data, 0.0f);
+    EXPECT_TRUE(passesTurned(given, 900));
+    EXPECT_FALSE(passesTurned(given, 1100));
+}
+
+TEST(Relations, AFilmsLightMovesWithTheNormal) {
+    Frame given = twoWalls();
+    EXPECT_FALSE(passesTurned(given, 35));
+    std::ranges::fill(given.channels[gpu::DEBUG_iridescence].data, 0.5f);
+    EXPECT_TRUE(passesTurned(given, 35));
+    EXPECT_FALSE(passesTurned(given, 60));
+}
+
+// What a half loses of a thickness is relative to it.
+TEST(Relations, APackedThicknessIsGrantedItsPart) {
+    Frame given = twoWalls();
+    constexpr auto thickness = static_cast<int>(gpu::DEBUG_iridescence_thickness);
+    std::ranges::fill(given.channels[thickness].data, 400.0f);
+    RelationTolerance tolerance = toleranceFor(Equality::rounding);
+    tolerance.packed[thickness] = 0x1p-11;
+    Frame changed = given;
+    changed.channels[thickness].at(3, 2, 0) += 0.9f * 2 * 400 * 0x1p-11f;
+    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    changed.channels[thickness].at(3, 2, 0) += 0.2f * 2 * 400 * 0x1p-11f;
+    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
 TEST(Relations, SumsAreGrantedByComponent) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace diptych {
 namespace {
@@ -30,6 +31,24 @@ TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
     Coverage all;
     all.covered.assign(100, true);
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 4, 1e-6);
+}
+
+// Neither a film's index nor its thickness is between 0 and 1, and only the thickness has a unit.
+TEST(Picture, FilmsAreShownOverTheirRange) {
+    Frame frame = bothFrames()[0];
+    for (const auto& [number, value, words] :
+         {std::tuple{gpu::DEBUG_iridescence_ior, 1.5f, "grey, 0 to 1.5"},
+          {gpu::DEBUG_iridescence_thickness, 400.0f, "grey, 0 to 400 nm"}}) {
+        const DebugMode& mode = debugMode(static_cast<int>(number));
+        Image& image = frame.channels.at(mode.number);
+        image.at(1, 2) = value;
+        Image& ids = frame.channels.at(gpu::DEBUG_material_id);
+        ids.at(2, 2) = 1;  // a surface without a film
+        const Frame* frames[] = {&frame};
+        const PictureScale scale = scaleFor(mode, {}, frames);
+        EXPECT_EQ(scale.words, words);
+        EXPECT_EQ(channelPicture(mode, frame, scale).data.at(3 * (2 * 4 + 1)), 255);
+    }
 }
 
 // One object has one colour; neighbouring ids have different colours.

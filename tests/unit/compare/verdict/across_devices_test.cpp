@@ -221,6 +221,41 @@ TEST_F(AcrossDevicesPair, WhatWasMeasuredOfDecodingIsGrantedAndNoMoreThanVulkanA
     EXPECT_EQ(faults(), "albedo ");
 }
 
+// A sheen's colour is decoded as every sRGB texel.
+TEST_F(AcrossDevicesPair, ASheensColorIsGrantedItsDecoding) {
+    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_sheen_color);
+    across_.texels[gpu::DEBUG_sheen_color] = Image(across_side, across_side, 1);
+    fill(0, gpu::DEBUG_sheen_color, exactSrgb(128));
+    fill(1, gpu::DEBUG_sheen_color, 1.01 * exactSrgb(128));
+    EXPECT_EQ(faults(), "sheen_color ");
+    for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
+    EXPECT_EQ(faults(), "");
+}
+
+// Filters round a texel; a thickness then differs by that part of the thicknesses among which texels choose.
+TEST_F(AcrossDevicesPair, AThicknessIsGrantedTheRoundingOfItsRange) {
+    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_iridescence_thickness);
+    across_.texels[gpu::DEBUG_iridescence_thickness] = Image(across_side, across_side, 1);
+    for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
+    fill(0, gpu::DEBUG_iridescence_thickness, 400);
+    fill(1, gpu::DEBUG_iridescence_thickness, 400 + 0.9 * 300 / 255);
+    EXPECT_EQ(faults(), "iridescence_thickness ");
+    needs_.film_thickness_range = 300;
+    EXPECT_EQ(faults(), "");
+    needs_.film_thickness_range = 200;
+    EXPECT_EQ(faults(), "iridescence_thickness ");
+}
+
+// No texture scales a film's index, though the weight's texture may take the film away.
+TEST_F(AcrossDevicesPair, AnIndexIsGrantedNoTexel) {
+    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_iridescence_ior);
+    across_.texels[gpu::DEBUG_iridescence_ior] = Image(across_side, across_side, 1);
+    for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
+    fill(0, gpu::DEBUG_iridescence_ior, 1.3);
+    fill(1, gpu::DEBUG_iridescence_ior, 1.301);
+    EXPECT_EQ(faults(), "iridescence_ior ");
+}
+
 // Specular-glossiness: albedo is diffuse times 1 - F0. Half of what decoding changes at F0 0.9, where a code
 // is 1 % of it, is far more than 1 % of an albedo of 0.05.
 TEST_F(AcrossDevicesPair, F0DarkensTheAlbedoOfSpecularGlossiness) {
@@ -329,6 +364,61 @@ TEST(TexelRanges, AreThoseOfTheTexelsThatMayBeSeen) {
     EXPECT_NEAR(TexturedPlane(16, checker).range(), 0, 1e-6);
     // A dark square far away has no influence.
     EXPECT_EQ(TexturedPlane(1, [](int x, int y) { return x < 4 && y < 4 ? 0 : 200; }).range(), 0);
+}
+
+// A checker of codes 255 and `low`, whose alpha is its own colour, in the slots that `set` gives it.
+std::map<int, Image> layerRanges(int low, const std::function<void(Material&)>& set) {
+    TexturedPlane plane(1, [=](int x, int y) { return (x + y) % 2 == 0 ? 255 : low; });
+    std::vector<std::uint8_t>& rgba = plane.scene.images[0].rgba;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) rgba[i + 3] = rgba[i];
+    Material& m = plane.scene.materials[0];
+    m.base_color_texture.texture = -1;
+    m.sheen_color = {0.25f, 0.5f, 0};
+    m.sheen_roughness = 0.75f;
+    m.iridescence = 0.5f;
+    m.iridescence_ior = 1.5f;
+    m.iridescence_thickness_least = 300;
+    m.iridescence_thickness_most = 100;
+    set(m);
+    return texelRanges(plane.scene, plane.frame, {});
+}
+double rangeIn(const std::map<int, Image>& ranges, gpu::uint mode) {
+    const auto found = ranges.find(static_cast<int>(mode));
+    return found == ranges.end() ? 0 : double{found->second.at(across_side / 2, across_side / 2, 0)};
+}
+
+TEST(TexelRanges, OfASheenAreItsColorsAndItsAlphas) {
+    const auto color = layerRanges(51, [](Material& m) { m.sheen_color_texture.texture = 0; });
+    EXPECT_NEAR(rangeIn(color, gpu::DEBUG_sheen_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
+    EXPECT_EQ(rangeIn(color, gpu::DEBUG_sheen_roughness), 0) << "the sheen is there wherever";
+    const auto roughness = layerRanges(51, [](Material& m) { m.sheen_roughness_texture.texture = 0; });
+    EXPECT_NEAR(rangeIn(roughness, gpu::DEBUG_sheen_roughness), 0.75 * 0.8, 1e-6) << "alpha is linear";
+    EXPECT_EQ(rangeIn(roughness, gpu::DEBUG_sheen_color), 0);
+}
+
+// Without colour there is no sheen, whose roughness is then 0.
+TEST(TexelRanges, ABlackTexelTakesTheSheenAway) {
+    const auto ranges = layerRanges(0, [](Material& m) { m.sheen_color_texture.texture = 0; });
+    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_color), 0.5, 1e-6);
+    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_roughness), 0.75, 1e-6);
+}
+
+TEST(TexelRanges, OfAThicknessArePartsOfItsRange) {
+    const auto ranges = layerRanges(51, [](Material& m) { m.iridescence_thickness_texture.texture = 0; });
+    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_iridescence_thickness), 200 * 0.8, 1e-4)
+        << "either end may be larger";
+    EXPECT_EQ(rangeIn(ranges, gpu::DEBUG_iridescence), 0);
+}
+
+TEST(TexelRanges, AWeightOfZeroTakesTheFilmAway) {
+    const auto weigh = [](Material& m) { m.iridescence_texture.texture = 0; };
+    const auto kept = layerRanges(51, weigh), gone = layerRanges(0, weigh);
+    EXPECT_NEAR(rangeIn(kept, gpu::DEBUG_iridescence), 0.5 * 0.8, 1e-6);
+    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_iridescence_ior), 0);
+    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_iridescence_thickness), 0);
+    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence), 0.5, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence_ior), 1.5, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence_thickness), 300, 1e-4);
 }
 
 // F0 darkens the base, and alpha is glossiness.

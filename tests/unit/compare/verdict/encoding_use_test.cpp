@@ -24,7 +24,8 @@ struct PackedPair {
     PackedPair() {
         for (Frame& frame : frames) frame.settings.gbuffer = packedEncoding;
         needs.emission = needs.lightmap = needs.dielectric_specular = true;
-        needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
+        needs.layers =
+            gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
         needs.max_emission = needs.min_emission = needs.max_lightmap = 1;
     }
     float* read(gpu::uint mode) { return &frames[0].channels.at(static_cast<int>(mode)).at(1, 2); }
@@ -96,6 +97,46 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
         }
 }
 
+// A step of (n - 1) / (n + 1) changes a large index more.
+TEST(EncodingUse, AFilmsIndexIsJudgedAtItsValue) {
+    for (const double n : {1.0, 1.3, 2.5}) {
+        PackedPair p;
+        const double bound = (n + 1) * (n + 1) / 2 * 0.5 / 510;
+        *p.own(gpu::DEBUG_iridescence_ior) = static_cast<float>(n);
+        for (const double share : {0.9, 1.1}) {
+            *p.read(gpu::DEBUG_iridescence_ior) = static_cast<float>(n + share * bound);
+            EXPECT_EQ(p.use(gpu::DEBUG_iridescence_ior)->beyond, share > 1 ? 1u : 0u) << n << " " << share;
+        }
+    }
+}
+
+TEST(EncodingUse, AFilmsThicknessIsJudgedRelativeToIt) {
+    for (const double thickness : {1e-6, 0.5, 400.0}) {
+        PackedPair p;
+        const double bound = std::max(thickness * 0x1p-11, 0x1p-25);
+        *p.own(gpu::DEBUG_iridescence_thickness) = static_cast<float>(thickness);
+        for (const double share : {0.9, 1.1}) {
+            *p.read(gpu::DEBUG_iridescence_thickness) = static_cast<float>(thickness + share * bound);
+            EXPECT_EQ(p.use(gpu::DEBUG_iridescence_thickness)->beyond, share > 1 ? 1u : 0u)
+                << thickness << " " << share;
+        }
+    }
+}
+
+// A sheen's colour is stored as an albedo is.
+TEST(EncodingUse, ADarkSheenHasANarrowBound) {
+    constexpr double h = 0.5 / 255;
+    for (const double x : {0.01, 0.81}) {
+        PackedPair p;
+        const double bound = h * (2 * std::sqrt(x) + h);
+        p.own(gpu::DEBUG_sheen_color)[2] = static_cast<float>(x);
+        for (const double share : {0.9, 1.1}) {
+            p.read(gpu::DEBUG_sheen_color)[2] = static_cast<float>(x + share * bound);
+            EXPECT_EQ(p.use(gpu::DEBUG_sheen_color)->beyond, share > 1 ? 1u : 0u) << x << " " << share;
+        }
+    }
+}
+
 // A line's decoded direction may have either sign.
 TEST(EncodingUse, ALineIsJudgedWithoutItsSign) {
     PackedPair p;
@@ -116,7 +157,9 @@ TEST(EncodingUse, ALineIsJudgedWithoutItsSign) {
 TEST(EncodingUse, AnAbsentLayerIsExactlyZero) {
     for (const gpu::uint mode :
          {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_clearcoat_normal,
-          gpu::DEBUG_anisotropy, gpu::DEBUG_anisotropy_direction}) {
+          gpu::DEBUG_anisotropy, gpu::DEBUG_anisotropy_direction, gpu::DEBUG_sheen_color,
+          gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence, gpu::DEBUG_iridescence_ior,
+          gpu::DEBUG_iridescence_thickness}) {
         PackedPair p;
         for (int c = 0; c < debugMode(static_cast<int>(mode)).width; ++c)
             p.own(mode)[c] = p.read(mode)[c] = 0;
@@ -152,8 +195,9 @@ TEST(EncodingUse, LayersDirectionsHaveUnitLengthOrNone) {
 }
 
 TEST(EncodingUse, ANanIsBeyondEveryBound) {
-    for (const gpu::uint mode : {gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_roughness,
-                                 gpu::DEBUG_emission, gpu::DEBUG_anisotropy_direction}) {
+    for (const gpu::uint mode :
+         {gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_roughness, gpu::DEBUG_emission,
+          gpu::DEBUG_anisotropy_direction, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness}) {
         for (const bool own : {false, true}) {
             PackedPair p;
             *(own ? p.own(mode) : p.read(mode)) = std::numeric_limits<float>::quiet_NaN();
@@ -170,7 +214,8 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
     p.needs = {};
     for (const gpu::uint mode :
          {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0, gpu::DEBUG_dielectric_f90,
-          gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_normal, gpu::DEBUG_anisotropy_direction})
+          gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_normal, gpu::DEBUG_anisotropy_direction,
+          gpu::DEBUG_sheen_color, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness})
         EXPECT_FALSE(p.use(mode)) << "nothing is stored of " << mode;
     EXPECT_TRUE(p.use(gpu::DEBUG_albedo));
     for (Frame& frame : p.frames) frame.settings.gbuffer = GBufferEncoding::full;

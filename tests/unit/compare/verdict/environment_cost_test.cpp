@@ -55,6 +55,13 @@ TEST(EnvironmentCost, IsThatOfThePathsSettings) {
     EXPECT_NE(p.because(gpu::DEBUG_lit_diffuse).find("a map"), std::string::npos);
 }
 
+TEST(EnvironmentCost, PartsOfSpecularLightAreGrantedAllOfIt) {
+    const JudgedPair p;
+    EXPECT_GT(p.allowed(gpu::DEBUG_lit_specular), 0);
+    for (const gpu::uint mode : {gpu::DEBUG_lit_clearcoat, gpu::DEBUG_lit_sheen})
+        EXPECT_EQ(p.allowed(mode), p.allowed(gpu::DEBUG_lit_specular)) << mode;
+}
+
 TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
     JudgedPair p;
     EXPECT_TRUE(EnvironmentCost(p.pair()).any());

@@ -299,6 +299,49 @@ TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::fail);
 }
 
+// A sheen's colour is decoded by the sRGB curve, its roughness and a film's weight are linear.
+TEST(Footprint, TexelsOfASheenAndAFilmAreGranted) {
+    CompareOptions options;
+    options.texels = exactTexels();
+    for (const auto& [mode, code] : {std::pair{gpu::DEBUG_sheen_color, 0.006f},
+                                     {gpu::DEBUG_sheen_roughness, 1.0f / 255},
+                                     {gpu::DEBUG_iridescence, 1.0f / 255}})
+        for (const float share : {0.8f, 2.0f}) {
+            std::vector<Frame> frames = evenFrames();
+            for (float& v : channelIn(frames[1], mode).data) v = 0.5f + share * code;
+            EXPECT_EQ(judged(frames, mode).verdict, Verdict::fail) << mode << " without texels";
+            EXPECT_EQ(judged(frames, mode, options).verdict, share < 1 ? Verdict::pass : Verdict::fail)
+                << mode << " " << share;
+        }
+}
+
+// A code of a thickness texture is 1/255 of the thicknesses among which it chooses.
+TEST(Footprint, TexelsOfAThicknessAreGrantedByItsRange) {
+    CompareOptions options;
+    options.texels = exactTexels();
+    Requirements needs;
+    std::vector<Frame> frames = evenFrames();
+    for (Frame& frame : frames)
+        std::ranges::fill(channelIn(frame, gpu::DEBUG_iridescence_thickness).data, 400.0f);
+    for (float& v : channelIn(frames[1], gpu::DEBUG_iridescence_thickness).data) v += 0.9f * 300 / 255;
+    for (const float range : {300.0f, 200.0f, 0.0f}) {
+        needs.film_thickness_range = range;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_thickness, options, needs).verdict,
+                  range == 300 ? Verdict::pass : Verdict::fail)
+            << range;
+    }
+}
+
+// As pictures, indices above 1 must not all be white.
+TEST(Footprint, DetailOfLargeIndicesIsJudged) {
+    std::vector<Frame> frames = evenFrames();
+    addDetail(channelIn(frames[0], gpu::DEBUG_iridescence_ior), 1.2f, 1.6f);
+    addDetail(channelIn(frames[1], gpu::DEBUG_iridescence_ior), 1.2f, 1.6f);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_ior).verdict, Verdict::pass);
+    addDetail(channelIn(frames[1], gpu::DEBUG_iridescence_ior), 10, 10);
+    EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_ior).verdict, Verdict::fail);
+}
+
 // Specular-glossiness: albedo is diffuse times 1 - F0, so a code of F0 counts as well: at 0.5, and a diffuse
 // colour of 1, as much as one of albedo. At F0 0.01 it is a tenth.
 TEST(Footprint, TexelsOfF0AreGrantedToTheAlbedoThatTheyDarken) {

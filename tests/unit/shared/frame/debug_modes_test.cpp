@@ -33,9 +33,12 @@ TEST(DebugModes, AnglesAreBetweenUnitVectors) {
 TEST(DebugModes, LayersHaveTheirChannels) {
     for (const DebugMode& mode : debugModes()) {
         const std::string name(mode.name);
-        const gpu::uint layer = name.find("clearcoat") != std::string::npos    ? gpu::LAYER_CLEARCOAT
-                                : name.find("anisotropy") != std::string::npos ? gpu::LAYER_ANISOTROPY
-                                                                               : 0u;
+        const auto names = [&](const char* word) { return name.find(word) != std::string::npos; };
+        const gpu::uint layer = names("clearcoat")     ? gpu::LAYER_CLEARCOAT
+                                : names("anisotropy")  ? gpu::LAYER_ANISOTROPY
+                                : names("sheen")       ? gpu::LAYER_SHEEN
+                                : names("iridescence") ? gpu::LAYER_IRIDESCENCE
+                                                       : 0u;
         EXPECT_EQ(layerOf(mode.number), layer) << name;
     }
 }

@@ -169,6 +169,22 @@ TEST(Requirements, OcclusionOfStrengthZeroIsNone) {
 
 // An unlit surface emits its base colour and has neither F0 nor F90: even a black one needs the channel
 // for F90. Ignored properties require nothing.
+// The largest step of any material whose texture chooses a thickness.
+TEST(Requirements, AThicknessTextureChoosesInARange) {
+    Scene scene = plainScene();
+    for (Material& m : scene.materials) {
+        m.iridescence = 1;
+        m.iridescence_thickness_least = 500;
+        m.iridescence_thickness_most = 200;
+    }
+    scene.materials[1].iridescence_thickness_texture.texture = 0;
+    EXPECT_EQ(of(scene).film_thickness_range, 0) << "of an unused material";
+    scene.materials[0].iridescence_thickness_texture.texture = 0;
+    EXPECT_EQ(of(scene).film_thickness_range, 300);
+    scene.materials[0].iridescence = 0;
+    EXPECT_EQ(of(scene).film_thickness_range, 0) << "without a film";
+}
+
 TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {
     Scene scene = plainScene();
     Material& m = scene.materials[0];
