@@ -20,14 +20,14 @@ namespace {
 class Integrals {
 public:
     Integrals(const Surface& surface, const Compensation& compensation)
-        : brdf_(framed(surface), compensation) {}
+        : brdf_(framed(surface), compensation), parts_(surface.iridescence > 0 ? 2 : 1) {}
 
     // All but the GGX lobe: integrates over the projected hemisphere. By symmetry one half is enough.
     Reflected smooth() const {
         Reflected sum;
-        eachPoint(0, 1, [&](double square, double step) {
+        each(0, 1, [&](double square, double step) {
             const double cosine = std::sqrt(square), sine = std::sqrt(1 - square);
-            eachPoint(0, std::numbers::pi, [&](double phi, double turn) {
+            each(0, std::numbers::pi, [&](double phi, double turn) {
                 const glm::dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine);
                 Reflected f = brdf_(l);
                 f.specular -= brdf_.lobe(l);
@@ -50,11 +50,11 @@ public:
             sum += ring(std::atan(tangent)) * (step / (1 + tangent * tangent));
         };
         // sinh substitution: even steps near the middle of the lobe, logarithmic steps far out.
-        eachPoint(0, std::asinh(whole / alpha),
-                  [&](double y, double step) { add(alpha * std::sinh(y), alpha * std::cosh(y) * step); });
+        each(0, std::asinh(whole / alpha),
+             [&](double y, double step) { add(alpha * std::sinh(y), alpha * std::cosh(y) * step); });
         // Cubic substitution: resolves the ends of the interval, where rings begin and cease to
         // contribute. Far out the lobe is smooth in the cotangent.
-        eachPoint(0, 1, [&](double t, double step) {
+        each(0, 1, [&](double t, double step) {
             const double cube = t * t * t, slope = 3 * t * t * step;
             add(whole + (width - whole) * cube, (width - whole) * slope);
             const double cotangent = 1 / none + (1 / width - 1 / none) * cube;
@@ -64,6 +64,11 @@ public:
     }
 
 private:
+    template <class F>
+    void each(double from, double to, const F& f) const {
+        eachPoint(from, to, f, parts_);
+    }
+
     static Surface framed(Surface s) {
         constexpr double least = 1e-4;  // n.v, as in the material (README.md, "The model")
         const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
@@ -91,8 +96,7 @@ private:
         std::ranges::sort(ends);
         glm::dvec3 sum(0);
         for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-            eachPoint(ends[i], ends[i + 1],
-                      [&](double turn, double step) { sum += alongSlope(turn) * step; });
+            each(ends[i], ends[i + 1], [&](double turn, double step) { sum += alongSlope(turn) * step; });
         return sum;
     }
 
@@ -106,7 +110,7 @@ private:
         const double a = glm::dot(slope, slope), b = glm::dot(slope, v) / v.z, root = std::sqrt(b * b + a);
         const double last = std::atan(b > 0 ? (b + root) / a : 1 / (root - b));
         glm::dvec3 sum(0);
-        eachPoint(0, 1, [&](double t, double step) {
+        each(0, 1, [&](double t, double step) {
             const double left = 1 - t, angle = last * (1 - left * left * left);  // denser at the horizon
             const double r = std::tan(angle), cosine = 1 / std::sqrt(1 + r * r * a);
             const glm::dvec3 h = (slope * r + glm::dvec3(0, 0, 1)) * cosine;
@@ -127,7 +131,7 @@ private:
         // n.l = 2 (v.h) c - v.z > 0
         const double edge = (v.z / (2 * c) - v.z * c) / std::max(v.x * s, 1e-300);
         glm::dvec3 sum(0);
-        eachPoint(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double turn) {
+        each(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double turn) {
             const glm::dvec3 h(s * std::cos(phi), s * std::sin(phi), c);
             const double v_dot_h = glm::dot(v, h);
             sum += brdf_.lobe(2 * v_dot_h * h - v) * (4 * v_dot_h * turn);  // dl = 4 v.h dh
@@ -136,6 +140,7 @@ private:
     }
 
     Brdf brdf_;
+    int parts_;  // of each interval: a film's reflectance has waves
 };
 
 }  // namespace

@@ -155,8 +155,9 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.
     const double masking = 1 / (1 + lambda_v_ + lambda(widthTowards(widths_, to_light), n_dot_l));
     const double lobe = distribution(widths_, half, n_dot_h) * masking / (4 * n_dot_l * n_dot_v_);
-    const glm::dvec3 layer = fresnel(film_, dielectric_f0_, dielectric_f90_, v_dot_h);
-    const glm::dvec3 metal = fresnel(film_, albedo_, 1, v_dot_h);
+    glm::dvec3 layer(0), metal(0);
+    if (metallic_ < 1) layer = fresnel(film_, dielectric_f0_, dielectric_f90_, v_dot_h);
+    if (metallic_ > 0) metal = fresnel(film_, albedo_, 1, v_dot_h);
     // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
     const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =

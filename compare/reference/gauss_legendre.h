@@ -48,12 +48,15 @@ private:
     }
 };
 
-// Calls f(x, dx) at every point of the rule between `from` and `to`.
+// Calls f(x, dx) at every point of the rule in each of `parts` equal parts of an interval.
 template <class F>
-void eachPoint(double from, double to, const F& f) {
+void eachPoint(double from, double to, const F& f, int parts = 1) {
     const GaussLegendre& rule = GaussLegendre::rule();
-    for (std::size_t i = 0; i < GaussLegendre::points; ++i)
-        f(from + (to - from) * rule.at[i], (to - from) * rule.weight[i]);
+    for (int part = 0; part < parts; ++part) {
+        const double low = from + (to - from) * part / parts, width = (to - from) / parts;
+        for (std::size_t i = 0; i < GaussLegendre::points; ++i)
+            f(low + width * rule.at[i], width * rule.weight[i]);
+    }
 }
 
 }  // namespace diptych::reference

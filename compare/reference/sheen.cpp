@@ -78,14 +78,15 @@ double sheenAlbedo(double roughness, double n_dot_v) {
     const auto ring = [&](double cosine) {
         const double sines = std::sqrt(1 - cosine * cosine) * view_sine, hole = cosine + v;
         const double end = std::asinh(std::numbers::pi / hole);
-        const int parts = static_cast<int>(std::ceil(end / 6));
         double sum = 0;
-        for (int i = 0; i < parts; ++i)
-            eachPoint(end * i / parts, end * (i + 1) / parts, [&](double y, double step) {
+        eachPoint(
+            0, end,
+            [&](double y, double step) {
                 const double half = std::sin(hole * std::sinh(y) / 2),
                              l_dot_v = cosine * v + sines * (2 * half * half - 1);
                 sum += lobe.distribution(1 - hole * hole / (2 * (1 + l_dot_v))) * hole * std::cosh(y) * step;
-            });
+            },
+            static_cast<int>(std::ceil(end / 6)));
         return 2 * sum * lobe.visibility(cosine);  // both halves
     };
     double sum = 0;
