@@ -138,7 +138,7 @@ TEST(ReferenceSheen, LightAndViewerMayChangePlaces) {
 TEST(ReferenceSheen, TheAlbedoIsADenseSum) {
     for (const double roughness : {0.045, 0.1, 0.3, 0.6, 1.0})
         for (const double cosine : {1e-4, 0.01, 0.2, 0.7, 1.0})
-            EXPECT_NEAR(sheenAlbedo(roughness, cosine), denseSheenAlbedo(roughness, cosine), 4e-5)
+            EXPECT_NEAR(sheenAlbedo(roughness, cosine), denseSheenAlbedo(roughness, cosine), 2e-5)
                 << roughness << " " << cosine;
     EXPECT_EQ(sheenAlbedo(0, 0.1), sheenAlbedo(0.045, 0.1));
     EXPECT_EQ(sheenAlbedo(0.5, -1), sheenAlbedo(0.5, 1e-4));
@@ -201,8 +201,8 @@ TEST(ReferenceSheen, TheWhiteFurnace) {
 }
 
 TEST(ReferenceSheen, TheBaseIsScaledByTheViewAlone) {
-    const Surface s = satin(0.9);
-    const double kept = 1 - 0.4 * denseSheenAlbedo(0.4, std::cos(0.9));
+    const Surface s = satin(1.2);
+    const double kept = 1 - 0.4 * denseSheenAlbedo(0.4, std::cos(1.2));
     EXPECT_LT(kept, 0.95);
     EXPECT_NEAR(keptUnderSheen(s), kept, 1e-5);
     const Shading all = underAllLights(s), under = underAllLights(bare(s)), over = underAllLights(sheenOf(s));
@@ -261,7 +261,7 @@ TEST(ReferenceSheen, OnlyTheBaseIsCompensated) {
 }
 
 TEST(ReferenceSheen, ThinTransmissionPassesThroughIt) {
-    Surface s = satin(0.6);
+    Surface s = satin(1.2);
     s.transmission = 0.5;
     EXPECT_NEAR(transmitted(s).g, keptUnderSheen(s) * transmitted(bare(s)).g, 1e-15);
     EXPECT_LT(transmitted(s).g, 0.98 * transmitted(bare(s)).g);
@@ -299,7 +299,7 @@ TEST(ReferenceSheen, GrazingAnglesAreFinite) {
 // ---- large lights ------------------------------------------------------------------------------------
 
 TEST(ReferenceSheen, AnEvenSkyIsAmbientLight) {
-    for (const double roughness : {0.0, 0.2, 1.0})
+    for (const double roughness : {0.1, 0.3, 1.0})
         for (const double angle : {0.3, 1.5}) {
             const Surface s = sheenOf(velvet(glm::dvec3(1), roughness, angle));
             const double expected = sheenAlbedo(roughness, std::cos(angle));
@@ -376,7 +376,7 @@ TEST(ReferenceSheen, LightFromOneSideCostsTheDifference) {
     const EnvironmentCosts costs = costsOf(sky, s, exact);
     const double taken = sheenAlbedo(0.3, std::cos(1.4)) * irradiance;
     EXPECT_GT(std::abs(taken - exact), 0.1 * exact);
-    EXPECT_NEAR(costs.split[2], std::abs(taken - exact), 0.05 * exact + 0.03 * taken);
+    EXPECT_NEAR(costs.split[2], std::abs(taken - exact), 0.1 * exact + 0.03 * taken);
     for (const double cost : costs.split) EXPECT_GE(costs.sampled, cost) << "not sampled";
     EXPECT_EQ(costs.diffuse[0], 0);
     EXPECT_EQ(costs.wider, 0);
