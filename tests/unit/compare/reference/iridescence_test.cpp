@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// The reference's thin films (KHR_materials_iridescence), compared with Airy's sum and with integrals.
+#include "compare/reference/thin_film.h"
+
+#include "tests/support/reference_scene.h"
+
+#include "compare/reference/ambient.h"
+#include "compare/reference/brdf.h"
+#include "compare/reference/microsurface.h"
+#include "compare/reference/multiscatter.h"
+#include "shared/frame/debug_modes.h"
+
+#include <complex>
+
+namespace diptych::reference {
+namespace {
+
+Surface filmed(Surface s, double weight, double ior = 1.4, double thickness = 380) {
+    s.iridescence = weight;
+    s.iridescence_ior = ior;
+    s.iridescence_thickness = thickness;
+    return s;
+}
+// A dielectric mixed with a metal, seen at `angle` from +Z.
+Surface beetle(double metallic, double angle, double roughness = 0.4) {
+    Surface s = mirror(roughness, angle);
+    s.metallic = metallic;
+    s.albedo = {0.8, 0.5, 0.2};
+    s.dielectric_f0 = {0.04, 0.05, 0.06};
+    s.dielectric_f90 = 0.9;
+    return s;
+}
+
+double schlicksWeight(double cosine) {
+    return std::pow(1 - cosine, 5);
+}
+double largestOf(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+void expectColor(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], tolerance) << c;
+}
+
+// Linear Rec. 709 of cos(2 pi wavenumber path), path in m, by the paper's Gaussians over wavenumbers. Their
+// variances are twice those of the transforms, which glTF's text has.
+glm::dvec3 spectralSum(double path) {
+    const auto integral = [&](double value, double middle, double variance) {
+        constexpr int steps = 2000;
+        const double reach = 10 * std::sqrt(2 * variance);
+        double sum = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double x = reach * ((2 * i + 1.0) / steps - 1);
+            sum += std::exp(-x * x / (4 * variance)) * std::cos(2 * pi * (middle + x) * path);
+        }
+        return value / std::sqrt(2.0) * sum * 2 * reach / steps / 1.0685e-7;
+    };
+    const double x = integral(5.4856e-13, 1.6810e6, 4.3278e9) + integral(9.7470e-14, 2.2399e6, 4.5282e9),
+                 y = integral(4.4201e-13, 1.7953e6, 9.3046e9), z = integral(5.2481e-13, 2.2084e6, 6.6121e9);
+    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
+            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+}
+
+// Fourier coefficients, up to the second, of the reflectance of a film by its phase: |r|^2 with Fresnel's
+// amplitudes at normal incidence (Airy 1833).
+std::array<double, 3> airys(double film, double base) {
+    constexpr int steps = 4096;
+    const double top = (1 - film) / (1 + film), bottom = (film - base) / (film + base);
+    std::array<double, 3> result{};
+    for (int i = 0; i < steps; ++i) {
+        const double phase = 2 * pi * i / steps;
+        const std::complex<double> turned = std::polar(bottom, phase);
+        const double all = std::norm((top + turned) / (1.0 + top * turned));
+        for (int m = 0; m < 3; ++m)
+            result[static_cast<std::size_t>(m)] += all * std::cos(m * phase) * (m > 0 ? 2 : 1) / steps;
+    }
+    return result;
+}
+
+// ---- the film ----------------------------------------------------------------------------------------
+
+TEST(ReferenceIridescence, AtNormalIncidenceItIsAirysSum) {
+    for (const double ior : {1.0, 1.3, 1.8})
+        for (const double thickness : {100.0, 250.0, 370.0, 800.0})
+            for (const double f0 : {0.02, 0.08, 0.5}) {
+                const double base = (1 + std::sqrt(f0)) / (1 - std::sqrt(f0));
+                const std::array<double, 3> order = airys(ior, base);
+                glm::dvec3 expected(order[0]);
+                for (const std::size_t m : {std::size_t{1}, std::size_t{2}})
+                    expected += order[m] * spectralSum(static_cast<double>(m) * 2 * ior * thickness * 1e-9);
+                expectColor(ThinFilm{1, ior, thickness}.reflected(1, glm::dvec3(f0)),
+                            glm::max(expected, glm::dvec3(0)), 1e-9);
+            }
+}
+
+// No interference is left: reflectances add, at any angle.
+TEST(ReferenceIridescence, AThickFilmIsATwoFacedPlate) {
+    for (const double cosine : {1.0, 0.7, 0.3, 0.05}) {
+        const double ior = 1.5, inner = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+        const double top = 0.04 + 0.96 * schlicksWeight(cosine);
+        const double base = (1 + std::sqrt(0.3)) / (1 - std::sqrt(0.3)),
+                     normal = std::pow((base - ior) / (base + ior), 2),
+                     bottom = normal + (1 - normal) * schlicksWeight(inner);
+        expectColor(ThinFilm{1, ior, 1e5}.reflected(cosine, glm::dvec3(0.3)),
+                    glm::dvec3(top + (1 - top) * (1 - top) * bottom / (1 - top * bottom)), 1e-9);
+    }
+}
+
+TEST(ReferenceIridescence, WithoutThicknessItIsTheBaseAtNormalIncidence) {
+    for (const double f0 : {0.0, 0.04, 0.3, 0.9}) {
+        expectColor(ThinFilm{1, 1.8, 0}.reflected(1, glm::dvec3(f0)), glm::dvec3(f0), 1e-12);
+        expectColor(ThinFilm{1, 1, 400}.reflected(1, glm::dvec3(f0)), glm::dvec3(f0), 1e-12);
+    }
+}
+
+// A film whose index lies between those of air and a base of 1.5^2 reflects no light of 550 nm if it is a
+// quarter of a wavelength thick, and the most if it is half.
+TEST(ReferenceIridescence, AQuarterOfAWavelengthReflectsLeast) {
+    const double ior = 1.5, f0 = std::pow((2.25 - 1) / (2.25 + 1), 2);
+    const auto green = [&](double waves) {
+        return ThinFilm{1, ior, waves * 550 / ior}.reflected(1, glm::dvec3(f0)).g;
+    };
+    EXPECT_LT(green(0.25), 0.02);
+    EXPECT_GT(green(0.5), 0.12);
+    EXPECT_LT(green(0.75), 0.03);
+}
+
+TEST(ReferenceIridescence, ItIsFiniteAndBounded) {
+    for (const double cosine : {0.0, 1e-4, 0.08, 0.5, 1.0, 1 + 1e-15})
+        for (const double f0 : {0.0, 0.001, 0.04, 0.8, 1.0})
+            for (const double ior : {1.0, 1.1, 1.5, 3.0, 100.0})
+                for (const double thickness : {0.0, 1e-3, 0.02, 100.0, 330.0, 780.0, 1e6, 1e30}) {
+                    const glm::dvec3 f = ThinFilm{1, ior, thickness}.reflected(cosine, glm::dvec3(f0));
+                    for (int c = 0; c < 3; ++c) {
+                        EXPECT_GE(f[c], 0) << cosine << " " << f0 << " " << ior << " " << thickness;
+                        EXPECT_LE(f[c], 1.5) << cosine << " " << f0 << " " << ior << " " << thickness;
+                    }
+                }
+}
+
+// ---- the BRDF ----------------------------------------------------------------------------------------
+
+TEST(ReferenceIridescence, AWeightOfZeroIsTheBaseBitForBit) {
+    const Surface plain = beetle(0.3, 0.8), none = filmed(plain, 0);
+    for (const double x : {-0.6, 0.0, 0.8}) {
+        const glm::dvec3 l(x, 0, std::sqrt(1 - x * x));
+        EXPECT_EQ(Brdf(plain)(l).specular, Brdf(none)(l).specular);
+        EXPECT_EQ(Brdf(plain)(l).diffuse, Brdf(none)(l).diffuse);
+    }
+    EXPECT_EQ(specularAlbedo(plain), specularAlbedo(none));
+    EXPECT_EQ(diffuseAlbedo(plain), diffuseAlbedo(none));
+    EXPECT_EQ(transmitted(plain), transmitted(none));
+    EXPECT_EQ(filmAsSchlick(none).albedo, plain.albedo);
+}
+
+// By v.h, for the dielectric and the metal apart; the base below the dielectric loses the largest component.
+TEST(ReferenceIridescence, ItReplacesFresnelByItsWeight) {
+    for (const double metallic : {0.0, 0.4, 1.0})
+        for (const double weight : {0.3, 1.0}) {
+            const Surface s = filmed(beetle(metallic, 0.8), weight);
+            const glm::dvec3 l = glm::normalize(glm::dvec3(-0.2, 0.6, 0.7));
+            const double cosine = glm::dot(s.to_viewer, glm::normalize(l + s.to_viewer)),
+                         lobe = Brdf(mirror(0.4, 0.8)).lobe(l).g;
+            const auto f = [&](const glm::dvec3& f0, double f90) {
+                return glm::mix(glm::mix(f0, glm::dvec3(f90), schlicksWeight(cosine)),
+                                ThinFilm{1, 1.4, 380}.reflected(cosine, f0), weight);
+            };
+            const glm::dvec3 layer = f(s.dielectric_f0, 0.9), metal = f(s.albedo, 1);
+            expectColor(Brdf(s)(l).specular, lobe * glm::mix(layer, metal, metallic), 1e-12);
+            expectColor(Brdf(s)(l).diffuse, s.albedo * ((1 - largestOf(layer)) * (1 - metallic) * l.z / pi),
+                        1e-12);
+        }
+}
+
+TEST(ReferenceIridescence, TheBaseNeverEmits) {
+    Surface s = filmed(beetle(0, 1.5), 1, 1.5, 330);
+    s.dielectric_f0 = glm::dvec3(0.8);
+    for (double x = -0.999; x < 1; x += 0.01)
+        EXPECT_GE(largestOf(Brdf(s)({x, 0, std::sqrt(1 - x * x)}).diffuse), 0);
+    EXPECT_GE(largestOf(diffuseAlbedo(s)), 0);
+}
+
+TEST(ReferenceIridescence, ThinTransmissionLosesWhatItReflectsToTheViewer) {
+    Surface s = filmed(beetle(0, 0.6), 1);
+    s.transmission = 0.5;
+    const glm::dvec3 f = ThinFilm{1, 1.4, 380}.reflected(std::cos(0.6), s.dielectric_f0);
+    expectColor(transmitted(s), s.albedo * (0.5 * (1 - largestOf(f))), 1e-12);
+}
+
+// Midpoint sums over half vectors around the normal and over directions.
+TEST(ReferenceIridescence, AlbedosAreTheBrdfsIntegrals) {
+    for (const double angle : {0.0, 0.9, 1.4})
+        for (const double thickness : {250.0, 800.0}) {
+            const Surface s = filmed(beetle(0.5, angle, 0.6), 0.8, 1.3, thickness);
+            const Brdf brdf(s);
+            constexpr int up = 300, around = 300;
+            Reflected sum;
+            for (int i = 0; i < up; ++i)
+                for (int j = 0; j < around; ++j) {
+                    const double z = (i + 0.5) / up, phi = pi * (j + 0.5) / around,
+                                 sine = std::sqrt(1 - z * z);
+                    sum += brdf({sine * std::cos(phi), sine * std::sin(phi), z}) * (2 * pi / up / around);
+                }
+            expectColor(specularAlbedo(s), sum.specular, 3e-4);
+            expectColor(diffuseAlbedo(s), sum.diffuse, 3e-4);
+        }
+}
+
+TEST(ReferenceIridescence, AnEvenSkyIsAmbientLight) {
+    const Environment sky{"sky", Image(8, 4, 3, 1.0f)};
+    const Surface s = filmed(beetle(0.5, 0.9), 1);
+    const Shading shading = Lighting({}, &sky, 1, {0, 0, 0})(s, {}, 3),
+                  ambient = Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1))(s, {}, 3);
+    expectColor(shading.all(), ambient.all(), 2 * samplingError * largestOf(ambient.all()));
+}
+
+// ---- multiple scattering -----------------------------------------------------------------------------
+
+TEST(ReferenceIridescence, CompensationsAreThoseOfTheSurfaceWithoutIt) {
+    const Surface plain = beetle(0.4, 0.9, 0.8), s = filmed(plain, 1);
+    for (const Multiscatter each : {Multiscatter::energy, Multiscatter::fdez}) {
+        const Compensation a = compensationOf(plain, each), b = compensationOf(s, each);
+        EXPECT_EQ(a.dielectric, b.dielectric);
+        EXPECT_EQ(a.metal, b.metal);
+        EXPECT_EQ(a.between, b.between);
+        EXPECT_EQ(a.base, b.base);
+    }
+    // The factor multiplies the film's reflectance.
+    const Surface metal = filmed(beetle(1, 0.9, 0.8), 1);
+    const Compensation energy = compensationOf(metal, Multiscatter::energy);
+    const glm::dvec3 l(0, 0, 1);
+    EXPECT_GT(energy.metal.r, 1.1);
+    expectColor(Brdf(metal, energy).lobe(l), energy.metal * Brdf(metal).lobe(l), 1e-12);
+    EXPECT_EQ(Between(s).share(), Between(plain).share());
+}
+
+// ---- Schlick's curve in its place --------------------------------------------------------------------
+
+TEST(ReferenceIridescence, TheCurvePassesThroughTheViewersValue) {
+    for (const double angle : {0.0, 0.7, 1.2})
+        for (const double weight : {0.4, 1.0}) {
+            const Surface s = filmed(beetle(0.5, angle), weight, 1.4, 250), curve = filmAsSchlick(s);
+            const double w = schlicksWeight(std::cos(angle));
+            const auto f = [&](const glm::dvec3& f0, double f90) {
+                return glm::mix(glm::mix(f0, glm::dvec3(f90), w),
+                                ThinFilm{1, 1.4, 250}.reflected(std::cos(angle), f0), weight);
+            };
+            EXPECT_EQ(curve.iridescence, 0);
+            EXPECT_NEAR(curve.dielectric_f90, 0.9 + 0.1 * weight, 1e-15);
+            // Where the curve of F90 alone exceeds the value, F0 is 0.
+            const auto expected = [&](const glm::dvec3& value, double f90) {
+                return glm::max(value, glm::dvec3(f90 * w));
+            };
+            expectColor(glm::mix(curve.dielectric_f0, glm::dvec3(curve.dielectric_f90), w),
+                        expected(f(s.dielectric_f0, 0.9), curve.dielectric_f90), 1e-12);
+            expectColor(glm::mix(curve.albedo, glm::dvec3(1), w), expected(f(s.albedo, 1), 1), 1e-12);
+        }
+    for (const double angle : {glm::radians(89.99), glm::radians(90.01)}) {
+        const Surface curve = filmAsSchlick(filmed(beetle(0.5, angle), 1));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(curve.albedo[c], 0);
+            EXPECT_LE(curve.albedo[c], 1);
+        }
+    }
+}
+
+TEST(ReferenceIridescence, UnderAnEvenSkyTheSplitSumIsOffByTheCurve) {
+    const Environment sky{"sky", Image(32, 16, 3, 3.0f)};
+    const Surface s = filmed(beetle(1, 1.1, 0.6), 1, 1.3, 600);
+    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    lighting.takeCosts();
+    const Shading shading = lighting(s, {}, 5);
+    const glm::dvec3 exact = 3.0 * specularAlbedo(s), curve = 3.0 * specularAlbedo(filmAsSchlick(s));
+    expectColor(shading.environment.specular, exact, 2 * samplingError * largestOf(exact));
+    EXPECT_GT(largestOf(glm::abs(curve - exact)), 0.05);
+    EXPECT_NEAR(shading.costs.split[0], largestOf(glm::abs(curve - exact)), 0.06 * largestOf(exact));
+}
+
+// ---- reading -----------------------------------------------------------------------------------------
+
+// A floor under a film, with texture 0 of one pixel.
+Scene oilyFloor() {
+    Scene scene = floorScene();
+    scene.images = {{"texel", 1, 1, {51, 102, 204, 255}}};
+    scene.textures = {{0, {}}};
+    scene.materials[0].iridescence = 0.5f;
+    scene.materials[0].iridescence_ior = 1.5f;
+    scene.materials[0].iridescence_thickness_least = 200;
+    scene.materials[0].iridescence_thickness_most = 700;
+    return scene;
+}
+// Weight, index and thickness.
+glm::dvec3 filmOn(const Scene& scene) {
+    const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01));
+    return {d[gpu::DEBUG_iridescence].at(0, 0, 0), d[gpu::DEBUG_iridescence_ior].at(0, 0, 0),
+            d[gpu::DEBUG_iridescence_thickness].at(0, 0, 0)};
+}
+
+TEST(ReferenceIridescence, FactorsAndTextures) {
+    Scene scene = oilyFloor();
+    EXPECT_EQ(filmOn(scene), glm::dvec3(0.5, 1.5, 700)) << "the most without a texture";
+    scene.materials[0].iridescence_texture.texture = 0;
+    scene.materials[0].iridescence_thickness_texture.texture = 0;
+    expectColor(filmOn(scene), {0.5 * 0.2, 1.5, 200 + 0.4 * 500}, 1e-4);
+}
+
+TEST(ReferenceIridescence, WithoutOneItsChannelsAreZero) {
+    Scene texture = oilyFloor(), factor = texture, unlit = texture;
+    texture.images[0].rgba = {0, 255, 255, 255};
+    texture.materials[0].iridescence_texture.texture = 0;
+    factor.materials[0].iridescence = 0;
+    unlit.materials[0].unlit = true;
+    for (const Scene& scene : {texture, factor, unlit}) EXPECT_EQ(filmOn(scene), glm::dvec3(0));
+}
+
+TEST(ReferenceIridescence, CapturedFilmsAreShadedAgain) {
+    Scene scene = oilyFloor();
+    scene.materials[0].metallic = 1;
+    scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
+    scene.materials[0].roughness = 0.5f;
+    scene.lights = {lightOf(LightKind::point, {0.5, 0.2, 2})};
+    const View view = viewFrom({1, 0, 3}, {0, 0, 0}, 2, 2, 0.05);
+    const Drawn traced = drawn(scene, view);
+    const auto lit = [&](const std::map<int, Image>& surfaces) {
+        const Picture picture = draw({.scene = scene,
+                                      .pose = traced.pose,
+                                      .view = view,
+                                      .lights = traced.pose.lights,
+                                      .mode = ReferenceMode::surface,
+                                      .surfaces = &surfaces});
+        return double{picture.channels.at(static_cast<int>(gpu::DEBUG_lit)).at(0, 0, 2)};
+    };
+    const double expected = double{traced[gpu::DEBUG_lit].at(0, 0, 2)};
+    EXPECT_NEAR(lit(traced.picture.channels), expected, 1e-4 * expected);
+    // A capture of a scene without layers lacks their channels.
+    std::map<int, Image> plain = traced.picture.channels;
+    std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
+    EXPECT_GT(std::abs(lit(plain) - expected), 0.01 * expected);
+}
+
+}  // namespace
+}  // namespace diptych::reference
