@@ -60,7 +60,7 @@ glm::dvec3 ThinFilm::reflected(double cosine, const glm::dvec3& f0) const {
     for (int c = 0; c < 3; ++c) {
         const double root = std::sqrt(std::clamp(f0[c], 0.0, 0.9999)), base = (1 + root) / (1 - root);
         bottom[c] = schlick(square((base - n) / (base + n)), inner);
-        shift[c] = base < n ? 2 * pi : pi;
+        shift[c] = base < n * (1 - 1e-5) ? 2 * pi : pi;  // as equal: indices that float32 may round apart
     }
     const glm::dvec3 cycle = glm::min(top * bottom, glm::dvec3(0.9999)),
                      within = square(passed) * bottom / (1.0 - cycle);

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Layered materials (builtin:layers) in both paths: bit for bit with a float32 G-buffer under every
-// kind of light, within their bits when packed, and as the reference integrates them. A material whose
-// factors are 0 is the base to the bit.
+// Clear coats, anisotropy, sheens and thin films (builtin:layers) in both paths: bit for bit with a float32
+// G-buffer under every kind of light, within their bits when packed, and as the reference integrates them. A
+// material whose factors are 0 is the base to the bit.
 #include "compare/verdict/pair_reports.h"
+#include "shared/material/gbuffer_layout.h"
+#include "shared/scene/model/material_slots.h"
 #include "tests/bench/environment_errors.h"
 #include "tests/image/square.h"
 
 #include <fmt/format.h>
 
+#include <initializer_list>
+
 namespace diptych::tests {
 namespace {
 
 constexpr int litCoat = static_cast<int>(gpu::DEBUG_lit_clearcoat),
-              litLobe = static_cast<int>(gpu::DEBUG_lit_specular),
               litSheen = static_cast<int>(gpu::DEBUG_lit_sheen),
+              litLobe = static_cast<int>(gpu::DEBUG_lit_specular),
               litAmbient = static_cast<int>(gpu::DEBUG_lit_ambient);
-
-void removeLayers(Material& m) {
-    m.clearcoat = m.anisotropy = m.iridescence = m.clearcoat_roughness = 0;
-    m.sheen_color = glm::vec3(0);
-    m.clearcoat_texture = m.clearcoat_roughness_texture = m.clearcoat_normal_texture = {};
-    m.anisotropy_texture = m.sheen_color_texture = m.sheen_roughness_texture = {};
-    m.iridescence_texture = m.iridescence_thickness_texture = {};
-}
 
 // Every kind of light at once.
 Scene litByAll() {
     Scene scene = loadScene("builtin:layers");
     scene.environment = environment_errors::lampSky(32);
     return scene;
+}
+void removeLayers(Material& m) {
+    m.clearcoat = m.anisotropy = m.iridescence = 0;
+    m.sheen_color = {};
 }
 Settings inAllLight(GBufferEncoding gbuffer) {
     Settings settings = smallPicture(gbuffer);
@@ -52,15 +52,47 @@ std::vector<Settings> settingsOfLayers() {
     return all;
 }
 
+// The light of coats and sheens is a part of the light of all lobes, and 0 without them.
+void expectPartsOfLobes(const Frame& frame) {
+    const auto pixel = [&](int mode, std::size_t i) {
+        const float* const p = frame.channels.at(mode).pixel(i);
+        return glm::vec3(p[0], p[1], p[2]);
+    };
+    std::size_t without = 0, with = 0;
+    for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
+        const glm::vec3 sheen = pixel(litSheen, i), of_layers = sheen + pixel(litCoat, i),
+                        all = pixel(litLobe, i) + pixel(litAmbient, i);
+        if (pixel(static_cast<int>(gpu::DEBUG_sheen_color), i) == glm::vec3(0)) {
+            ++without;
+            EXPECT_EQ(sheen, glm::vec3(0)) << frame.name << " " << i;
+        } else {
+            with += sheen != glm::vec3(0);
+        }
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(sheen[c], 0) << frame.name << " " << i;
+            EXPECT_LE(of_layers[c], all[c] * 1.00001f) << frame.name << " " << i;
+        }
+    }
+    EXPECT_GT(without, 1000u);
+    EXPECT_GT(with, 500u);
+}
+
 TEST(Layers, BothPathsAreBitEqualInAllLight) {
+    // Floats of all four layers and the attachment of MSAA are nine attachments, one too many.
     const Scene scene = litByAll();
-    Renderer renderer(device(), scene, pipelines());
+    Scene three = scene;
+    for (Material& m : three.materials) m.anisotropy = 0;
+    Renderer renderer(device(), scene, pipelines()), ofThree(device(), three, pipelines());
     for (const Settings& settings : settingsOfLayers()) {
-        const std::vector<Frame> frames = bothPaths(renderer, settings);
+        const bool sampled = settings.msaa > 1;
+        const std::vector<Frame> frames = bothPaths(sampled ? ofThree : renderer, settings);
         for (const DebugMode& mode : debugModes()) {
             if (layerOf(mode.number) == 0) continue;
-            ASSERT_TRUE(frames[0].channels.contains(mode.number)) << mode.name;
+            ASSERT_EQ(frames[0].channels.contains(mode.number),
+                      !sampled || layerOf(mode.number) != gpu::LAYER_ANISOTROPY)
+                << mode.name;
         }
+        if (!sampled) expectPartsOfLobes(frames[1]);
         expectSameChannels(frames[0], frames[1], 30);
         EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u) << settings.msaa;
         EXPECT_EQ(frames[1].counters.nonfinite_pixels, 0u) << settings.msaa;
@@ -120,16 +152,18 @@ TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
 TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
     Scene plain = litByAll(), zero = plain;
     for (std::size_t i = 1; i < plain.materials.size(); ++i) {
-        Material& z = zero.materials[i];
-        removeLayers(plain.materials[i]);
-        z.clearcoat = z.anisotropy = z.iridescence = 0;
-        z.sheen_color = glm::vec3(0);
+        Material& m = plain.materials[i];
+        removeLayers(m);
+        removeLayers(zero.materials[i]);
+        m.clearcoat_roughness = m.sheen_roughness = m.iridescence_thickness_most = 0;
+        for (std::size_t slot = gpu::SLOT_clearcoat; slot < gpu::SLOT_COUNT; ++slot)
+            m.*materialSlots[slot].texture = {};
     }
-    // One ball keeps the layers in the scene; in `none` there are none.
+    // One ball with all layers keeps them in the scene; in `none` there are none.
     for (Scene* scene : {&plain, &zero}) {
         Material& m = scene->materials[0];
         m.clearcoat = m.anisotropy = m.iridescence = 1;
-        m.sheen_color = glm::vec3(1);
+        m.sheen_color = {1, 1, 1};
     }
     Scene none = plain;
     removeLayers(none.materials[0]);
@@ -144,8 +178,13 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
         for (std::size_t i = 0; i < ids.pixels(); ++i)
             if (ids.data[i] != 0) differing += !std::equal(there.pixel(i), there.pixel(i) + 3, here.pixel(i));
         EXPECT_EQ(differing, 0u) << "layers elsewhere in the scene change a surface without them";
-        EXPECT_EQ(base[path].channels.count(litCoat) + base[path].channels.count(litSheen), 0u);
+        for (const auto& [mode, image] : base[path].channels)
+            EXPECT_EQ(layerOf(mode), 0u) << debugMode(mode).name;
     }
+    const GBufferLayout layout =
+        gbufferLayout(GBufferEncoding::full, requirements(none, poseAt(none, 0)), false);
+    for (gpu::uint i = gpu::GBUFFER_LAYERS; i < gpu::GBUFFER_SHADED; ++i)
+        EXPECT_EQ(layout.formats[i], VK_FORMAT_UNDEFINED) << gbufferAttachmentNames[i];
 }
 
 // Under uniform radiance 1 no surface reflects more.
@@ -153,10 +192,10 @@ TEST(Layers, AWhiteFurnaceHolds) {
     Scene scene = loadScene("builtin:layers");
     for (Material& m : scene.materials) {
         m.base_color = {1, 1, 1, 1};
-        m.metallic = 1;     // appendix B's base under a layer does not conserve energy
-        m.iridescence = 0;  // the extension's colour matching exceeds 1
-        // Smoother sheens reflect more than they receive at grazing views.
-        if (m.sheen_color != glm::vec3(0)) m.sheen_roughness = std::max(m.sheen_roughness, 0.5f);
+        m.metallic = 1;  // appendix B's base under a layer does not conserve energy
+        m.sheen_roughness =
+            std::max(m.sheen_roughness, 0.5f);  // smoother sheens reflect more at grazing views
+        m.sheen_roughness_texture = {};
     }
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
@@ -174,13 +213,12 @@ TEST(Layers, AWhiteFurnaceHolds) {
     }
 }
 
-// Each slot reads its own component of its own texture, by the first or second UV set, moved by a transform.
-TEST(Layers, EverySlotReadsItsTexture) {
-    // Texels of square(): red, green above blue, grey; by the row and column of a pixel.
-    const auto texel = [](int x, int y) {
-        const glm::vec3 of[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, glm::vec3(128.0f / 255)};
-        return of[2 * (y / 2) + x / 2];
-    };
+// Draws `scene`, of the square, with its texture in `slots`, by the first or second UV set and moved by a
+// transform. Calls check(frame, x, y, texel) for a pixel of each texel.
+template <class Check>
+void forEachTexel(Scene scene, std::initializer_list<TextureSlot Material::*> slots, const Check& check) {
+    scene.textures[0].sampler.wrap_s = Wrap::repeat;
+    const std::vector<std::uint8_t>& rgba = scene.images[0].rgba;
     struct Read {
         int texcoord;
         double offset;
@@ -191,89 +229,118 @@ TEST(Layers, EverySlotReadsItsTexture) {
         slot.texture = 0;
         slot.texcoord = read.texcoord;
         slot.u.z = read.offset;
-        Scene scene = square();
-        scene.textures[0].sampler.wrap_s = Wrap::repeat;
-        Material& m = scene.materials[0];
-        m.clearcoat = 0.5f;
-        m.clearcoat_roughness = 0.8f;
-        m.anisotropy = 0.6f;
-        m.sheen_color = {0.5f, 0.25f, 1};
-        m.sheen_roughness = 0.8f;
-        m.iridescence = 0.5f;
-        m.iridescence_ior = 1.5f;
-        m.iridescence_thickness_least = 200;
-        m.iridescence_thickness_most = 600;
-        const auto at = [&](const Frame& frame, gpu::uint mode, int x, int y) {
-            return colorAt(frame, static_cast<int>(mode), x, y);
-        };
-        const auto each = [&](TextureSlot Material::*of, const auto& check) {
-            Scene one = scene;
-            one.materials[0].*of = slot;
-            for (const Frame& frame : draw(one))
-                for (const int y : {0, 3})
-                    for (const int x : {0, 3}) check(frame, x, y, texel(read.swapped ? 3 - x : x, y));
-        };
-        each(&Material::clearcoat_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat, x, y).x, 0.5f * t.r, float32) << f.name;
-            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat_roughness, x, y).x, t.r > 0 ? 0.8f : 0, float32) << f.name;
-        });
-        each(&Material::clearcoat_roughness_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            EXPECT_NEAR(at(f, gpu::DEBUG_clearcoat_roughness, x, y).x, 0.8f * t.g, float32) << f.name;
-        });
-        each(&Material::clearcoat_normal_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            expectColor(at(f, gpu::DEBUG_clearcoat_normal, x, y), glm::normalize(t * 2.0f - 1.0f), 1e-6f,
-                        f.name);
-            expectColor(at(f, gpu::DEBUG_normals, x, y), {0, 0, 1}, 0, f.name);
-        });
-        each(&Material::sheen_color_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            const auto linear = [](float s) {
-                return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-            };
-            const glm::vec3 color =
-                glm::vec3(0.5f, 0.25f, 1) * glm::vec3(linear(t.r), linear(t.g), linear(t.b));
-            expectColor(at(f, gpu::DEBUG_sheen_color, x, y), color, 1e-6f, f.name);
-            EXPECT_NEAR(at(f, gpu::DEBUG_sheen_roughness, x, y).x, 0.8f, float32) << f.name;
-        });
-        each(&Material::iridescence_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence, x, y).x, 0.5f * t.r, float32) << f.name;
-            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_ior, x, y).x, t.r > 0 ? 1.5f : 0, float32) << f.name;
-            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_thickness, x, y).x, t.r > 0 ? 600 : 0, 1e-3f) << f.name;
-        });
-        each(&Material::iridescence_thickness_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            EXPECT_NEAR(at(f, gpu::DEBUG_iridescence_thickness, x, y).x, 200 + 400 * t.g, 1e-3f) << f.name;
-        });
-        each(&Material::anisotropy_texture, [&](const Frame& f, int x, int y, const glm::vec3& t) {
-            EXPECT_NEAR(at(f, gpu::DEBUG_anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
-            const glm::vec3 along = glm::normalize(glm::vec3(t.r * 2 - 1, t.g * 2 - 1, 0)),
-                            seen = at(f, gpu::DEBUG_anisotropy_direction, x, y);
-            // Either sign.
-            EXPECT_NEAR(std::abs(glm::dot(seen, along)), t.b > 0 ? 1 : 0, float32) << f.name;
-        });
-    }
-}
-
-// Of both the colour's image, whose alpha is the roughness, and an image of its own.
-TEST(Layers, ASheensRoughnessIsTheAlphaOfItsTexture) {
-    for (const bool shared : {true, false}) {
-        Scene scene = square();
-        TextureImage& image = scene.images[0];
-        for (std::size_t i = 3; i < image.rgba.size(); i += 4)
-            image.rgba[i] = static_cast<std::uint8_t>(60 + 40 * (i / 4));
-        Material& m = scene.materials[0];
-        m.base_color_texture = {};
-        m.sheen_color = glm::vec3(1);
-        m.sheen_roughness = 0.5f;
-        m.sheen_roughness_texture.texture = 0;
-        if (shared) m.sheen_color_texture.texture = 0;
+        for (const auto of : slots) scene.materials[0].*of = slot;
         for (const Frame& frame : draw(scene))
             for (const int y : {0, 3})
                 for (const int x : {0, 3}) {
-                    const float alpha = static_cast<float>(60 + 40 * (2 * (y / 2) + x / 2)) / 255;
-                    EXPECT_NEAR(colorAt(frame, static_cast<int>(gpu::DEBUG_sheen_roughness), x, y).x,
-                                0.5f * alpha, float32)
-                        << frame.name << " " << shared;
+                    const int column = (read.swapped ? 3 - x : x) / 2;
+                    const auto at = static_cast<std::size_t>(4 * (2 * (y / 2) + column));
+                    check(frame, x, y,
+                          glm::vec4(rgba[at], rgba[at + 1], rgba[at + 2], rgba[at + 3]) / 255.0f);
                 }
     }
+}
+
+glm::vec3 layerAt(const Frame& frame, gpu::uint mode, int x, int y) {
+    return colorAt(frame, static_cast<int>(mode), x, y);
+}
+
+// Each slot reads its own component of its own texture.
+TEST(Layers, EverySlotReadsItsTexture) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    m.clearcoat = 0.5f;
+    m.clearcoat_roughness = 0.8f;
+    m.anisotropy = 0.6f;
+    const auto each = [&](TextureSlot Material::*of, const auto& check) { forEachTexel(scene, {of}, check); };
+    each(&Material::clearcoat_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat, x, y).x, 0.5f * t.r, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat_roughness, x, y).x, t.r > 0 ? 0.8f : 0, float32)
+            << f.name;
+    });
+    each(&Material::clearcoat_roughness_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat_roughness, x, y).x, 0.8f * t.g, float32) << f.name;
+    });
+    each(&Material::clearcoat_normal_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        expectColor(layerAt(f, gpu::DEBUG_clearcoat_normal, x, y), glm::normalize(glm::vec3(t) * 2.0f - 1.0f),
+                    1e-6f, f.name);
+        expectColor(layerAt(f, gpu::DEBUG_normals, x, y), {0, 0, 1}, 0, f.name);
+    });
+    each(&Material::anisotropy_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
+        const glm::vec3 along = glm::normalize(glm::vec3(t.r * 2 - 1, t.g * 2 - 1, 0)),
+                        seen = layerAt(f, gpu::DEBUG_anisotropy_direction, x, y);
+        // Either sign.
+        EXPECT_NEAR(std::abs(glm::dot(seen, along)), t.b > 0 ? 1 : 0, float32) << f.name;
+    });
+}
+
+// A sheen and a film on the square, whose texels have alphas of their own.
+Scene wovenAndFilmed() {
+    Scene scene = square();
+    for (std::size_t i = 0; i < 4; ++i)
+        scene.images[0].rgba[4 * i + 3] = static_cast<std::uint8_t>(255 - 51 * i);
+    Material& m = scene.materials[0];
+    m.sheen_color = {0.5f, 0.75f, 0.25f};
+    m.sheen_roughness = 0.7f;
+    m.iridescence = 0.8f;
+    m.iridescence_ior = 1.6f;
+    m.iridescence_thickness_least = 600;  // greater than the other, which is permitted
+    m.iridescence_thickness_most = 200;
+    return scene;
+}
+
+// Two slots at once, because their channels are independent.
+TEST(Layers, SheensAndFilmsReadTheirTextures) {
+    const Scene scene = wovenAndFilmed();
+    const glm::vec3 color(0.5f, 0.75f, 0.25f);
+    const auto linear = [](float value) { return value > 0 && value < 1 ? grey : value; };
+    const auto first = [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        expectColor(layerAt(f, gpu::DEBUG_sheen_color, x, y),
+                    color * glm::vec3(linear(t.r), linear(t.g), linear(t.b)), srgbTexel, f.name);
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_thickness, x, y).x, 600 - 400 * t.g, 1e-3) << f.name;
+        EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence, x, y).x, 0.8, float32) << f.name;
+    };
+    forEachTexel(scene, {&Material::sheen_color_texture, &Material::iridescence_thickness_texture}, first);
+    forEachTexel(
+        scene, {&Material::sheen_roughness_texture, &Material::iridescence_texture},
+        [&](const Frame& f, int x, int y, const glm::vec4& t) {
+            expectColor(layerAt(f, gpu::DEBUG_sheen_color, x, y), color, float32, f.name);
+            EXPECT_NEAR(layerAt(f, gpu::DEBUG_sheen_roughness, x, y).x, 0.7f * t.a, float32) << f.name;
+            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence, x, y).x, 0.8f * t.r, float32) << f.name;
+            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_ior, x, y).x, t.r > 0 ? 1.6 : 0, float32) << f.name;
+            // Without a texture, the maximum.
+            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_thickness, x, y).x, t.r > 0 ? 200 : 0, 1e-3)
+                << f.name;
+        });
+}
+
+// Only the red texel and the grey one have a sheen and a film.
+TEST(Layers, ATexelOfZeroIsTheBaseToTheBit) {
+    Scene scene = wovenAndFilmed(), plain = scene;
+    removeLayers(plain.materials[0]);
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -0.2, -1));
+    plain.lights = scene.lights = {sun};
+    Material& m = scene.materials[0];
+    m.sheen_color = {1, 0, 0};
+    m.sheen_color_texture.texture = m.iridescence_texture.texture = 0;
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {4, 4};
+    settings.ambient = {0.1f, 0.2f, 0.3f};
+    const std::vector<Frame> with = bothPaths(scene, settings), without = bothPaths(plain, settings);
+    for (std::size_t path = 0; path < 2; ++path)
+        for (const int mode : {lit, litLobe, litAmbient}) {
+            const Frame &a = with[path], &b = without[path];
+            for (const auto& [x, y] : {std::pair(3, 0), {0, 3}}) {
+                EXPECT_EQ(colorAt(a, mode, x, y), colorAt(b, mode, x, y)) << a.name << " " << mode;
+                EXPECT_EQ(layerAt(a, gpu::DEBUG_sheen_roughness, x, y).x, 0) << a.name;
+                EXPECT_EQ(colorAt(a, litSheen, x, y), glm::vec3(0)) << a.name;
+            }
+            for (const int corner : {0, 3})
+                EXPECT_NE(colorAt(a, mode, corner, corner), colorAt(b, mode, corner, corner)) << a.name;
+        }
 }
 
 // A rotation turns counter-clockwise from the tangent to the bitangent.

@@ -47,7 +47,8 @@ Film makeFilm(float weight, float index, float thickness) {
 FilmBase makeFilmBase(Film film, vec3 f0) {
     vec3 root = sqrt(min(f0, vec3(0.9999))), index = (1.0 + root) / (1.0 - root);
     vec3 r = (index - film.index) / (index + film.index);
-    return FilmBase(f0, r * r, mix(vec3(-1.0), vec3(1.0), lessThan(index, vec3(film.index))));
+    // Indices within 1e-5 of each other count as equal, so that rounding does not decide.
+    return FilmBase(f0, r * r, mix(vec3(-1.0), vec3(1.0), lessThan(index, vec3(film.index * 0.99999))));
 }
 
 // cos(2 pi x); GLSL's guarantees 11 bits. The series of sin(pi f) up to its eleventh power, 6e-8 off.

@@ -269,7 +269,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 3 + 11 + 5 + 4 + 3 + 13 + 13);
+    EXPECT_EQ(bindingTables().size(), 21u + 4 + 13 + 5 + 4 + 6 + 13 + 17);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 
