@@ -108,7 +108,7 @@ Brdf makeBrdf(Surface s, vec3 v) {
     b.along = b.across = vec3(0.0);
     b.alphas = b.viewed = vec2(0.0);
     b.seen = b.alpha;
-    b.film = Film(0.0, 1.0, 0.0, 0.0);
+    b.film = Film(0.0, 1.0, 0.0, 0.0, 0.0);
     b.dielectric = b.metal = FilmBase(vec3(0.0), vec3(0.0), vec3(0.0));
     b.dielectric_f90 = b.metallic = 0.0;
     b.dielectric_gain = b.metal_gain = vec3(1.0);

@@ -29,6 +29,7 @@ struct Film {
     float index;      // of refraction
     float thickness;  // nm
     float f0;         // of the film's upper face
+    float presence;   // 0 to 1: fades the film in up to 0.03 nm
 };
 
 // What all materials below the film share at one angle.
@@ -37,11 +38,12 @@ struct FilmRay {
     vec3 once, twice;    // interference of light that crosses the film one and two times: CIE XYZ, unsigned
 };
 
-// The film of 0.03 nm and more has its index; thinner ones approach air.
+// Below 0.03 nm the film's index approaches air's, as the extension says, and its upper face fades with it:
+// Schlick's term would reflect at grazing angles even where both sides are air.
 Film makeFilm(float weight, float index, float thickness) {
-    float t = clamp(thickness / 0.03, 0.0, 1.0);
-    float n = blend(1.0, max(index, 1.0), t * t * (3.0 - 2.0 * t)), r = (n - 1.0) / (n + 1.0);
-    return Film(weight, n, thickness, r * r);
+    float t = clamp(thickness / 0.03, 0.0, 1.0), presence = t * t * (3.0 - 2.0 * t);
+    float n = blend(1.0, max(index, 1.0), presence), r = (n - 1.0) / (n + 1.0);
+    return Film(weight, n, thickness, r * r, presence);
 }
 
 FilmBase makeFilmBase(Film film, vec3 f0) {
@@ -86,7 +88,7 @@ vec3 rec709FromXyz(vec3 xyz) {
 
 // Fraction of light that film and material reflect together, 0 or more.
 vec3 filmFresnel(Film film, FilmBase base, FilmRay ray) {
-    float r12 = film.f0 + (1.0 - film.f0) * ray.above, through = 1.0 - r12;
+    float r12 = film.presence * (film.f0 + (1.0 - film.f0) * ray.above), through = 1.0 - r12;
     vec3 r23 = base.f0_below + (1.0 - base.f0_below) * ray.below;
     vec3 both = min(r12 * r23, vec3(0.9999)), root = sqrt(both);
     vec3 inside = through * through * r23 / (1.0 - both);

@@ -105,9 +105,11 @@ TEST(ReferenceIridescence, AThickFilmIsATwoFacedPlate) {
     }
 }
 
-TEST(ReferenceIridescence, WithoutThicknessItIsTheBaseAtNormalIncidence) {
+TEST(ReferenceIridescence, WithoutThicknessItIsTheBase) {
     for (const double f0 : {0.0, 0.04, 0.3, 0.9}) {
-        expectColor(ThinFilm{1, 1.8, 0}.reflected(1, glm::dvec3(f0)), glm::dvec3(f0), 1e-12);
+        for (const double cosine : {0.0, 0.3, 0.7, 1.0})
+            expectColor(ThinFilm{1, 1.8, 0}.reflected(cosine, glm::dvec3(f0)),
+                        glm::dvec3(f0 + (1 - f0) * schlicksWeight(cosine)), 1e-12);
         expectColor(ThinFilm{1, 1, 400}.reflected(1, glm::dvec3(f0)), glm::dvec3(f0), 1e-12);
     }
 }
