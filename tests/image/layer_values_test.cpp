@@ -115,7 +115,7 @@ Material wovenCloth(float roughness) {
 // of the colour. The paths' table of E is up to 1.1e-4 off.
 TEST(LayerValues, ASheenIsItsFormula) {
     for (const float roughness : {0.2f, 0.5f, 1.0f})
-        for (const double degrees : {0.0, -35.0, 70.0}) {
+        for (const double degrees : {-35.0, 70.0}) {
             const Material cloth = wovenCloth(roughness);
             Material bare = cloth;
             bare.sheen_color = {};
