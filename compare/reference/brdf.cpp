@@ -103,20 +103,6 @@ double coatWeight(const Surface& s) {
     return s.clearcoat * (0.04 + 0.96 * schlick(std::abs(glm::dot(s.clearcoat_normal, s.to_viewer))));
 }
 
-Surface filmAsSchlick(const Surface& s) {
-    if (!(s.iridescence > 0)) return s;
-    const double cosine = viewCosine(s), weight = schlick(cosine), left = std::max(1 - weight, 1e-4);
-    const auto f0 = [&](const glm::dvec3& given, double f90, double used) {
-        const glm::dvec3 there = fresnel(filmOf(s), given, f90, cosine);
-        return glm::clamp((there - used * weight) / left, glm::dvec3(0), glm::dvec3(1));
-    };
-    Surface result = withoutFilm(s);
-    result.dielectric_f90 = glm::mix(s.dielectric_f90, 1.0, s.iridescence);
-    result.dielectric_f0 = f0(s.dielectric_f0, s.dielectric_f90, result.dielectric_f90);
-    result.albedo = f0(s.albedo, 1, 1);
-    return result;
-}
-
 Brdf::Brdf(const Surface& s, const Compensation& compensation)
     : compensation_(compensation),
       normal_(s.normal),
@@ -150,7 +136,7 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
     const double n_dot_h = std::min(glm::dot(normal_, half), 1.0);
     if (sheen_) return {glm::dvec3(0), sheen_color_ * (*sheen_)(n_dot_l, n_dot_h)};
-    const double v_dot_h = glm::dot(to_viewer_, half);
+    const double v_dot_h = compensation_.film_cosine.value_or(glm::dot(to_viewer_, half));
 
     // Height-correlated masking and shadowing; Heitz 2014, equation 99.
     const double masking = 1 / (1 + lambda_v_ + lambda(widthTowards(widths_, to_light), n_dot_l));

@@ -21,6 +21,8 @@ struct Compensation {
     // Fraction of light that reaches a dielectric's base, from any direction; if unset, appendix B's
     // formula.
     std::optional<glm::dvec3> base;
+    // The paths' approximation: Fresnel terms under a film are those at this cosine for every direction.
+    std::optional<double> film_cosine = {};
 };
 
 // Widths of a GGX lobe, roughness^2. KHR_materials_anisotropy widens it along one direction.
@@ -45,10 +47,6 @@ Surface isotropic(const Surface& surface, double width);
 Surface coatOf(const Surface& surface);
 // Fraction of light that the clear coat reflects instead of the material; 0 without a coat.
 double coatWeight(const Surface& surface);
-
-// The same surface with Schlick's curves through the film's reflectance at n.v, by which the paths
-// approximate it. `albedo` becomes the metal's F0.
-Surface filmAsSchlick(const Surface& surface);
 
 // Fraction of light from straight behind a thin surface that reaches the viewer, for each component. It is
 // the light that the layer admits and the base neither scatters nor absorbs (KHR_materials_transmission

@@ -224,24 +224,47 @@ EnvironmentCosts EnvironmentApproximation::sheenCosts(const Surface& sheen, cons
     return costs;
 }
 
+namespace {
+
+// Albedos that the paths take: under a film, its Fresnel term at the cosine where Schlick's weight is the
+// mean over the lobe, or over light that meets the base.
+struct TakenAlbedos {
+    glm::dvec3 base, lobe;
+};
+TakenAlbedos albedosOf(const Surface& surface, const Surface& isotropic, const Compensation& compensation) {
+    Compensation of_base = compensation, of_lobe = compensation;
+    of_lobe.between = glm::dvec3(0);
+    if (surface.iridescence > 0) {
+        Surface black = withoutFilm(isotropic);
+        black.metallic = 1;
+        black.albedo = glm::dvec3(0);
+        Surface white = black;
+        white.albedo = glm::dvec3(1);
+        const double weight = specularAlbedo(black).r / specularAlbedo(white).r;
+        of_lobe.film_cosine = 1 - std::pow(weight, 0.2);
+        Surface matt = white;
+        matt.metallic = matt.transmission = 0;
+        matt.dielectric_f0 = glm::dvec3(0);
+        matt.dielectric_f90 = 1;
+        of_base.film_cosine = 1 - std::pow(std::max(1 - diffuseAlbedo(matt).r, 0.0), 0.2);
+    }
+    return {diffuseAlbedo(surface, of_base), specularAlbedo(isotropic, of_lobe)};
+}
+
+}  // namespace
+
 EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const Compensation& compensation,
                                                  const Reflected& exact, std::uint64_t seed) const {
     if (hasSheen(surface)) return sheenCosts(surface, exact.specular, seed);
-    // The base's albedo, below the same curve.
-    const Surface curve = filmAsSchlick(surface);
-    Surface below = curve;
-    below.albedo = surface.albedo;
     const Widths widths = widthsOf(surface);
     const glm::dvec3 n = surface.normal, middle = bentNormal(surface, widths),
                      mirrored = glm::normalize(middle * (2 * glm::dot(middle, surface.to_viewer)) -
                                                surface.to_viewer);
     const double alpha = widths.mean();
     const Means means = meansOf(n, mirrored, alpha, seed);
-    Compensation single = compensation;
-    single.between = glm::dvec3(0);
-    const glm::dvec3 base = diffuseAlbedo(below, compensation),
-                     lobe = specularAlbedo(isotropic(curve, widthTowards(widths, surface.to_viewer)), single),
-                     between = compensation.between;
+    const auto [base, lobe] =
+        albedosOf(surface, isotropic(surface, widthTowards(widths, surface.to_viewer)), compensation);
+    const glm::dvec3 between = compensation.between;
     // For lobes much wider than a cell, the change across a cell falls by the square of their ratio.
     const double coarse =
         range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * widths.across * widths.across));

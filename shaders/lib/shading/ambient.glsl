@@ -72,8 +72,20 @@ float meanSchlickWeight(float n_dot_v) {
     return mean;
 }
 
+// v.h at which Schlick's weight of f90 is `weight`. A film's Fresnel term there stands for its mean over the
+// directions whose mean weight that is.
+float cosineOf(float weight) { return 1.0 - pow(clamp(weight, 0.0, 1.0), 0.2); }
+
 // Fraction of ambient light that passes the layer above the base.
-vec3 baseShare(Brdf b) { return reachingBase(b, meanSchlickWeight(b.n_dot_v)); }
+vec3 baseShare(Brdf b) {
+    float weight = meanSchlickWeight(b.n_dot_v);
+    vec3 share = reachingBase(b, weight);
+    if (hasLayer(LAYER_IRIDESCENCE)) {
+        vec3 filmed = layeredAt(b, cosineOf(weight)).base;
+        share = b.film.weight > 0.0 ? filmed : share;
+    }
+    return share;
+}
 
 // Fraction of ambient light that the specular lobe reflects to the viewer; of an anisotropic lobe, that of
 // an isotropic one as wide as it is towards the viewer (shared/material/MEASURED.md, "Layers").
@@ -81,6 +93,11 @@ vec3 lobeShare(Brdf b) {
     vec2 lobe = b.albedo;
     if (!on(feature_multiscatter) || b.anisotropic) lobe = specularAlbedo(b.seen, b.n_dot_v);
     vec3 share = b.f0 * lobe.x + b.f90 * lobe.y;
+    if (hasLayer(LAYER_IRIDESCENCE)) {
+        float all = lobe.x + lobe.y;
+        vec3 filmed = layeredAt(b, cosineOf(lobe.y / max(all, 1e-6))).lobe * all;
+        share = b.film.weight > 0.0 ? filmed : share;
+    }
     return share;
 }
 

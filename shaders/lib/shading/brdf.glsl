@@ -63,7 +63,7 @@ void stretch(inout Brdf b, Surface s, vec3 v) {
     }
 }
 
-// A curve of Schlick's shape through a filmed Fresnel term `here`, for integrals over directions: its f0. `w`:
+// A curve of Schlick's shape through a filmed Fresnel term `here`, for area lights: its f0. `w`:
 // weight of f90 where it is `here`.
 vec3 filmCurve(vec3 here, float f90, float w) {
     return clamp((here - f90 * w) / max(1.0 - w, 1e-4), vec3(0.0), vec3(1.0));
