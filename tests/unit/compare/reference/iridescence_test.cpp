@@ -193,13 +193,13 @@ TEST(ReferenceIridescence, AlbedosAreTheBrdfsIntegrals) {
         for (const double thickness : {250.0, 800.0}) {
             const Surface s = filmed(beetle(0.5, angle, 0.6), 0.8, 1.3, thickness);
             const Brdf brdf(s);
-            constexpr int up = 300, around = 300;
+            constexpr int rows = 300, around = 300;
             Reflected sum;
-            for (int i = 0; i < up; ++i)
+            for (int i = 0; i < rows; ++i)
                 for (int j = 0; j < around; ++j) {
-                    const double z = (i + 0.5) / up, phi = pi * (j + 0.5) / around,
+                    const double z = (i + 0.5) / rows, phi = pi * (j + 0.5) / around,
                                  sine = std::sqrt(1 - z * z);
-                    sum += brdf({sine * std::cos(phi), sine * std::sin(phi), z}) * (2 * pi / up / around);
+                    sum += brdf({sine * std::cos(phi), sine * std::sin(phi), z}) * (2 * pi / rows / around);
                 }
             expectColor(specularAlbedo(s), sum.specular, 3e-4);
             expectColor(diffuseAlbedo(s), sum.diffuse, 3e-4);
@@ -247,10 +247,10 @@ TEST(ReferenceIridescence, UnderAnEvenSkyTheSplitSumIsOffByItsCosine) {
     Lighting lighting({}, &sky, 1, {0, 0, 0});
     lighting.takeCosts();
     const Shading shading = lighting(s, {}, 5);
-    const glm::dvec3 exact = 3.0 * specularAlbedo(s),
+    const glm::dvec3 integral = 3.0 * specularAlbedo(s),
                      taken = 3.0 * all * ThinFilm{1, 1.3, 600}.reflected(cosine, s.albedo);
-    expectColor(shading.environment.specular, exact, 2 * samplingError * largestOf(exact));
-    EXPECT_NEAR(shading.costs.split[0], largestOf(glm::abs(taken - exact)), 0.06 * largestOf(exact));
+    expectColor(shading.environment.specular, integral, 2 * samplingError * largestOf(integral));
+    EXPECT_NEAR(shading.costs.split[0], largestOf(glm::abs(taken - integral)), 0.06 * largestOf(integral));
 }
 
 // ---- reading -----------------------------------------------------------------------------------------

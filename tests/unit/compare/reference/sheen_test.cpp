@@ -151,14 +151,14 @@ TEST(ReferenceSheen, SamplesFollowTheirDensity) {
         for (const double angle : {0.0, 1.4}) {
             const Brdf brdf(sheenOf(velvet(glm::dvec3(1), roughness, angle)));
             const LobeSampler lobe(brdf);
-            constexpr int up = 1000, around = 200;
+            constexpr int rows = 1000, around = 200;
             double sum = 0;
-            for (int i = 0; i < up; ++i)
+            for (int i = 0; i < rows; ++i)
                 for (int j = 0; j < around; ++j) {
-                    const glm::dvec3 l = lobe({(i + 0.5) / up, (j + 0.5) / around});
+                    const glm::dvec3 l = lobe({(i + 0.5) / rows, (j + 0.5) / around});
                     sum += brdf.lobe(l).g / lobe.density(l);
                 }
-            EXPECT_NEAR(sum / (up * around), sheenAlbedo(roughness, std::cos(angle)), 2e-4)
+            EXPECT_NEAR(sum / (rows * around), sheenAlbedo(roughness, std::cos(angle)), 2e-4)
                 << roughness << " " << angle;
             EXPECT_EQ(lobe.density({0.6, 0, -0.8}), 0);
         }
@@ -318,65 +318,65 @@ TEST(ReferenceSheen, ARectangleNearTheHorizon) {
         light.axis = {0, 1, 0};
         light.width = 2;
         light.height = 1;
-        constexpr int across = 200, up = 400;
+        constexpr int across = 200, rows = 400;
         double expected = 0;
         for (int i = 0; i <= across; ++i)
-            for (int j = 0; j <= up; ++j) {
-                const glm::dvec3 place(2, -1 + 2.0 * i / across, 0.5 + 1.0 * j / up),
-                    l = glm::normalize(place);
+            for (int j = 0; j <= rows; ++j) {
+                const glm::dvec3 point(2, -1 + 2.0 * i / across, 0.5 + 1.0 * j / rows),
+                    l = glm::normalize(point);
                 const double weight = (i == 0 || i == across ? 1
                                        : i % 2               ? 4
                                                              : 2) *
-                                      (j == 0 || j == up ? 1
-                                       : j % 2           ? 4
-                                                         : 2) /
+                                      (j == 0 || j == rows ? 1
+                                       : j % 2             ? 4
+                                                           : 2) /
                                       9.0;
                 const double n_dot_h = glm::normalize(l + s.to_viewer).z;
                 expected += weight * estevezKulla(roughness, l.z, std::cos(1.4), n_dot_h) * l.x /
-                            glm::dot(place, place);
+                            glm::dot(point, point);
             }
-        expected *= 2.0 / across * 1.0 / up;
+        expected *= 2.0 / across * 1.0 / rows;
         EXPECT_NEAR(reflectedBy(light, s), expected, 1e-5 * expected) << roughness;
     }
 }
 
 // ---- costs of approximations -------------------------------------------------------------------------
 
-EnvironmentCosts costsOf(const Environment& sky, const Surface& s, double& exact) {
+EnvironmentCosts costsOf(const Environment& sky, const Surface& s, double& integral) {
     Lighting lighting({}, &sky, 1, {0, 0, 0});
     lighting.takeCosts();
     const Shading shading = lighting(s, {}, 5);
-    exact = shading.environment.specular.g;
+    integral = shading.environment.specular.g;
     return shading.costs;
 }
 
 TEST(ReferenceSheen, AnEvenSkyCostsNothing) {
     const Environment sky{"sky", Image(32, 16, 3, 1.0f)};
-    double exact = 0;
-    const EnvironmentCosts costs = costsOf(sky, sheenOf(velvet(glm::dvec3(1), 0.5, 1)), exact);
-    for (const double cost : costs.split) EXPECT_LE(cost, 0.1 * exact);
-    EXPECT_LE(costs.sampled, 0.1 * exact);
+    double integral = 0;
+    const EnvironmentCosts costs = costsOf(sky, sheenOf(velvet(glm::dvec3(1), 0.5, 1)), integral);
+    for (const double cost : costs.split) EXPECT_LE(cost, 0.1 * integral);
+    EXPECT_LE(costs.sampled, 0.1 * integral);
 }
 
 // The paths spread the sheen's light over the hemisphere, but it is lit from the viewer's side.
 TEST(ReferenceSheen, LightFromOneSideCostsTheDifference) {
     Environment sky{"sky", Image(64, 32, 3, 0.0f)};
     double irradiance = 0;  // over pi
-    const glm::dvec3 up(0, 0, 1);
+    const glm::dvec3 normal(0, 0, 1);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) {
             const glm::dvec3 d = EnvironmentLight(sky, 1).directionOf(x + 0.5, y + 0.5);
             if (d.x < 0.3) continue;
             for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 1;
-            irradiance += std::max(glm::dot(d, up), 0.0) * (2 * pi / 64) *
+            irradiance += std::max(glm::dot(d, normal), 0.0) * (2 * pi / 64) *
                           (std::cos(pi * y / 32) - std::cos(pi * (y + 1) / 32)) / pi;
         }
     const Surface s = sheenOf(velvet(glm::dvec3(1), 0.3, 1.4));
-    double exact = 0;
-    const EnvironmentCosts costs = costsOf(sky, s, exact);
+    double integral = 0;
+    const EnvironmentCosts costs = costsOf(sky, s, integral);
     const double taken = sheenAlbedo(0.3, std::cos(1.4)) * irradiance;
-    EXPECT_GT(std::abs(taken - exact), 0.1 * exact);
-    EXPECT_NEAR(costs.split[2], std::abs(taken - exact), 0.1 * exact + 0.03 * taken);
+    EXPECT_GT(std::abs(taken - integral), 0.1 * integral);
+    EXPECT_NEAR(costs.split[2], std::abs(taken - integral), 0.1 * integral + 0.03 * taken);
     for (const double cost : costs.split) EXPECT_GE(costs.sampled, cost) << "not sampled";
     EXPECT_EQ(costs.diffuse[0], 0);
     EXPECT_EQ(costs.wider, 0);
