@@ -78,6 +78,15 @@ std::vector<std::array<std::uint8_t, 3>> canvasOf(const Screen& screen) {
     return pixels;
 }
 
+// The part with the times.
+std::vector<std::array<std::uint8_t, 3>> timesOf(const Screen& screen) {
+    std::vector<std::array<std::uint8_t, 3>> pixels;
+    for (int y = windowHeight - 160; y < windowHeight - 40; ++y)
+        for (int x = windowWidth - static_cast<int>(viewer::sideWidth) + 10; x < windowWidth; ++x)
+            pixels.push_back(screen.at(x, y));
+    return pixels;
+}
+
 // The first press shows an overlay, the second removes it.
 TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     open({"builtin:points", "--exposure", "1"});
@@ -96,14 +105,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     key("Escape");
     EXPECT_TRUE(look() == plain) << "Esc closes the help";
     // Times are shown beside the images.
-    const auto side = [&] {
-        const Screen screen = display_->screen();
-        std::vector<std::array<std::uint8_t, 3>> pixels;
-        for (int y = windowHeight - 160; y < windowHeight - 40; ++y)
-            for (int x = windowWidth - static_cast<int>(viewer::sideWidth) + 10; x < windowWidth; ++x)
-                pixels.push_back(screen.at(x, y));
-        return pixels;
-    };
+    const auto side = [&] { return timesOf(display_->screen()); };
     const auto timed = side();
     key("i");
     EXPECT_TRUE(look() == plain) << "no picture is covered";

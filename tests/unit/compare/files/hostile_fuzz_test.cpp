@@ -95,18 +95,32 @@ TEST(HostileFuzz, EarlierReports) {
     }
 }
 
-// Through merge, and as a checkpointed row of a sweep, with all outputs made from it.
-TEST(HostileFuzz, Tradeoffs) {
-    using namespace tradeoff;
-    const fs::path root = folder(), shard = root / "shard";
-    std::ofstream(root / "secret.png") << "secret";
-    MeasuredRow measured;
+tradeoff::MeasuredRow smallRow() {
+    tradeoff::MeasuredRow measured;
     measured.row.cameras.resize(1);
     measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.cameras[0].passes = {{"shade", 1}};
     measured.row.cameras[0].errors = measured.row.errors = {0.1, 0.2, 0.3};
     measured.row.warnings = {"a warning"};
     measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
+    return measured;
+}
+
+void makeOutputs(const tradeoff::Tradeoff& whole) {
+    tradeoffHtml(whole);
+    tradeoffCsv(whole);
+    tradeoffJson(whole, {});
+    tradeoffEnd(whole);
+    for (std::size_t figure = 0; figure < tradeoff::errorFigures.size(); ++figure)
+        tradeoffPlot(whole, figure, {}, PlotPlace::file);
+}
+
+// Through merge, and as a checkpointed row of a sweep, with all outputs made from it.
+TEST(HostileFuzz, Tradeoffs) {
+    using namespace tradeoff;
+    const fs::path root = folder(), shard = root / "shard";
+    std::ofstream(root / "secret.png") << "secret";
+    MeasuredRow measured = smallRow();
     SweepState state(root / "swept", {{"schema", 1}, {"software", softwareName}});
     state.keep(measured);
     const fs::path row_file = state / (fs::path(measured.row.picture).stem().string() + ".json");
@@ -155,12 +169,7 @@ TEST(HostileFuzz, Tradeoffs) {
         if (const auto kept = state.find(measured.row.settings, 1, 2)) whole.rows = {*kept};
         if (whole.rows.empty()) continue;
         ++found;
-        tradeoffHtml(whole);
-        tradeoffCsv(whole);
-        tradeoffJson(whole, {});
-        tradeoffEnd(whole);
-        for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
-            tradeoffPlot(whole, figure, {}, PlotPlace::file);
+        makeOutputs(whole);
     }
     EXPECT_GT(joined, 5);
     EXPECT_GT(found, 5);
