@@ -79,6 +79,11 @@ std::string underWords(const Contents& contents) {
     return words;
 }
 
+std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const InterfaceState& state) {
+    return placesOf(canvas, state.subject.settings.size, state.canvas,
+                    state.look.difference != Difference::none);
+}
+
 const std::string& sceneOf(const InterfaceState& state) {
     return state.loaded.empty() ? state.subject.scene : state.loaded;
 }

@@ -87,6 +87,8 @@ std::array<int, barWidths.size()> barRows(int width, double scale);
 
 // The part of a window of this size for images; `scale` enlarges the interface.
 CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale);
+// The panels in that part.
+std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const InterfaceState& state);
 
 // The rendered scene, as on the command line.
 const std::string& sceneOf(const InterfaceState& state);

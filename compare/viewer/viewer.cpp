@@ -6,29 +6,23 @@
 #include "compare/viewer/canvas.h"
 #include "compare/viewer/drawing_thread.h"
 #include "compare/viewer/fly_camera.h"
-#include "compare/viewer/fonts.h"
-#include "compare/viewer/interface.h"
 #include "compare/viewer/keys.h"
 #include "compare/viewer/latencies.h"
-#include "compare/viewer/presenter.h"
+#include "compare/viewer/mouse.h"
 #include "compare/viewer/scene_watch.h"
+#include "compare/viewer/screen.h"
 #include "compare/viewer/window.h"
 #include "compare/viewer/zoom_flight.h"
 #include "shared/frame/debug_modes.h"
 
-#include <vulkan/vulkan_core.h>
-
 #include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <memory>
-#include <numbers>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -45,48 +39,17 @@ constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
 // Window pixels per image pixel: for Z, which shows values, and for a pixel in its surroundings.
 constexpr double zoomed = 80, flown = 32;
-constexpr double least_zoom = 1, most_zoom = 128;
-constexpr double wipeReach = 7;    // window pixels around the wipe's line where the cursor grabs it
-constexpr int mostPresenters = 3;  // number of consecutive recreations after lost devices
 
 double secondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
 }
-
-// Dear ImGui's context and its event source.
-struct ImGuiContextOf {
-    explicit ImGuiContextOf(GLFWwindow* window) {
-        IMGUI_CHECKVERSION();
-        ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr;
-        ImGui_ImplGlfw_InitForVulkan(window, false);
-    }
-    ~ImGuiContextOf() {
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-    ImGuiContextOf(const ImGuiContextOf&) = delete;
-    ImGuiContextOf& operator=(const ImGuiContextOf&) = delete;
-};
-
-void setScale(double scale) {
-    ImGui::GetStyle() = ImGuiStyle();
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().WindowRounding = 0;
-    ImGui::GetStyle().WindowBorderSize = 0;
-    ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {0.11f, 0.11f, 0.125f, 1};
-    ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale));
-    loadFonts(scale);
-}
-
-enum class Drag { none, look, wipe, picture };
 
 class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options),
           window_(defaultWidth, defaultHeight, "Diptych"),
-          imgui_(window_.handle()),
+          screen_(window_, options.device.validate, [this](const std::string& line) { say(line); }),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
         if (state_.subject.settings.path == Path::reference) state_.subject.settings.path = drawn_paths[1];
@@ -109,9 +72,6 @@ public:
             state_.canvas.centre_x = options.pixel->x + 0.5;
             state_.canvas.centre_y = options.pixel->y + 0.5;
         }
-        scale_ = window_.contentScale();
-        setScale(scale_);
-        makePresenter();
         watch_.watch(state_.subject.scene, otherFiles());
     }
 
@@ -139,8 +99,9 @@ public:
             last_ = now_;
         }
         latencies_.sayFrames();
-        ViewerResult result{drawing_.validationMessages() + log_.messages, drawing_.firstValidationMessage()};
-        if (result.first_validation_message.empty()) result.first_validation_message = log_.first;
+        ViewerResult result{drawing_.validationMessages() + screen_.log().messages,
+                            drawing_.firstValidationMessage()};
+        if (result.first_validation_message.empty()) result.first_validation_message = screen_.log().first;
         return result;
     }
 
@@ -218,7 +179,7 @@ private:
     }
 
     void ask() {
-        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
+        const CanvasRect canvas = canvasNow();
         if (state_.follow) {
             const bool halves =
                 state_.canvas.layout == Layout::side_by_side && state_.look.difference == Difference::none;
@@ -298,7 +259,7 @@ private:
         // Dear ImGui reports the previous frame, so only windows that may cover the images are asked
         // about.
         const bool covered = state_.help || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-        handleMouse(input, covered && io.WantCaptureMouse);
+        mouse_.handle(input, canvasNow(), screen_.scale(), covered && io.WantCaptureMouse);
         move();
         flight_.move(now_, state_.canvas);
         play();
@@ -310,11 +271,7 @@ private:
                 readAgain();
             }
         }
-        if (const double scale = window_.contentScale(); scale != scale_) {
-            scale_ = scale;
-            setScale(scale);
-            makePresenter();  // with fonts of that size
-        }
+        screen_.followScale();
     }
 
     void handleRequests() {
@@ -484,192 +441,32 @@ private:
     }
 
     void flyTo(const PixelPlace& pixel, std::optional<double> wanted = {}) {
-        flight_.begin(now_, state_.canvas, canvasOf(state_, width_, height_, scale_),
-                      state_.subject.settings.size, pixel, wanted.value_or(flown) * scale_);
-    }
-
-    double wipePlace(const CanvasRect& canvas) const {
-        return canvas.x + static_cast<double>(std::lround(state_.canvas.wipe * canvas.width));
-    }
-
-    void handleMouse(const Input& input, bool taken) {
-        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
-        const std::vector<PanelPlace> places = placesNow(canvas);
-        for (const Input::Button& button : input.buttons) {
-            if (!button.down) {
-                if (button.button != GLFW_MOUSE_BUTTON_LEFT) continue;
-                // A quick drag begins and ends between two frames.
-                drag(canvas, places, button.x, button.y);
-                drag_ = Drag::none;
-                continue;
-            }
-            if (taken || !canvas.contains(button.x, button.y)) continue;
-            if (button.button == GLFW_MOUSE_BUTTON_RIGHT) {
-                if (const auto under = pixelUnder(places, state_.subject.settings.size, button.x, button.y)) {
-                    state_.pixel = under->pixel;
-                    state_.open = Tab::pixel;
-                    contents_.under = under;
-                    say("pixel " + underWords(contents_));
-                }
-            } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
-                const bool wipes = state_.canvas.layout == Layout::wipe &&
-                                   state_.look.difference == Difference::none &&
-                                   std::abs(button.x - wipePlace(canvas)) <= wipeReach * scale_;
-                drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::picture : Drag::look;
-                pivot_ = pivotAt(places, button.x, button.y);
-                cursor_x_ = button.x;
-                cursor_y_ = button.y;
-            }
-        }
-        drag(canvas, places, input.x, input.y);
-        if (input.wheel != 0 && !taken && canvas.contains(input.x, input.y)) wheel(input, places);
-        contents_.under = canvas.contains(input.x, input.y) && !taken
-                              ? pixelUnder(places, state_.subject.settings.size, input.x, input.y)
-                              : std::nullopt;
-    }
-
-    // The cursor moved.
-    void drag(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double x, double y) {
-        const double dx = x - cursor_x_, dy = y - cursor_y_;
-        cursor_x_ = x;
-        cursor_y_ = y;
-        if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
-    }
-
-    void dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double dx, double dy) {
-        switch (drag_) {
-            case Drag::none:
-                return;
-            case Drag::wipe:
-                state_.canvas.wipe = std::clamp((cursor_x_ - canvas.x) / canvas.width, 0.0, 1.0);
-                return;
-            case Drag::picture:
-                state_.canvas.centre_x -= dx / state_.canvas.zoom;
-                state_.canvas.centre_y -= dy / state_.canvas.zoom;
-                return;
-            case Drag::look: {
-                if (!camera_.canMove() || !contents_.shown || places.empty()) return;
-                // As if the image were dragged: its height is the field of view.
-                const double tall = state_.subject.settings.size.height * places.front().placement.scale;
-                const double angle =
-                    contents_.shown->camera.fov_degrees * std::numbers::pi / 180 / std::max(tall, 1.0);
-                if (state_.orbiting)
-                    camera_.orbit(pivot_, 2 * dx * angle, -2 * dy * angle);
-                else
-                    camera_.look(dx * angle, -dy * angle);
-                moved();
-                return;
-            }
-        }
-    }
-
-    void wheel(const Input& input, const std::vector<PanelPlace>& places) {
-        if (state_.canvas.zoom > 0) {
-            const auto under = pixelUnder(places, state_.subject.settings.size, input.x, input.y);
-            const double before = state_.canvas.zoom;
-            state_.canvas.zoom =
-                std::clamp(std::round(before * std::exp2(0.5 * input.wheel)), least_zoom, most_zoom);
-            if (state_.canvas.zoom == before && input.wheel > 0)
-                state_.canvas.zoom = std::min(before + 1, most_zoom);
-            if (!under || places.empty()) return;
-            // The point under the cursor stays there.
-            const double x = under->pixel.x + 0.5, y = under->pixel.y + 0.5,
-                         ratio = before / state_.canvas.zoom;
-            state_.canvas.centre_x = x + (state_.canvas.centre_x - x) * ratio;
-            state_.canvas.centre_y = y + (state_.canvas.centre_y - y) * ratio;
-            return;
-        }
-        state_.speed = std::clamp(state_.speed * std::exp2(0.5 * input.wheel), 1e-4, 1e4);
-        tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.reach()));
-    }
-
-    // The world position of the pixel, once this view is rendered at full size; else the camera's target.
-    glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
-        const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
-        const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
-        const std::shared_ptr<const Shown>& shown = contents_.shown;
-        if (!under || !shown || shown->depth.empty() ||
-            ofBothPaths(shown->order.subject) != ofBothPaths(state_.subject))
-            return ahead;
-        return seenAt(shown->view, shown->depth, under->pixel).value_or(ahead);
+        flight_.begin(now_, state_.canvas, canvasNow(), state_.subject.settings.size, pixel,
+                      wanted.value_or(flown) * screen_.scale());
     }
 
     // ---- drawing the window ---------------------------------------------------------------------------
 
-    std::vector<PanelPlace> placesNow(const CanvasRect& canvas) const {
-        return placesOf(canvas, state_.subject.settings.size, state_.canvas,
-                        state_.look.difference != Difference::none);
-    }
-
-    void makePresenter() {
-        presenter_.reset();
-        presenter_ =
-            std::make_unique<Presenter>(window_.handle(), options_.device.validate ? &log_ : nullptr);
-        composed_ = {};
-        contents_.shown_by = presenter_->device();
-    }
+    CanvasRect canvasNow() const { return canvasOf(state_, width_, height_, screen_.scale()); }
 
     void frame() {
         contents_.history = &histories_.at(!contents_.shown || isWhole(*contents_.shown));
         contents_.interface_ms = latencies_.percentile();
         contents_.drawn_by = drawing_.device();
-        const CanvasRect canvas = canvasOf(state_, width_, height_, scale_);
-        const std::vector<PanelPlace> places = placesNow(canvas);
-        presenter_->beginFrame();
-        ImGui_ImplGlfw_NewFrame();
-        ImGui::NewFrame();
-        drawInterface(state_, contents_, canvas, places, scale_);
-        ImGui::Render();
-        compose(canvas, places);
-        if (!presenter_->show(pixels_, ImGui::GetDrawData())) {
-            if (++presenters_ > mostPresenters)
-                throw std::runtime_error(
-                    "view: the device that shows the window was lost several times; try another --device");
-            say("the device that shows the window was lost and is started again");
-            makePresenter();
-        } else {
-            presenters_ = 0;
-        }
-        setTitle();
-        if (contents_.shown) latencies_.seen(*contents_.shown, order_.number);
-    }
-
-    void setTitle() {
+        contents_.shown_by = screen_.device();
+        const CanvasRect canvas = canvasNow();
+        screen_.draw(state_, contents_, canvas, placesOf(canvas, state_));
         window_.setTitle(fmt::format("Diptych - {} - {}",
                                      contents_.facts ? contents_.facts->name : state_.subject.scene,
                                      debugMode(state_.look.channel()).name));
-    }
-
-    // Identifies the content of the window's pixels.
-    struct Composed {
-        std::shared_ptr<const Shown> shown;
-        CanvasRect canvas;
-        CanvasView view;
-        bool difference = false;
-        bool operator==(const Composed&) const = default;
-    };
-
-    void compose(const CanvasRect& canvas, const std::vector<PanelPlace>& places) {
-        const Composed now{contents_.shown, canvas, state_.canvas,
-                           state_.look.difference != Difference::none};
-        if (!now.shown || now == composed_) return;
-        composed_ = now;
-        pixels_.x = canvas.x;
-        pixels_.y = canvas.y;
-        pixels_.width = canvas.width;
-        pixels_.height = canvas.height;
-        pixels_.data = composed(*now.shown, canvas, places, presenter_->isBgr());
-        ++pixels_.version;
+        if (contents_.shown) latencies_.seen(*contents_.shown, order_.number);
     }
 
     const ViewerOptions& options_;
     const Clock::time_point begun_ = Clock::now();
     InterfaceState state_;
     Window window_;
-    ImGuiContextOf imgui_;
-    ValidationLog log_;
-    std::unique_ptr<Presenter> presenter_;
-    int presenters_ = 0;
+    Screen screen_;
     DrawingThread drawing_;
     Contents contents_;
     std::array<std::array<History, 2>, 2> histories_;  // of reduced images, of full ones
@@ -680,15 +477,14 @@ private:
     std::uint64_t said_still_ = 0;                                // the last request reported as complete
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
     double changed_ = -1;                                         // time of the last change of the subject
-    double scale_ = 1;
     int width_ = 0, height_ = 0, frames_left_ = 3;
     bool quit_ = false, held_ = false;
-    Drag drag_ = Drag::none;
-    glm::dvec3 pivot_{0};
-    double cursor_x_ = 0, cursor_y_ = 0;
     ZoomFlight flight_;
-    WindowPixels pixels_;
-    Composed composed_;
+    Mouse mouse_{state_,
+                 contents_,
+                 camera_,
+                 {[this] { moved(); }, [this](const std::string& line) { say(line); },
+                  [this](const std::string& line) { tell(line); }}};
     Latencies latencies_{[this](const std::string& line) { say(line); }, begun_};
 };
 

@@ -137,10 +137,6 @@ Input Window::poll(double seconds) {
 bool Window::isDown(int key) const {
     return glfwGetKey(window_, key) == GLFW_PRESS;
 }
-bool Window::isButtonDown(int button) const {
-    return glfwGetMouseButton(window_, button) == GLFW_PRESS;
-}
-
 void Window::size(int& width, int& height) const {
     glfwGetFramebufferSize(window_, &width, &height);
     if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) width = height = 0;

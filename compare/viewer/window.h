@@ -43,7 +43,6 @@ public:
     // Waits for an event, at most `seconds`.
     Input poll(double seconds);
     bool isDown(int key) const;
-    bool isButtonDown(int button) const;
     void size(int& width, int& height) const;  // framebuffer, pixels; 0 while minimised
     double pixelsPerUnit() const;              // framebuffer pixels per unit of window coordinates
     double contentScale() const;               // text scale of its monitor

@@ -5,16 +5,12 @@
 #include "tests/tool/run.h"
 #include "tests/tool/sweep.h"
 
-#include <nlohmann/json.hpp>
-
 #include <map>
 #include <regex>
 #include <set>
 
 namespace diptych {
 namespace {
-
-using Json = nlohmann::json;
 
 // Small and untimed: these tests are about the tool, not the image.
 const std::string quick = " --size 48x27 --runs 0";
@@ -31,12 +27,6 @@ const char* const triangle = R"({
   "buffers": [ { "byteLength": 36,
     "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ]
 })";
-
-Json parsed(const Ran& ran) {
-    const Json json = Json::parse(ran.out, nullptr, false);
-    EXPECT_FALSE(json.is_discarded()) << "not JSON: " << ran.out << "\nerr: " << ran.err;
-    return json;
-}
 
 // On a busy machine a command may exceed the ten seconds after which a log shows progress.
 std::string withoutProgress(const std::string& err) {
@@ -180,49 +170,6 @@ TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
                     .failedOver("--env scene: builtin:furnace has no"));
 }
 
-TEST(Command, DevicesListsFacts) {
-    const Folder folder;
-    const Ran ran = runTool(folder, "devices --json");
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    const Json json = parsed(ran);
-    ASSERT_FALSE(json["devices"].empty());
-    for (const Json& device : json["devices"]) {
-        EXPECT_FALSE(device["name"].get<std::string>().empty());
-        EXPECT_TRUE((std::set<std::string>{"cpu", "discrete", "integrated", "virtual", "other"})
-                        .contains(device["type"].get<std::string>()));
-        EXPECT_FALSE(device["facts"].empty());
-    }
-    EXPECT_NE(runTool(folder, "devices").out.find(json["devices"][0]["name"].get<std::string>()),
-              std::string::npos);
-}
-
-// Probes the shaders' functions on the device, only on request.
-TEST(Command, DevicesProbesThem) {
-    const Folder folder;
-    const Ran ran = runTool(folder, "devices --device 0 --probe --json");
-    EXPECT_EQ(ran.code, 0) << ran.out;
-    const Json device = parsed(ran)["devices"][0];
-    EXPECT_GT(device["probes"].size(), 50u);
-    for (const Json& probe : device["probes"]) {
-        EXPECT_EQ(probe["pass"], true) << probe;
-        EXPECT_LE(probe["of_limit"]["error"], 1) << probe;
-        EXPECT_FALSE(probe["because"].get<std::string>().empty());
-    }
-    EXPECT_FALSE(parsed(runTool(folder, "devices --device 0 --json"))["devices"][0].contains("probes"));
-    EXPECT_EQ(runTool(folder, "plan --probe builtin:triangle").code, 2);
-}
-
-TEST(Command, DevicesCanBeLimitedToOne) {
-    const Folder folder;
-    const Ran ran = runTool(folder, "devices --json --device 0");
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    ASSERT_EQ(parsed(ran)["devices"].size(), 1u);
-    EXPECT_EQ(parsed(ran)["devices"][0]["index"], 0);
-    const Ran none = runTool(folder, "devices --device 999");
-    EXPECT_EQ(none.code, 2);
-    EXPECT_NE(none.err.find("--device 999"), std::string::npos) << none.err;
-}
-
 TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
     const Folder folder;
     for (const std::string command : {"plan", "devices"}) {
@@ -230,130 +177,6 @@ TEST(Command, WhatWritesNoFileRefusesAPlaceForIt) {
         EXPECT_EQ(ran.code, 2);
         EXPECT_NE(ran.err.find("-o p"), std::string::npos) << ran.err;
         EXPECT_FALSE(fs::exists(folder / "p"));
-    }
-}
-
-TEST(Command, ExplainNamesCausesAndTheirShares) {
-    const Folder folder;
-    const Ran ran = runTool(folder, "explain builtin:points --gbuffer compact --size 64x36 --json");
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    const Json found = parsed(ran);
-    double sum = found["unexplained"];
-    for (const Json& cause : found["causes"]) {
-        sum += cause["share"].get<double>();
-        EXPECT_EQ(cause["where"].size(), 2u);
-        EXPECT_EQ(cause["interval"], 0);
-    }
-    EXPECT_NEAR(sum, 1, 1e-6);
-    EXPECT_GE(found["causes"].size(), 2u);
-    const Ran words = runTool(folder, "explain builtin:points --size 64x36 --test haze=on");
-    EXPECT_EQ(words.code, 0) << words.err;
-    EXPECT_NE(words.out.find("--haze"), std::string::npos) << words.out;
-    const Ran same = runTool(folder, "explain builtin:points --size 64x36 --gbuffer full");
-    EXPECT_NE(same.out.find("no cause"), std::string::npos) << same.out;
-}
-
-TEST(Command, ExplainLeavesAPageWithItsMaps) {
-    const Folder folder;
-    const std::string view = "explain builtin:points --gbuffer compact --size 64x36";
-    const Ran ran = runTool(folder, view + " -o why --json");
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_EQ(ran.out, contentsOf(folder / "why/explain.json")) << "--json prints it and nothing else";
-    const Json found = parsed(ran);
-    std::set<std::string> listed, there;
-    for (const Json& name : found["files"]) listed.insert(name);
-    for (const auto& entry : fs::directory_iterator(folder / "why")) there.insert(entry.path().filename());
-    EXPECT_EQ(listed, there);
-    for (const char* name :
-         {"index.html", "explain.json", "dominant.png", "lit.baseline.png", "lit.test.png"})
-        EXPECT_TRUE(there.contains(name)) << name;
-    EXPECT_TRUE(there.contains("share-1." + found["causes"][0]["name"].get<std::string>() + ".png"));
-    const std::string page = contentsOf(folder / "why/index.html");
-    for (const std::string& name : there)
-        EXPECT_TRUE(name.ends_with(".html") || page.find(name) != std::string::npos ||
-                    (name == "unexplained.png" && found["unexplained"] == 0))
-            << name;
-    EXPECT_EQ(page.find("http"), std::string::npos) << "no external resources";
-    // The command explains the same; its own output may be replaced.
-    const std::string again = found["command"];
-    ASSERT_TRUE(again.starts_with("diptych explain ")) << again;
-    const Ran second = runTool(folder, again.substr(8) + " -o why");
-    EXPECT_EQ(second.code, 0) << second.err;
-    EXPECT_NE(second.out.find("why/index.html"), std::string::npos) << second.out;
-    EXPECT_EQ(readJson(folder / "why/explain.json")["causes"], found["causes"]);
-    fs::create_directory(folder / "theirs");
-    std::ofstream(folder / "theirs/a.txt") << "mine";
-    const Ran refused = runTool(folder, view + " -o theirs");
-    EXPECT_EQ(refused.code, 2);
-    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
-    EXPECT_EQ(runTool(folder, view + " -o x.png").code, 2);
-}
-
-// From two files, which name their scene and Settings.
-TEST(Command, ExplainReadsPictures) {
-    const Folder folder;
-    const std::string view = " builtin:points --size 64x36 ";
-    ASSERT_EQ(runTool(folder, "render" + view + "--path forward_plus -o a.exr").code, 0);
-    ASSERT_EQ(runTool(folder, "render" + view + "--path deferred --gbuffer compact -o b.exr").code, 0);
-    ASSERT_EQ(runTool(folder, "render" + view + "--channels lit,albedo -o few.exr").code, 0);
-    const Ran ran = runTool(folder, "explain a.exr b.exr --json");
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    const Json of_files = parsed(ran);
-    const Json drawn =
-        parsed(runTool(folder, "explain" + view + "--baseline forward_plus --gbuffer compact --json"));
-    EXPECT_EQ(of_files["causes"].dump(), drawn["causes"].dump());
-    EXPECT_LT(of_files["unexplained"], 1e-6);
-    EXPECT_EQ(of_files["reproduction"][0], 0);
-    const Ran lacking = runTool(folder, "explain a.exr few.exr");
-    EXPECT_EQ(lacking.code, 2);
-    EXPECT_NE(lacking.err.find("few.exr has no channel"), std::string::npos) << lacking.err;
-    EXPECT_EQ(runTool(folder, "explain a.exr").code, 2);
-    ASSERT_EQ(runTool(folder, "render builtin:spots --size 64x36 -o other.exr").code, 0);
-    const Ran other = runTool(folder, "explain a.exr other.exr");
-    EXPECT_EQ(other.code, 2);
-    EXPECT_NE(other.err.find("--scene"), std::string::npos) << other.err;
-    EXPECT_EQ(runTool(folder, "explain a.exr b.exr --test haze=on").code, 2);
-}
-
-// A file of another renderer with the terms of its lit: explain names the term that differs.
-TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
-    const Folder folder;
-    const std::string scene = "builtin:points";
-    ASSERT_EQ(runTool(folder, "render " + scene + " --size 64x36 --path forward_plus -o a.exr").code, 0);
-    PictureFile theirs = readExr(folder / "a.exr");
-    const auto layer = [&](std::string_view name) -> Image& {
-        return std::ranges::find(theirs.layers, name, &PictureLayer::name)->image;
-    };
-    Image &lit = layer(""), &specular = layer("lit_specular");
-    for (std::size_t p = 0; p < lit.pixels(); ++p)
-        for (int c = 0; c < 3; ++c) {
-            lit.pixel(p)[c] += 0.5f * specular.pixel(p)[c];
-            specular.pixel(p)[c] *= 1.5f;
-        }
-    std::vector<ExrLayerView> views;
-    for (const PictureLayer& one : theirs.layers) views.push_back({one.channels, &one.image});
-    writeExr(folder / "b.exr", views);
-    const Ran ran = runTool(folder, "explain a.exr b.exr -o why --json");
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    const Json found = parsed(ran);
-    EXPECT_EQ(found["causes"][0]["name"], "direct specular") << ran.out;
-    EXPECT_NEAR(found["causes"][0]["share"], 1, 1e-3);
-    EXPECT_TRUE(fs::exists(folder / "why/share-1.direct-specular.png"));
-}
-
-TEST(Command, ExplainRefusesWhatItCannotSwap) {
-    const Folder folder;
-    for (const auto& [options, word] : {std::pair{"--test foo=1", "foo"},
-                                        {"--test haze", "NAME=VALUE"},
-                                        {"--test path=reference", "reference"},
-                                        {"--test path=deferred", "same"},
-                                        {"--test size=4x4", "size"},
-                                        {"--baseline reference", "reference"},
-                                        {"builtin:points builtin:spots", "spots"},
-                                        {"--camera 0 --camera 0", "--camera"}}) {
-        const Ran ran = runTool(folder, fmt::format("explain --size 16x16 {}", options));
-        EXPECT_EQ(ran.code, 2) << options;
-        EXPECT_NE(ran.err.find(word), std::string::npos) << ran.err;
     }
 }
 

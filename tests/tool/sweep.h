@@ -17,6 +17,13 @@ inline Json readJson(const fs::path& file) {
     return Json::parse(contentsOf(file), nullptr, false);
 }
 
+// What it printed.
+inline Json parsed(const Ran& ran) {
+    const Json json = Json::parse(ran.out, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << "not JSON: " << ran.out << "\nerr: " << ran.err;
+    return json;
+}
+
 inline constexpr const char* sweep = "tradeoff builtin:triangle --size 32x24 --runs 2 --json -q -o t ";
 
 // Long enough to be interrupted at any row.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
-#include "compare/cli/command_options.h"
 #include "shared/frame/setting_rows.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
@@ -9,11 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
-#include <set>
-#include <sstream>
-#include <stdexcept>
 
 namespace diptych {
 
@@ -179,53 +174,6 @@ TEST(CommandLine, ASettingsFileComesFirstWhereverItStands) {
     EXPECT_NE(what.find(file.string()), std::string::npos) << what;
 }
 
-TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
-    for (const std::string command :
-         {"compare", "render", "diff", "tradeoff", "choose", "audit", "plan", "view", "bench", "devices"}) {
-        const std::string help = parseCommandLine({command, "--help"}).help;
-        EXPECT_NE(help.find("Example: diptych " + command), std::string::npos) << help;
-        EXPECT_NE(parseCommandLine({"--help"}).help.find("  " + command + " "), std::string::npos);
-    }
-    EXPECT_EQ(parseCommandLine({"--version"}).help.find("diptych "), 0u);
-}
-
-// Options in a command's --help: the lines that begin with one.
-std::vector<std::string> printedOptions(const std::vector<std::string>& words) {
-    const std::string help = parseCommandLine(words).help;
-    std::vector<std::string> options;
-    for (std::size_t at = help.find("\n  -"); at != help.npos; at = help.find("\n  -", at + 1)) {
-        const std::size_t name = help.find("--", at), end = help.find_first_of(" \n", name);
-        options.push_back(help.substr(name + 2, end - name - 2));
-    }
-    return options;
-}
-
-// At most ten, all of them real options. --help all has all others, and --help states their number.
-TEST(CommandLine, HelpBeginsWithTheOptionsUsedMost) {
-    for (const Command& command : allCommands()) {
-        const auto few = printedOptions({command.name, "--help"}),
-                   all = printedOptions({command.name, "--help", "all"});
-        EXPECT_EQ(printedOptions({command.name, "-h", "all"}), all);
-        for (const std::string& option : few) EXPECT_EQ(std::ranges::count(all, option), 1) << option;
-        if (command.most_used.empty()) {
-            EXPECT_EQ(few, all) << command.name;
-            EXPECT_LE(all.size(), 12u) << command.name << ": name those that are used most";
-            continue;
-        }
-        std::istringstream words(command.most_used);
-        const std::set<std::string> wanted(std::istream_iterator<std::string>(words), {});
-        EXPECT_LE(wanted.size(), 10u) << command.name;
-        EXPECT_EQ(std::set<std::string>(few.begin(), few.end()).size(), wanted.size() + 1)
-            << command.name << ", with --help itself";
-        for (const std::string& option : wanted) EXPECT_EQ(std::ranges::count(few, option), 1) << option;
-        EXPECT_NE(parseCommandLine({command.name, "--help"})
-                      .help.find(std::to_string(all.size() - few.size()) + " more options: diptych " +
-                                 command.name + " --help all"),
-                  std::string::npos)
-            << command.name;
-    }
-}
-
 // view accepts the words of any compare command.
 TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     const std::vector<std::string> words{
@@ -243,72 +191,6 @@ TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     EXPECT_EQ(more.view.report, "diptych-report");
     EXPECT_TRUE(more.view.watch);
     EXPECT_FALSE(more.scene_given);
-}
-
-// A report may come from anywhere. Its command must not write or run anything, only choose what is shown.
-TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
-    const Options parsed = parseReported({"compare",
-                                          "-o",
-                                          "x",
-                                          "--renderer",
-                                          "evil=nowhere.json",
-                                          "--renderer=evil=nowhere.json",
-                                          "--gbuffer",
-                                          "compact",
-                                          "--env",
-                                          "-o",
-                                          "--ibl-bias=-1",
-                                          "--camera",
-                                          "eye=0,0,1 target=0,0,0 fov=40",
-                                          "--baseline",
-                                          "reference",
-                                          "--crop",
-                                          "0,0,8x8",
-                                          "--ids",
-                                          "1,2",
-                                          "--allow-noise",
-                                          "--",
-                                          "-a.glb"});
-    EXPECT_EQ(parsed.command, "view");
-    EXPECT_EQ(parsed.out, "");
-    EXPECT_TRUE(parsed.renderers.empty());
-    EXPECT_EQ(parsed.settings.gbuffer, GBufferEncoding::compact);
-    EXPECT_EQ(parsed.settings.env, "-o");
-    EXPECT_EQ(parsed.settings.ibl_bias, -1);
-    EXPECT_EQ(parsed.settings.camera, "eye=0,0,1 target=0,0,0 fov=40");
-    EXPECT_EQ(parsed.baseline, Path::reference);
-    EXPECT_EQ(parsed.selection.ids, (std::vector<int>{1, 2}));
-    EXPECT_TRUE(parsed.allow_noise);
-    EXPECT_EQ(parsed.scenes, std::vector<std::string>{"-a.glb"});
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"--update-baseline"},
-                                                  {"--out", "x"},
-                                                  {"--out=x"},
-                                                  {"-ox"},
-                                                  {"--force"},
-                                                  {"--settings", "/dev/zero"},
-                                                  {"--validate"},
-                                                  {"--report", "x"},
-                                                  {"--watch"},
-                                                  {"--pixel", "1,1"},
-                                                  {"--help"},
-                                                  {"--manual"},
-                                                  {"--match-exposure", "a.exr"},
-                                                  {"--shard", "1/2"},
-                                                  {"--gbuffer"},
-                                                  {"-"}}) {
-        std::vector<std::string> command{"compare", "a.glb"};
-        command.insert(command.end(), words.begin(), words.end());
-        try {
-            parseReported(command);
-            ADD_FAILURE() << words.front() << " was taken";
-        } catch (const std::runtime_error& error) {
-            EXPECT_TRUE(std::string(error.what()).starts_with("the command of the comparison "))
-                << error.what();
-            EXPECT_NE(std::string(error.what()).find(words.front().substr(0, words.front().find('='))),
-                      std::string::npos)
-                << error.what();
-        }
-    }
 }
 
 TEST(CommandLine, WhatIsAudited) {
@@ -535,79 +417,6 @@ TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
     for (const DebugMode& mode : debugModes())
         EXPECT_NE(what.find(std::to_string(mode.number) + " " + std::string(mode.name)), std::string::npos)
             << what;
-}
-
-// --help omits options that a command accepts for uniformity but does not read.
-TEST(CommandLine, HelpShowsWhatTheCommandReads) {
-    const auto help = [](const std::string& command) {
-        return parseCommandLine({command, "--help", "all"}).help;
-    };
-    const std::pair<const char*, std::vector<const char*>> unread[] = {
-        {"compare", {"--debug", "--heat", "--frames", "--fps"}},
-        {"render", {"--times"}},
-        {"bench", {"--debug", "--channels", "--exposure"}},
-        {"plan", {"--exposure", "--runs", "--out", "--channels"}},
-        {"devices", {"--size", "--exposure", "--lights", "--out"}},
-    };
-    for (const auto& [command, options] : unread)
-        for (const char* option : options)
-            EXPECT_EQ(help(command).find(std::string(option) + " "), std::string::npos)
-                << command << " " << option;
-    for (const char* option :
-         {"--tolerances", "--gbuffer", "--exposure", "--match-exposure", "--color", "--allow-empty"})
-        EXPECT_NE(help("compare").find(option), std::string::npos) << option;
-    EXPECT_NE(help("compare").find("--times "), std::string::npos);
-    for (const char* option : {"--debug ", "--frames ", "--fps "})
-        EXPECT_NE(help("render").find(option), std::string::npos) << option;
-    EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
-}
-
-TEST(CommandLine, HelpShowsTheSettings) {
-    const auto shows = [](const std::string& command, const std::string& option) {
-        return parseCommandLine({command, "--help", "all"}).help.find("--" + option + " ") !=
-               std::string::npos;
-    };
-    for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"gbuffer",
-                                   "cull",
-                                   "lighting",
-                                   "pixel-lights",
-                                   "spp",
-                                   "reference-mode",
-                                   "ambient",
-                                   "camera",
-                                   "shadows",
-                                   "shadow-kernel",
-                                   "shadow-lights",
-                                   "evsm-exponent",
-                                   "env",
-                                   "env-rotation",
-                                   "env-sun",
-                                   "ibl-intensity",
-                                   "ibl",
-                                   "ibl-diffuse",
-                                   "haze",
-                                   "haze-density",
-                                   "haze-rayleigh",
-                                   "haze-march-steps",
-                                   "specular-albedo",
-                                   "time",
-                                   "animation",
-                                   "variant",
-                                   "msaa",
-                                   "msaa-shading",
-                                   "msaa-edges",
-                                   "resolve",
-                                   "alpha-to-coverage",
-                                   "spec-aa",
-                                   "spec-aa-variance",
-                                   "spec-aa-limit",
-                                   "spec-aa-normals",
-                                   "spec-aa-kernel"})
-            EXPECT_TRUE(shows(command, option)) << command << " " << option;
-    }
-    for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})
-        EXPECT_TRUE(shows("render", option)) << option;
 }
 
 TEST(CommandLine, WhatWasMeantIsSaid) {

@@ -1,14 +1,58 @@
 // SPDX-License-Identifier: MIT
-// Channels of layers, and the names of metrics.
+// Names, numbers and layers of channels, and the names of metrics.
 #include "shared/frame/debug_modes.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace diptych {
 namespace {
+
+TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
+    std::set<std::string_view> names;
+    int last = -1;
+    for (const DebugMode& mode : debugModes()) {
+        EXPECT_GT(mode.number, last) << mode.name;
+        last = mode.number;
+        EXPECT_TRUE(names.insert(mode.name).second) << mode.name;
+        EXPECT_FALSE(mode.shows.empty()) << mode.name;
+        EXPECT_EQ(findDebugMode(mode.name), &mode);
+        EXPECT_EQ(findDebugMode(std::to_string(mode.number)), &mode);
+        EXPECT_EQ(&debugMode(mode.number), &mode);
+    }
+}
+
+// Files and scripts of other programs rely on these numbers: they never change.
+TEST(DebugModes, ZeroToNineAreFixed) {
+    const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
+                                 "emission", "occlusion", "specular", "material_id", "texcoords"};
+    for (int number = 0; number < 10; ++number) EXPECT_EQ(debugMode(number).name, names[number]);
+}
+
+TEST(DebugModes, WhatIsNotThereIsNotFound) {
+    for (const char* word : {"", "Lit", "lit ", "-1", "9999", "1x", "+1"})
+        EXPECT_EQ(findDebugMode(word), nullptr) << word;
+    EXPECT_THROW(debugMode(9999), std::out_of_range);
+}
+
+TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {
+    EXPECT_EQ(exrChannels(debugMode(0)), (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(exrChannels(debugMode(2)), (std::vector<std::string>{"normals.X", "normals.Y", "normals.Z"}));
+    EXPECT_EQ(exrChannels(debugMode(4)), (std::vector<std::string>{"roughness.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(8)), (std::vector<std::string>{"material_id.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(9)), (std::vector<std::string>{"texcoords.X", "texcoords.Y"}));
+    EXPECT_EQ(exrChannels(*findDebugMode("depth")), (std::vector<std::string>{"Z"}));
+    std::set<std::string> all;
+    for (const DebugMode& mode : debugModes()) {
+        const std::vector<std::string> channels = exrChannels(mode);
+        EXPECT_EQ(channels.size(), static_cast<std::size_t>(mode.width)) << mode.name;
+        for (const std::string& channel : channels) EXPECT_TRUE(all.insert(channel).second) << channel;
+    }
+}
 
 TEST(DebugModes, MetricsHaveNamesOfTheirOwn) {
     std::set<std::string_view> names;

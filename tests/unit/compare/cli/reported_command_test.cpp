@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// The command line of a report, which may come from anywhere.
+#include "compare/cli/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace diptych {
+
+using namespace cli;
+
+namespace {
+
+// A report may come from anywhere. Its command must not write or run anything, only choose what is shown.
+TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
+    const Options parsed = parseReported({"compare",
+                                          "-o",
+                                          "x",
+                                          "--renderer",
+                                          "evil=nowhere.json",
+                                          "--renderer=evil=nowhere.json",
+                                          "--gbuffer",
+                                          "compact",
+                                          "--env",
+                                          "-o",
+                                          "--ibl-bias=-1",
+                                          "--camera",
+                                          "eye=0,0,1 target=0,0,0 fov=40",
+                                          "--baseline",
+                                          "reference",
+                                          "--crop",
+                                          "0,0,8x8",
+                                          "--ids",
+                                          "1,2",
+                                          "--allow-noise",
+                                          "--",
+                                          "-a.glb"});
+    EXPECT_EQ(parsed.command, "view");
+    EXPECT_EQ(parsed.out, "");
+    EXPECT_TRUE(parsed.renderers.empty());
+    EXPECT_EQ(parsed.settings.gbuffer, GBufferEncoding::compact);
+    EXPECT_EQ(parsed.settings.env, "-o");
+    EXPECT_EQ(parsed.settings.ibl_bias, -1);
+    EXPECT_EQ(parsed.settings.camera, "eye=0,0,1 target=0,0,0 fov=40");
+    EXPECT_EQ(parsed.baseline, Path::reference);
+    EXPECT_EQ(parsed.selection.ids, (std::vector<int>{1, 2}));
+    EXPECT_TRUE(parsed.allow_noise);
+    EXPECT_EQ(parsed.scenes, std::vector<std::string>{"-a.glb"});
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--update-baseline"},
+                                                  {"--out", "x"},
+                                                  {"--out=x"},
+                                                  {"-ox"},
+                                                  {"--force"},
+                                                  {"--settings", "/dev/zero"},
+                                                  {"--validate"},
+                                                  {"--report", "x"},
+                                                  {"--watch"},
+                                                  {"--pixel", "1,1"},
+                                                  {"--help"},
+                                                  {"--manual"},
+                                                  {"--match-exposure", "a.exr"},
+                                                  {"--shard", "1/2"},
+                                                  {"--gbuffer"},
+                                                  {"-"}}) {
+        std::vector<std::string> command{"compare", "a.glb"};
+        command.insert(command.end(), words.begin(), words.end());
+        try {
+            parseReported(command);
+            ADD_FAILURE() << words.front() << " was taken";
+        } catch (const std::runtime_error& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("the command of the comparison "))
+                << error.what();
+            EXPECT_NE(std::string(error.what()).find(words.front().substr(0, words.front().find('='))),
+                      std::string::npos)
+                << error.what();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace diptych
