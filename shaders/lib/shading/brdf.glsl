@@ -174,9 +174,12 @@ vec3 reachingBase(Brdf b, float weight) {
 struct Layered {
     vec3 lobe, base;
 };
-Layered layeredAt(Brdf b, float v_dot_h) {
+Layered unfilmedAt(Brdf b, float v_dot_h) {
     float weight = schlickWeight(v_dot_h);
-    Layered plain = Layered(b.f0 + (b.f90 - b.f0) * weight, reachingBase(b, weight));
+    return Layered(b.f0 + (b.f90 - b.f0) * weight, reachingBase(b, weight));
+}
+Layered layeredAt(Brdf b, float v_dot_h) {
+    Layered plain = unfilmedAt(b, v_dot_h);
     if (!hasLayer(LAYER_IRIDESCENCE)) return plain;
     FilmRay ray = filmRay(b.film, v_dot_h);
     vec3 dielectric = filmedFresnel(b.film, b.dielectric, ray, b.dielectric_f90);
@@ -226,25 +229,28 @@ Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) 
                      vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
 }
 
-// l: unit vector to the light.
-Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l) {
+// l: unit vector to the light. `may_be_filmed`: false leaves out the film's code.
+Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l, bool may_be_filmed) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     vec3 s = l + v;
     float s2 = dot(s, s);
-    Layered layered = layeredAt(b, 0.5 * sqrt(s2));  // v.h = |l + v| / 2
+    float v_dot_h = 0.5 * sqrt(s2);
+    Layered at_h = unfilmedAt(b, v_dot_h);
+    if (may_be_filmed) at_h = layeredAt(b, v_dot_h);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
-    return Reflected(n_dot_l, b.diffuse * layered.base, layered.lobe * lobe);
+    return Reflected(n_dot_l, b.diffuse * at_h.base, at_h.lobe * lobe);
 }
 
 // Adds the light that arrives from the unit vector `l` and leaves to `v`. `irradiance`: W/m^2,
 // perpendicular to `l`.
-void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, inout vec3 diffuse, inout vec3 specular) {
+void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, bool may_be_filmed, inout vec3 diffuse,
+              inout vec3 specular) {
     Reflected reflected;
     if (on(feature_half_shading)) {
         reflected = reflectedInHalf(b, n, v, l);
-        if (b.anisotropic || b.film.weight > 0.0) reflected = reflectedLight(b, n, v, l);
+        if (b.anisotropic || b.film.weight > 0.0) reflected = reflectedLight(b, n, v, l, may_be_filmed);
     } else {
-        reflected = reflectedLight(b, n, v, l);
+        reflected = reflectedLight(b, n, v, l, may_be_filmed);
     }
     vec3 received = irradiance * reflected.n_dot_l;
     vec3 from_lobe = reflected.lobe * received;

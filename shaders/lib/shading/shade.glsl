@@ -41,27 +41,28 @@ void addFromSheen(vec3 reflected, inout Radiance radiance) {
     radiance.sheen += reflected;
 }
 
-void addIncident(Shading shading, Incident light, inout Radiance radiance) {
-    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance,
+// `layered`: false leaves out the code of sheens and films.
+void addIncident(Shading shading, Incident light, bool layered, inout Radiance radiance) {
+    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance, layered,
              radiance.diffuse, radiance.specular);
-    if (hasLayer(LAYER_SHEEN))
+    if (layered && hasLayer(LAYER_SHEEN))
         addFromSheen(sheenReflected(shading.sheen, shading.surface.normal, shading.v, light.direction,
                                     light.irradiance),
                      radiance);
     if (!hasLayer(LAYER_CLEARCOAT)) return;
     vec3 below = vec3(0.0), reflected = vec3(0.0);
     addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance,
-             below, reflected);
+             false, below, reflected);
     addFromCoat(reflected, radiance);
 }
 
-void addPoint(Shading shading, uint i, inout Radiance radiance) {
-    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), radiance);
+void addPoint(Shading shading, uint i, bool layered, inout Radiance radiance) {
+    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), layered, radiance);
 }
 
-void addSpot(Shading shading, uint i, inout Radiance radiance) {
+void addSpot(Shading shading, uint i, bool layered, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
-                radiance);
+                layered, radiance);
 }
 
 void addCasting(Shading shading, Incident light, uint place, vec3 position, inout Radiance radiance) {
@@ -70,7 +71,7 @@ void addCasting(Shading shading, Incident light, uint place, vec3 position, inou
     radiance.local_light += light_here;
     radiance.local_seen += light_here * seen;
     light.irradiance *= seen;
-    addIncident(shading, light, radiance);
+    addIncident(shading, light, true, radiance);
 }
 
 void addCastingPoint(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
@@ -99,21 +100,32 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
     }
 
 // Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
-// those with indices below `end`.
-#define ADD_PACKETS(add, packets, casting, end)    \
-    {                                             \
-        uvec2 range = packets;                    \
-        EACH(range) {                             \
-            uvec4 i = lightsOfPacket(range.x);     \
-            if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light); \
-            add(shading, i.x, radiance);          \
-            if (feature_list_width == 4) {        \
-                add(shading, i.y, radiance);      \
-                add(shading, i.z, radiance);      \
-                add(shading, i.w, radiance);      \
-            }                                     \
-            NEXT(range);                          \
-        }                                         \
+// those with indices below `end`. The code of sheens and films is long, so that it stands in a loop over
+// single lights, once for each type.
+#define ADD_PACKETS(add, packets, casting, end)                                                             \
+    {                                                                                                       \
+        uvec2 range = packets;                                                                              \
+        if (hasLayer(LAYER_SHEEN | LAYER_IRIDESCENCE)) {                                                    \
+            range *= feature_list_width;                                                                    \
+            EACH(range) {                                                                                   \
+                uvec4 i = lightsOfPacket(range.x / feature_list_width);                                     \
+                if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light);    \
+                add(shading, i[range.x % feature_list_width], true, radiance);                              \
+                NEXT(range);                                                                                \
+            }                                                                                               \
+        } else {                                                                                            \
+            EACH(range) {                                                                                   \
+                uvec4 i = lightsOfPacket(range.x);                                                          \
+                if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light);    \
+                add(shading, i.x, false, radiance);                                                         \
+                if (feature_list_width == 4) {                                                              \
+                    add(shading, i.y, false, radiance);                                                     \
+                    add(shading, i.z, false, radiance);                                                     \
+                    add(shading, i.w, false, radiance);                                                     \
+                }                                                                                           \
+                NEXT(range);                                                                                \
+            }                                                                                               \
+        }                                                                                                   \
     }
 
 // Continues with the area lights of one shape, with indices below `end`. One loop per shape, because a
@@ -202,7 +214,7 @@ Radiance shade(Surface s, PixelLights lights) {
             Incident light = fromDirectionalLight(directionalAt(range.x));
             if (on(feature_shadows) && directionalOf(range.x) == castingLight())
                 light.irradiance *= radiance.sun_visibility;
-            addIncident(shading, light, radiance);
+            addIncident(shading, light, true, radiance);
             NEXT(range);
         }
     }

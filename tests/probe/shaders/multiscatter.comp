@@ -22,7 +22,7 @@ void main() {
     vec2 table = vec2(IN(WIDTH, 11), IN(WIDTH, 12));
     Brdf b = compensated(makeBrdf(s, v), s, table);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    addLight(b, s.normal, v, l, vec3(1.0), diffuse, specular);
+    addLight(b, s.normal, v, l, vec3(1.0), false, diffuse, specular);
     OUT(4, 0) = diffuse.r;
     OUT(4, 1) = specular.r;
     OUT(4, 2) = b.diffuse.r * PI * (1.0 - b.base_f0.r);
