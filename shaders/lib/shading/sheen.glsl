@@ -79,7 +79,8 @@ float sheenLobe(Sheen s, vec3 n, vec3 v, vec3 l, float n_dot_l) {
     vec3 sum = l + v, across = crossProduct(n, sum);
     float sum2 = dot(sum, sum), up = dot(n, sum), per = 1.0 / max(sum2, 1e-20);
     float cos2 = up * up * per, sin2 = dot(across, across) * per;
-    float series = 1.0 + cos2 * (0.5 + cos2 * (0.33333333 + cos2 * (0.25 + cos2 * (0.2 + cos2 * 0.16666667))));
+    float series = 0.33333333 + cos2 * (0.25 + cos2 * (0.2 + cos2 * 0.16666667));
+    series = 1.0 + cos2 * (0.5 + cos2 * series);
     float log_sin2 = cos2 < 0.1 ? -cos2 * series : log(max(sin2, 1e-30));
     float d = (2.0 + s.exponent) * exp(0.5 * s.exponent * log_sin2) * (0.5 * INVERSE_PI);
     float lobe = d / ((1.0 + s.lambda_v + sheenLambda(s, n_dot_l)) * 4.0 * s.n_dot_v);
