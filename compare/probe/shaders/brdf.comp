@@ -44,7 +44,7 @@ void light() {
     s.dielectric_f0 = vec3(in1(12));
     s.dielectric_f90 = in1(13);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0), v = in3(4);
-    addLight(makeBrdf(s, v), s.normal, v, in3(7), vec3(1.0), diffuse, specular);
+    addLight(makeBrdf(s, v), s.normal, v, in3(7), vec3(1.0), false, diffuse, specular);
     out1(0, diffuse.r);
     out1(1, specular.r);
 }
