@@ -47,7 +47,7 @@ Coefficients projected(const std::function<glm::dvec3(const glm::dvec3&)>& f, in
     });
     return result;
 }
-glm::dvec3 assembled(const Coefficients& coefficients, const glm::dvec3& n) {
+glm::dvec3 evaluatedAt(const Coefficients& coefficients, const glm::dvec3& n) {
     glm::dvec3 sum(0);
     for (std::size_t k = 0; k < 9; ++k) sum += coefficients[k] * harmonics(n)[k];
     return sum;
@@ -62,7 +62,7 @@ TEST(PerObject, HarmonicsAreTheProjectionOfTheClampedCosine) {
         addHarmonics(sum, {1, 2, 3}, to_light);
         for (int i = 0; i < 40; ++i) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
-            EXPECT_NEAR(glm::length(evaluatedRgb(sum, n) - glm::dvec3(1, 2, 3) * assembled(cosine, n)), 0,
+            EXPECT_NEAR(glm::length(evaluatedRgb(sum, n) - glm::dvec3(1, 2, 3) * evaluatedAt(cosine, n)), 0,
                         2e-4);
             // Three bands of the cosine are off by up to 3/32, directly behind by 1/16 (Ramamoorthi and
             // Hanrahan 2001).
@@ -120,7 +120,7 @@ TEST(PerObject, ADirectedLightIsALobeOfThatMeanCosine) {
         addHarmonics(sum, e, to_light, g);
         for (int i = 0; i < 40; ++i) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
-            EXPECT_NEAR(glm::length(evaluatedRgb(sum, n) - assembled(irradiance, n)), 0, 1e-4) << g;
+            EXPECT_NEAR(glm::length(evaluatedRgb(sum, n) - evaluatedAt(irradiance, n)), 0, 1e-4) << g;
         }
     }
 }
@@ -264,7 +264,7 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
         for (int i = 0; i < 60; ++i) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
             // 3e-4 for 250 x 250 directions and float32.
-            EXPECT_NEAR(glm::length(evaluatedRgb(found, n) - assembled(expected, n)), 0, 3e-4 * all_of_rest)
+            EXPECT_NEAR(glm::length(evaluatedRgb(found, n) - evaluatedAt(expected, n)), 0, 3e-4 * all_of_rest)
                 << i;
             const double listed = sumOf(n, [](const LightShares& s) { return s.pixel + s.vertex; }).g;
             const double every =
