@@ -3,26 +3,15 @@
 // their times, the verdict, a pixel breakdown and the reference, the most urgent first.
 #pragma once
 
-#include "compare/verdict/comparison.h"
+#include "compare/viewer/drawing_options.h"
 #include "compare/viewer/shown.h"
-#include "shared/vulkan/device.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace diptych::viewer {
-
-struct DrawingOptions {
-    DeviceOptions device;
-    CompareOptions compare;  // rules and pixels of the verdict
-    // Called from another thread whenever there is a new result.
-    std::function<void()> wake;
-    // For tests: called before each image; its exceptions count as the device's.
-    std::function<void()> before_picture{};
-};
 
 // The interface's side. Every function returns at once; call them from one thread.
 class DrawingThread {

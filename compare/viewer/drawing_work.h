@@ -2,7 +2,7 @@
 // The work of the drawing thread.
 #pragma once
 
-#include "compare/viewer/drawing_thread.h"
+#include "compare/viewer/drawing_options.h"
 #include "compare/viewer/mailbox.h"
 
 namespace diptych::viewer {

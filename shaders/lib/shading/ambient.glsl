@@ -74,7 +74,7 @@ float meanSchlickWeight(float n_dot_v) {
 
 // v.h at which Schlick's weight of f90 is `weight`. A film's Fresnel term there stands for its mean over the
 // directions whose mean weight that is.
-float cosineOf(float weight) { return 1.0 - pow(clamp(weight, 0.0, 1.0), 0.2); }
+float cosineOf(float weight) { return 1.0 - exp(0.2 * log(clamp(weight, 1e-37, 1.0))); }
 
 // Fraction of ambient light that passes the layer above the base.
 vec3 baseShare(Brdf b) {

@@ -21,7 +21,8 @@ struct Sheen {
 
 // The fit's logarithm of Lambda for cosines up to 0.5.
 float lambdaFit(Sheen s, float x) {
-    return s.fit[0] / (1.0 + s.fit[1] * pow(x, s.fit[2])) + s.fit[3] * x + s.fit[4];
+    float power = exp(s.fit[2] * log(max(x, 1e-37)));
+    return s.fit[0] / (1.0 + s.fit[1] * power) + s.fit[3] * x + s.fit[4];
 }
 
 float sheenLambda(Sheen s, float cosine) {
