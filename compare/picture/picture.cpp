@@ -46,7 +46,7 @@ bool isNormalised(const DebugMode& mode) {
            mode.number == gpu::DEBUG_shaded_samples || mode.number == gpu::DEBUG_iridescence_ior ||
            mode.number == gpu::DEBUG_iridescence_thickness || isHeat(mode);
 }
-// Of a normalised channel, after a space; empty: none, or unknown.
+// Unit of a normalised channel, after a space; empty if it has none.
 const char* normalisedUnit(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior) return "";
     return mode.number == gpu::DEBUG_iridescence_thickness ? " nm" : " m";

@@ -65,7 +65,7 @@ public:
 
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }
-    // Of the GGX lobe; a sheen's are 1.
+    // Widths of the GGX lobe; 1 for a sheen.
     const Widths& widths() const { return widths_; }
     bool isSheen() const { return sheen_.has_value(); }
 

@@ -35,8 +35,8 @@ public:
     // `light` must outlive it.
     explicit EnvironmentApproximation(const EnvironmentLight& light);
 
-    // Of one layer. `exact`: the environment's light reflected by the whole BRDF, unoccluded. `seed`: as for
-    // Lighting.
+    // Errors for one layer. `exact`: the environment's light reflected by the whole BRDF, unoccluded. `seed`:
+    // as for Lighting.
     EnvironmentCosts costs(const Surface& surface, const Compensation& compensation, const Reflected& exact,
                            std::uint64_t seed) const;
 
@@ -54,7 +54,7 @@ private:
     };
     Means meansOf(const glm::dvec3& normal, const glm::dvec3& mirrored, double alpha,
                   std::uint64_t seed) const;
-    // What the paths take as irradiance / pi, and by how much a path's own value may differ from it.
+    // The paths' irradiance / pi, and how far a path's own value may be from it.
     struct Taken {
         glm::dvec3 irradiance;
         double open;

@@ -23,8 +23,8 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
     return use;
 }
 
-// Of values with an exponent: bounded relative to the largest component, or by the smallest step. 0 has a
-// code of its own.
+// The bound of values with an exponent is relative to the largest component, at least the smallest step. 0
+// has a code of its own.
 PixelUse floatUse(const float* read, const float* own, int components, double share, double least,
                   double slack) {
     const double size = metrics::largestFinite(own, components);

@@ -218,7 +218,7 @@ private:
 
     // ---- images ---------------------------------------------------------------------------------------
 
-    // Of both paths, at the request's size.
+    // Both paths' Settings at the request's size.
     std::array<Settings, 2> fullSettings() const {
         const Size& size = order_.subject.settings.size;
         return {settingsOf(order_.subject, drawn_paths[0], size),

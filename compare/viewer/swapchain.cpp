@@ -21,7 +21,7 @@ VkPresentModeKHR Swapchain::presentMode() const {
                                                                                 : VK_PRESENT_MODE_FIFO_KHR;
 }
 
-// Of the images; 0 if the window has no area.
+// Size of the images; 0 if the window has no area.
 VkExtent2D Swapchain::sizeOf(const VkSurfaceCapabilitiesKHR& can) const {
     if (can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) return can.currentExtent;
     int width = 0, height = 0;

@@ -111,8 +111,8 @@ AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool fla
 // direction is far from the centre of the lobe.
 const float LTC_MOST_GAIN = 4.0;
 
-// Adds the sheen under a light of which only the mean direction is known. `received`: irradiance over the
-// radiance of the light, with the cosine; `l`: unit.
+// Adds the sheen as if all light came from its mean direction `l` (unit). `received`: irradiance over the
+// radiance of the light, with the cosine.
 void addAreaSheen(AreaView a, vec3 l, float received, vec3 radiance, inout AreaSums sums) {
     float n_dot_l = clamp(dot(a.n, l), 0.0, 1.0);
     float perpendicular = received / max(n_dot_l, 1e-4);

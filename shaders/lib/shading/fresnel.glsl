@@ -32,7 +32,7 @@ struct Film {
     float presence;   // 0 to 1: fades the film in up to 0.03 nm
 };
 
-// What all materials below the film share at one angle.
+// Terms of the film at one angle, which all materials below it share.
 struct FilmRay {
     float above, below;  // weights of f90 at both faces
     vec3 once, twice;    // interference of light that crosses the film one and two times: CIE XYZ, unsigned

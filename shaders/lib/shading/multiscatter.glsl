@@ -14,7 +14,7 @@ struct SpecularFactors {
     vec3 between;  // multiple scattering as a Lambertian lobe, 1/sr
 };
 
-// Of MULTISCATTER_ENERGY.
+// Factor by which MULTISCATTER_ENERGY scales the lobe.
 vec3 specularGain(vec3 f0, vec2 albedo) {
     float all = albedo.x + albedo.y;
     return 1.0 + f0 * (max(1.0 - all, 0.0) / all);
