@@ -337,7 +337,7 @@ def blamed(said, edits, tree):
         file, error = os.path.relpath(tree / "build" / path, tree), "error: " in text or "' : " in text
         below = range(int(line), int(line) + (12 if "declared here" in text else 1))  # in the function declared there
         edit = next((places[file, at] for at in below if (file, at) in places), None)
-        if error or "note: " in text and unexplained:
+        if error or "expansion of" in text or "note: " in text and unexplained:  # an error's context stands above it
             bad |= {edit} - {None}
         if "note: " not in text or edit:
             unexplained = error and edit is None and "compilation terminated" not in text

@@ -101,7 +101,8 @@ class Drawn(unittest.TestCase):
         edit = next(e for e in edits if e.file == "shared/a/a.h")
         place = f"/t/shared/a/a.h:{edit.lines[0] + 1}:7: "
         declared = f"/t/shared/a/a.h:{edit.lines[0]}:7: note: 'f' declared here"
-        for said in (place + "error: no", "/t/b.cpp:1:1: error: no\n" + place + "note: here", "/t/b.cpp:1:1: error: no\n" + declared, f"ERROR: {place[:-3]} 'x' :  no"):
+        for said in (place + "error: no", "/t/b.cpp:1:1: error: no\n" + place + "note: here", "/t/b.cpp:1:1: error: no\n" + declared, f"ERROR: {place[:-3]} 'x' :  no",
+                     place + "  in 'constexpr' expansion of 'format(\"{}\")'\n/t/b.h:1:1: error: no"):
             self.assertIn(edit.number, mutate.blamed(said, edits, pathlib.Path("/t")), said)
         for said in (place + "warning: no", "/t/b.cpp:1:1: error: no\n/t/b.cpp:2:1: warning: no\n" + place + "note: here"):
             self.assertEqual(mutate.blamed(said, edits, pathlib.Path("/t")), set(), said)
