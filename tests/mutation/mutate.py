@@ -421,7 +421,8 @@ class Run:
         wanted = {name: switched(name, self.files[name], edits) for name, edits in by_file.items()}
         for old, new in SETTERS if any(name.endswith(GLSL) for name in by_file) else ():
             for name in git(self.tree, "grep", "-l", "-F", old, "HEAD", "--", "*.cpp").replace("HEAD:", "").split():
-                wanted[name] = (wanted.get(name) or INCLUDE + git(self.tree, "show", f"HEAD:{name}")).replace(old, new)
+                text = wanted.get(name) or INCLUDE + git(self.tree, "show", f"HEAD:{name}")
+                wanted[name] = re.sub(r"\b" + re.escape(old), new, text)  # not __wrap_..., which the linker knows
         for name in git(self.tree, "diff", "--name-only").split():
             wanted.setdefault(name, git(self.tree, "show", f"HEAD:{name}"))
         for name, text in wanted.items():
