@@ -113,7 +113,8 @@ struct Markup {
         return out.empty() ? out : boxed(terms.box, "<dl>" + out + "</dl>");
     }
     std::string operator()(const Table& table) const {
-        std::string out = fmt::format("<table{}>", classes({table.style})) + headOf(table) + "<tbody>";
+        std::string out = fmt::format("<table{}>", classes({table.style, table.sortable ? "sortable" : ""})) +
+                          headOf(table) + "<tbody>";
         for (const Row& row : table.rows) out += rowOf(table, row);
         out += "</tbody></table>";
         if (!table.note.empty()) out += (*this)(Paragraph{table.note, "soft small"});
@@ -130,6 +131,18 @@ struct Markup {
 };
 
 }  // namespace
+
+Cell numberCell(double value) {
+    return sorted(value, page::number(value));
+}
+
+Cell bytesCell(std::uint64_t count) {
+    return sorted(static_cast<double>(count), page::bytes(count));
+}
+
+Cell millisecondsCell(double ms) {
+    return sorted(ms, fmt::format("{:.4g}", ms));
+}
 
 std::string inHtml(const Text& text) {
     std::string out;

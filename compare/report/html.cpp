@@ -346,7 +346,7 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
         body += texts.section(layout.order[at]);
     body += "</div>\n" + laterSections(layout, texts) + checksLinks(report, layout) + notes(report, layout) +
             legend;
-    const std::string script = fmt::format("{}{}{}", page::tables, page::copying, page::script);
+    const std::string script = std::string(page::tables) + page::script;
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{}<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: "
