@@ -108,6 +108,15 @@ struct Table {
     std::size_t indent = 0, gap = 2;      // spaces before and between columns, in a terminal
 };
 
+// Adds a column with a cell for each item; items are rows.
+template <class Items, class CellOf>
+void addColumn(Table& table, Column column, const Items& items, const CellOf& cellOf) {
+    table.columns.push_back(std::move(column));
+    table.rows.resize(items.size());
+    std::size_t row = 0;
+    for (const auto& item : items) table.rows[row++].cells.push_back(Cell(cellOf(item)));
+}
+
 struct Heading {
     int level;
     Text text;

@@ -27,12 +27,8 @@ std::vector<std::string> passNames(const Tradeoff& tradeoff) {
 
 std::string tradeoffCsv(const Tradeoff& tradeoff) {
     output::Table table;
-    table.rows.resize(tradeoff.rows.size());
-    // Adds a column; value(row) is its text.
-    const auto add = [&](std::string_view before, std::string_view title, const auto& value) {
-        table.columns.push_back({fmt::format("{}{}", before, title)});
-        for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
-            table.rows[i].cells.emplace_back(std::string(value(tradeoff.rows[i])));
+    const auto add = [&](std::string_view before, std::string_view title, const auto& valueOf) {
+        addColumn(table, {fmt::format("{}{}", before, title)}, tradeoff.rows, valueOf);
     };
     using Row = TradeoffRow;
     const auto placeOf = [&](const Row& row) {
