@@ -3,7 +3,6 @@
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
-#include "compare/bench/style.h"
 #include "compare/output/writers.h"
 #include "shared/text/counted.h"
 
@@ -72,7 +71,7 @@ std::string benchHtml(const Bench& bench) {
                                                bench.device.name, bench.device.driver),
                           .blocks = {},
                           .files = {"bench.json"},
-                          .style = std::string(plotStyle) + benchStyle,
+                          .style = plotStyle,
                           .skip = "rows"};
     output::List conclusions{{}, "box says"};
     for (const Conclusion& conclusion : conclusionsOf(bench))

@@ -79,7 +79,7 @@ inline Cell styled(Cell cell, std::string style, std::string means = {}) {
 struct Column {
     // number: right-aligned. prose: wraps on a page, and comes last in a terminal.
     enum Kind { words, number, prose };
-    enum Where { everywhere, terminal, page };
+    enum Where { everywhere, page };
 
     std::string title;
     Kind kind = words;

@@ -68,11 +68,9 @@ std::string headOf(const Table& table) {
         out += fmt::format("<th class=\"n\" colspan=\"{}\">{}</th>", count, markup(title));
     if (!out.empty()) out += "</tr><tr>";
     for (const Column& column : table.columns)
-        if (column.where != Column::terminal)
-            out += fmt::format("<th{}{}>{}{}{}</th>", classes({kindOf(column), column.style}),
-                               attribute("title", column.means),
-                               table.sortable ? "<button type=\"button\">" : "", markup(column.title),
-                               table.sortable ? "</button>" : "");
+        out += fmt::format("<th{}{}>{}{}{}</th>", classes({kindOf(column), column.style}),
+                           attribute("title", column.means), table.sortable ? "<button type=\"button\">" : "",
+                           markup(column.title), table.sortable ? "</button>" : "");
     return "<thead><tr>" + out + "</tr></thead>\n";
 }
 
@@ -81,7 +79,6 @@ std::string rowOf(const Table& table, const Row& row) {
                                   row.number > 0 ? fmt::format(" data-row=\"{}\"", row.number) : "");
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const Column& column = table.columns[i];
-        if (column.where == Column::terminal) continue;
         const Cell& cell = row.cells.at(i);
         out += fmt::format(
             "<td{}{}{}>{}</td>", classes({kindOf(column), column.style, cell.style}),

@@ -30,9 +30,7 @@ std::string hiddenUnless(bool shown) {
 }
 
 std::string again(const char* what, const std::string& command) {
-    return fmt::format(
-        "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy</button></p>",
-        what, markup(command));
+    return inHtml(output::Paragraph{{what, Span(command, Span::command)}, "again"});
 }
 
 std::string spreadText(const Spread& spread) {
