@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/page/page.h"
+#include "compare/audit/page.h"
 #include "compare/audit/plot.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
@@ -115,7 +115,7 @@ output::Document pageOf(const Audited& audited, const std::string& title, const 
                   Span(audited.camera, Span::foreign)},
         .blocks = {},
         .files = files,
-        .style = std::string(plotStyle) + auditStyle};
+        .style = plotStyle};
     const char* const verdict = passes.value_or(true) ? "pass" : "fail";
     if (passes) page.heading = {Span(verdict, Span::verdict, verdict), " ", Span(audited.scene, Span::name)};
     return page;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/page/page.h"
+#include "compare/audit/page.h"
 #include "compare/audit/relation_words.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/html.h"
 
-#include "compare/choose/page/page.h"
 #include "compare/choose/plot.h"
 #include "compare/output/writers.h"
 #include "shared/text/counted.h"
@@ -171,7 +170,7 @@ std::string choiceHtml(const Choices& choices, const std::vector<std::string>& f
                   Span(fmt::format("{}", fmt::join(first.cameras, "; ")), Span::foreign)},
         .blocks = {},
         .files = files,
-        .style = std::string(plotStyle) + choiceStyle};
+        .style = plotStyle};
     if (choices.all)
         addCommon(page.blocks, *choices.all, first);
     else

@@ -11,8 +11,6 @@
 
 namespace diptych::audit {
 
-extern const char* const auditStyle;  // audit.css, embedded at build time
-
 // `passes`: the verdict in the heading; empty: none. `files`: linked at the end.
 output::Document pageOf(const Audited& audited, const std::string& title, const std::string& about,
                         const std::vector<std::string>& files, std::optional<bool> passes);
