@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/page/page.h"
+#include "compare/audit/page.h"
 #include "compare/audit/plot.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
-#include "compare/page/page.h"
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,140 +13,152 @@
 
 namespace diptych::audit {
 
-using page::markup;
+using output::Column;
+using output::Heading;
+using output::numberCell;
+using output::Paragraph;
+using output::Span;
 
 namespace {
 
-std::string swatchOf(const Series& series) {
-    return fmt::format("<i class=\"swatch {}\"></i>", nameOf(series.path));
-}
-
-std::string headOf(const std::vector<std::string>& names) {
-    std::string out = "<thead><tr>";
-    for (const std::string& name : names)
-        out += fmt::format("<th><button type=\"button\">{}</button></th>", markup(name));
-    return out + "</tr></thead>\n";
+output::Text seriesText(const Series& series, const std::string& after = "") {
+    return {Span("", Span::swatch, nameOf(series.path)), series.words() + after};
 }
 
 // The range that every series of every quantity meets.
-std::string tableOf(const Audit& audit) {
-    std::vector<std::string> names{"quantity", "settings"};
-    for (const Criterion& criterion : criteria) names.emplace_back(criterion.title);
-    names.insert(names.end(), {"predicted, 1e-3", "predicted, 1e-2", "agree"});
-    std::string out = "<div class=\"box scroll rows\"><table class=\"stack\">" + headOf(names) + "<tbody>";
+output::Table tableOf(const Audit& audit) {
+    output::Table table{{{"quantity"}, {"settings"}}, {}, true};
+    for (const Criterion& criterion : criteria) table.columns.push_back({std::string(criterion.title)});
+    for (const char* title : {"predicted, 1e-3", "predicted, 1e-2", "agree"})
+        table.columns.push_back({title});
     for (const QuantityAudit& of : audit.quantities) {
-        if (!of.lacks.empty()) continue;
-        for (std::size_t s = 0; s < of.series.size(); ++s) {
-            out += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}{2}</td>", of.quantity->name,
-                               swatchOf(of.series[s]), markup(of.series[s].words()));
+        for (std::size_t s = 0; of.lacks.empty() && s < of.series.size(); ++s) {
+            const std::string_view name = of.quantity->name;
+            output::Row row{{Span(name, Span::link, fmt::format("#{}", name)), seriesText(of.series[s])}};
             for (std::size_t c = 0; c < criterionCount; ++c) {
                 const ValidRange& range = of.valid_ranges[c][s];
                 const bool whole = range.at_original && !range.up.broken && !range.down.broken;
-                out += fmt::format("<td{}>{}</td>", whole ? "" : " class=\"broken\"",
-                                   markup(rangeInWords(range)));
+                row.cells.push_back(output::styled(rangeInWords(range), whole ? "" : "broken"));
             }
             std::optional<bool> agree;
             for (std::size_t c = 0; c < of.predicted.size(); ++c) {
-                out += fmt::format("<td title=\"{}\">{}</td>", markup(of.predicted[c][s].because),
-                                   markup(rangeInWords(of.predicted[c][s], of)));
+                const Predicted& predicted = of.predicted[c][s];
+                row.cells.push_back(output::styled(rangeInWords(predicted, of), "", predicted.because));
                 if (const auto one = agrees(of, c, s)) agree = agree.value_or(true) && *one;
             }
-            out += fmt::format("<td>{}</td></tr>\n", !agree ? "" : *agree ? "yes" : "no");
+            row.cells.emplace_back(!agree ? "" : *agree ? "yes" : "no");
+            table.rows.push_back(std::move(row));
         }
     }
-    return out + "</tbody></table></div>\n";
+    return table;
 }
 
-std::string stepsOf(const QuantityAudit& of) {
-    std::string out =
-        "<details><summary>Every step</summary><div class=\"scroll rows\"><table class=\"stack\">" +
-        headOf({"magnitude", "settings", "light", "depth", "FLIP", "misplaced", "NaN or infinite"}) +
-        "<tbody>";
+output::Table stepsOf(const QuantityAudit& of) {
+    output::Table table{{{"magnitude", Column::number},
+                         {"settings"},
+                         {"light", Column::number},
+                         {"depth", Column::number},
+                         {"FLIP", Column::number},
+                         {"misplaced", Column::number},
+                         {"NaN or infinite", Column::number}},
+                        {},
+                        true};
+    table.box = "scroll rows";
+    const auto countCell = [](std::uint64_t count) {
+        return output::sorted(static_cast<double>(count), std::to_string(count));
+    };
     for (const Step& step : of.steps)
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const Outcome& outcome = step.outcomes[s];
-            out += "<tr>" + page::numberCell(step.magnitude, magnitudeInWords(step.magnitude)) +
-                   fmt::format("<td>{}{}{}</td>", swatchOf(of.series[s]), markup(of.series[s].words()),
-                               outcome.failed.empty() ? "" : ": " + markup(outcome.failed));
-            for (const double value : {outcome.light, outcome.depth, outcome.flip})
-                out += page::numberCell(value, page::number(value));
-            for (const std::uint64_t count : {outcome.misplaced, outcome.nonfinite})
-                out += page::numberCell(static_cast<double>(count), std::to_string(count));
-            out += "</tr>\n";
+            table.rows.push_back(
+                {{output::sorted(step.magnitude, magnitudeInWords(step.magnitude)),
+                  seriesText(of.series[s], outcome.failed.empty() ? "" : ": " + outcome.failed),
+                  numberCell(outcome.light), numberCell(outcome.depth), numberCell(outcome.flip),
+                  countCell(outcome.misplaced), countCell(outcome.nonfinite)}});
         }
-    return out + "</tbody></table></div></details>";
+    return table;
 }
 
-std::string sectionOf(const QuantityAudit& of) {
+output::Box sectionOf(const QuantityAudit& of) {
     const Quantity& quantity = *of.quantity;
-    std::string out =
-        fmt::format("<div class=\"box\" id=\"{0}\"><h3>{0}</h3><p class=\"soft\">{1}; here {2} {3}</p>",
-                    quantity.name, markup(quantity.what), magnitudeInWords(of.original), quantity.unit);
-    out += auditPlot(of, PlotPlace::page);
+    output::Box box{
+        "box",
+        {Heading{3, quantity.name},
+         Paragraph{fmt::format("{}; here {} {}", quantity.what, magnitudeInWords(of.original), quantity.unit),
+                   "soft"},
+         output::Drawing{auditPlot(of, PlotPlace::page)}},
+        std::string(quantity.name)};
     std::vector<std::string> reasons;
     for (const std::vector<Predicted>& predicted : of.predicted)
         for (const Predicted& one : predicted)
             if (!one.because.empty() && std::ranges::count(reasons, one.because) == 0)
                 reasons.push_back(one.because);
     for (const std::string& reason : reasons)
-        out += fmt::format("<p class=\"soft small\">Predicted: {}</p>", markup(reason));
+        box.blocks.emplace_back(Paragraph{"Predicted: " + reason, "soft small"});
     for (const std::string& left : of.left_out)
-        out += fmt::format("<p class=\"soft small\">No series of its own: {}</p>", markup(left));
+        box.blocks.emplace_back(Paragraph{"No series of its own: " + left, "soft small"});
     for (const Failure& failure : of.failures)
-        out += fmt::format(
-            "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy"
-            "</button></p>",
-            markup(failure.words), markup(failure.command));
-    return out + stepsOf(of) + "</div>\n";
+        box.blocks.emplace_back(Paragraph{{failure.words, Span(failure.command, Span::command)}, "again"});
+    box.blocks.emplace_back(output::Box{"", {stepsOf(of)}, "", "Every step"});
+    return box;
 }
 
 }  // namespace
 
+output::Document pageOf(const Audited& audited, const std::string& title, const std::string& about,
+                        const std::vector<std::string>& files, std::optional<bool> passes) {
+    output::Document page{
+        .title = title + ", " + audited.scene,
+        .heading = Span(audited.scene, Span::name),
+        .about = {fmt::format("{}; {}x{} on {} ({}); ", about, audited.settings.size.width,
+                              audited.settings.size.height, audited.device.name, audited.device.driver),
+                  Span(audited.camera, Span::foreign)},
+        .blocks = {},
+        .files = files,
+        .style = plotStyle};
+    const char* const verdict = passes.value_or(true) ? "pass" : "fail";
+    if (passes) page.heading = {Span(verdict, Span::verdict, verdict), " ", Span(audited.scene, Span::name)};
+    return page;
+}
+
+void addNotes(output::Document& page, const std::vector<std::string>& notes) {
+    if (notes.empty()) return;
+    page.blocks.insert(page.blocks.end(),
+                       {Heading{3, "Notes", "part"}, output::List{{notes.begin(), notes.end()}, "box says"}});
+}
+
 std::string auditHtml(const Audit& audit, const std::vector<std::string>& files) {
-    const bool failed = std::ranges::any_of(audit.requirements, [](const Requirement& r) { return !r.met; });
-    std::string verdict;
-    if (!audit.requirements.empty())
-        verdict = fmt::format("<span class=\"verdict {0}\">{0}</span> ", failed ? "fail" : "pass");
-    std::string out = fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: an audit, "
-        "{}</title>\n<style>{}{}{}</style></head>\n<body>\n<header><p "
-        "class=\"brand\">Diptych</p><h1>{}{}</h1><p class=\"soft\">where each path breaks, varying one "
-        "quantity at a time; {}x{} on {} ({}); {}</p></header>\n",
-        markup(audit.scene), page::style, plotStyle, auditStyle, verdict, page::breakable(audit.scene),
-        audit.settings.size.width, audit.settings.size.height, markup(audit.device.name),
-        markup(audit.device.driver), page::isolated(audit.camera));
-    if (!audit.requirements.empty()) {
-        out += "<div class=\"box says\"><ul>";
-        for (const Requirement& requirement : audit.requirements)
-            out += "<li>" + markup(inWords(requirement)) + "</li>";
-        out += "</ul></div>\n";
+    std::optional<bool> passes;
+    output::List requirements{{}, "box says"};
+    for (const Requirement& requirement : audit.requirements) {
+        passes = passes.value_or(true) && requirement.met;
+        requirements.items.emplace_back(inWords(requirement));
     }
-    out += "<h2>Range in which each path holds</h2>\n" + tableOf(audit);
-    out +=
-        "<p class=\"soft small\">The error is the larger of two 99th percentiles over the pixels that show a "
-        "surface: of lit against a double-precision reference that shades the surfaces forward+ captures, "
-        "and of view depth against rays traced in double precision. Predictions say how far float32 and "
-        "double should hold if Settings add no other rounding. A prediction agrees with a measurement within "
-        "a factor of 2.</p>\n<h2>Error by magnitude</h2>\n<div class=\"audit\">";
-    for (const QuantityAudit& of : audit.quantities)
-        if (of.lacks.empty()) out += sectionOf(of);
-    out += "</div>\n";
+    output::Document page =
+        pageOf(audit, "an audit", "where each path breaks, varying one quantity at a time", files, passes);
+    output::Box sections{"audit", {}};
     std::vector<std::string> notes = audit.notes;
     if (!audit.to_come.empty())
         notes.push_back(fmt::format("still being measured: {}", fmt::join(audit.to_come, ", ")));
     for (const QuantityAudit& of : audit.quantities)
-        if (!of.lacks.empty())
+        if (of.lacks.empty())
+            sections.blocks.emplace_back(sectionOf(of));
+        else
             notes.push_back(fmt::format("{} was not varied: {}", of.quantity->name, of.lacks));
-    if (!notes.empty()) {
-        out += "<h3 class=\"part\">Notes</h3><div class=\"box says\"><ul>";
-        for (const std::string& note : notes) out += "<li>" + markup(note) + "</li>";
-        out += "</ul></div>\n";
-    }
-    out += "<footer><p>";
-    for (const std::string& file : files) out += fmt::format("<a href=\"{0}\">{0}</a> ", file);
-    return out + fmt::format("</p></footer><script>{}{}{}</script>\n</body></html>\n", page::tables,
-                             page::copying, auditScript);
+    page.blocks = {
+        requirements,
+        Heading{2, "Range in which each path holds"},
+        tableOf(audit),
+        Paragraph{"The error is the larger of two 99th percentiles over the pixels that show a surface: of "
+                  "lit against a double-precision reference that shades the surfaces forward+ captures, and "
+                  "of view depth against rays traced in double precision. Predictions say how far float32 "
+                  "and double should hold if Settings add no other rounding. A prediction agrees with a "
+                  "measurement within a factor of 2.",
+                  "soft small"},
+        Heading{2, "Error by magnitude"},
+        sections};
+    addNotes(page, notes);
+    return inHtml(page);
 }
 
 }  // namespace diptych::audit

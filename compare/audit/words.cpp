@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/words.h"
 
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 #include "shared/text/counted.h"
 #include "shared/text/json.h"
 
@@ -233,8 +233,10 @@ Json toJson(const Audit& audit) {
 }
 
 std::string toCsv(const Audit& audit) {
-    std::string out = page::csvLine({"quantity", "magnitude", "unit", "path", "settings", "error", "light",
-                                     "depth", "flip", "misplaced", "nonfinite", "failed"});
+    output::Table table;
+    for (const char* title : {"quantity", "magnitude", "unit", "path", "settings", "error", "light", "depth",
+                              "flip", "misplaced", "nonfinite", "failed"})
+        table.columns.push_back({title});
     const auto digits = [](double value) { return fmt::format("{:.9g}", value); };
     for (const QuantityAudit& of : audit.quantities)
         for (const Step& step : of.steps)
@@ -243,14 +245,13 @@ std::string toCsv(const Audit& audit) {
                 std::vector<std::string> changes;
                 for (const Change& change : of.series[s].changes)
                     changes.push_back(fmt::format("{}={}", change.option, change.value));
-                out += page::csvLine({std::string(of.quantity->name), digits(step.magnitude),
-                                      std::string(of.quantity->unit), std::string(nameOf(of.series[s].path)),
-                                      fmt::format("{}", fmt::join(changes, " ")), digits(outcome.error()),
-                                      digits(outcome.light), digits(outcome.depth), digits(outcome.flip),
-                                      std::to_string(outcome.misplaced), std::to_string(outcome.nonfinite),
-                                      outcome.failed});
+                table.rows.push_back(
+                    {{of.quantity->name, digits(step.magnitude), of.quantity->unit, nameOf(of.series[s].path),
+                      fmt::format("{}", fmt::join(changes, " ")), digits(outcome.error()),
+                      digits(outcome.light), digits(outcome.depth), digits(outcome.flip),
+                      std::to_string(outcome.misplaced), std::to_string(outcome.nonfinite), outcome.failed}});
             }
-    return out;
+    return inCsv(table);
 }
 
 }  // namespace diptych::audit

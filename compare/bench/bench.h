@@ -4,6 +4,7 @@
 
 #include "compare/bench/cases.h"
 #include "compare/bench/kernels.h"
+#include "compare/output/document.h"
 #include "compare/plot/drawing.h"
 #include "compare/render/renderer.h"
 #include "shared/frame/frame.h"
@@ -65,11 +66,15 @@ std::string msText(double ms);
 // Distinct sizes, in order of the rows.
 std::vector<Size> sizesOf(const Bench& bench);
 
+std::string passesInWords(const BenchRow& row);  // "shade 1.2, resolve 0.1"; ms
+
+output::Table modeTable(const Bench& bench);  // a row for each of the benchmark's
+output::Table kernelTable(const KernelReport& kernels);
+
 // Terminal text. benchTable(): rows from `first` on, with a header if it is 0. benchEnd(): skips, kernels,
 // notes.
 std::string benchTable(const Bench& bench, std::size_t first);
 std::string benchEnd(const Bench& bench);
-std::string kernelTable(const KernelReport& kernels);
 
 // Whether any row uses drawsAnotherPicture().
 bool hasAnotherPicture(const Bench& bench);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/growth.h"
 
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -123,29 +123,30 @@ std::vector<std::string> growthInWords(const Bench& bench) {
 }
 
 std::string growthText(const Bench& bench) {
-    std::string out = fmt::format("{:<10}  {:>10}  {:<12}  {:>9}  {:>9}  {:>9}  {:>9}  passes, ms\n", "axis",
-                                  "value", "path", "ms", "min", "max", "MiB");
+    using output::Column;
+    output::Table table{{{"axis", Column::words, 10},
+                         {"value", Column::number, 10},
+                         {"path", Column::words, 12},
+                         {"ms", Column::number, 9},
+                         {"min", Column::number, 9},
+                         {"max", Column::number, 9},
+                         {"MiB", Column::number, 9},
+                         {"passes, ms", Column::prose}}};
     for (const GrowthLine& line : growthLines(bench))
-        for (const BenchRow* row : line.rows) {
-            std::string passes;
-            for (const PassTime& pass : row->passes)
-                passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
-            out +=
-                fmt::format("{:<10}  {:>10}  {:<12}  {:>9}  {:>9}  {:>9}  {:>9.1f}  {}\n", nameOf(line.axis),
-                            numberText(valueOf(*row)), nameOf(line.path), msText(row->time.median),
-                            msText(row->time.min), msText(row->time.max), memoryMib(*row), passes);
-        }
+        for (const BenchRow* row : line.rows)
+            table.rows.push_back({{nameOf(line.axis), numberText(valueOf(*row)), nameOf(line.path),
+                                   msText(row->time.median), msText(row->time.min), msText(row->time.max),
+                                   fmt::format("{:.1f}", memoryMib(*row)), passesInWords(*row)}});
+    std::string out = inText(table);
     for (const std::string& sentence : growthInWords(bench)) out += sentence + "\n";
     return out;
 }
 
-std::string growthHtml(const Bench& bench) {
-    std::string out;
+std::vector<output::Block> growthBlocks(const Bench& bench) {
     const std::vector<std::string> words = growthInWords(bench);
-    if (words.empty()) return out;
-    out += "<h2>How time and memory grow</h2>\n<div class=\"box says\"><ul>";
-    for (const std::string& sentence : words) out += fmt::format("<li>{}</li>", page::markup(sentence));
-    return out + "</ul></div>\n";
+    if (words.empty()) return {};
+    return {output::Heading{2, "How time and memory grow"},
+            output::List{{words.begin(), words.end()}, "box says"}};
 }
 
 nlohmann::ordered_json growthJson(const Bench& bench) {

@@ -40,7 +40,7 @@ double memoryMib(const BenchRow& row);
 std::vector<std::string> growthInWords(const Bench& bench);
 
 std::string growthText(const Bench& bench);
-std::string growthHtml(const Bench& bench);
+std::vector<output::Block> growthBlocks(const Bench& bench);  // of the page
 nlohmann::ordered_json growthJson(const Bench& bench);
 // Log-log panels of time and memory per axis, a line per path.
 std::string growthPlot(const Bench& bench, PlotPlace place);

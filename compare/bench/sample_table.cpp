@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/sample_table.h"
 
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -48,21 +48,19 @@ std::string columnName(int samples) {
     return counted(static_cast<std::uint64_t>(samples), "sample");
 }
 
-// Header, width and text of a column.
+// Header, width with the space before it, and text of a column.
 struct CellPart {
     const char* name;
-    int width;
+    std::size_t width;
     std::string (*text)(const BenchRow&);
 };
 const CellPart cellParts[] = {
-    {"ms (min to max)", 24, [](const BenchRow& row) { return timeInWords(row.time); }},
-    {"lighting ms", 11, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
-    {"MiB", 7,
+    {"ms (min to max)", 26, [](const BenchRow& row) { return timeInWords(row.time); }},
+    {"lighting ms", 13, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
+    {"MiB", 9,
      [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.bytes.picture_images)); }},
-    {"B/pixel", 7, [](const BenchRow& row) { return fmt::format("{}", row.bytes.gbuffer_per_pixel); }},
-    {"B/sample", 8, [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); }}};
-
-constexpr int nameWidth = 32;
+    {"B/pixel", 9, [](const BenchRow& row) { return fmt::format("{}", row.bytes.gbuffer_per_pixel); }},
+    {"B/sample", 10, [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); }}};
 
 }  // namespace
 
@@ -136,53 +134,45 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
     return lines;
 }
 
+namespace {
+
+output::Table outputOf(const SampleTable& table) {
+    output::Table out{
+        .columns = {{"", output::Column::words, 32}}, .style = "", .groups = {{"", 1}}, .gap = 0};
+    for (const int samples : table.columns) {
+        out.groups.emplace_back(columnName(samples), std::size(cellParts));
+        for (const CellPart& part : cellParts)
+            out.columns.push_back({part.name, output::Column::number, part.width});
+    }
+    for (const SampleTable::Line& line : table.lines) {
+        output::Row& cells = out.rows.emplace_back(output::Row{{line.name()}});
+        for (const BenchRow* const row : line.cells)
+            for (const CellPart& part : cellParts)
+                cells.cells.push_back(row ? output::Cell(part.text(*row)) : output::either("-", ""));
+    }
+    return out;
+}
+
+}  // namespace
+
 std::string sampleTablesText(const Bench& bench) {
     std::string out;
     for (const SampleTable& table : sampleTables(bench)) {
-        out += fmt::format("{}\n{:<{}}", title(table), "", nameWidth);
-        int width = 0;
-        for (const CellPart& part : cellParts) width += part.width + 2;
-        for (const int samples : table.columns) out += fmt::format("{:^{}}", columnName(samples), width);
-        out += fmt::format("\n{:<{}}", "", nameWidth);
-        for (std::size_t column = 0; column < table.columns.size(); ++column)
-            for (const CellPart& part : cellParts) out += fmt::format("{:>{}}", part.name, part.width + 2);
-        for (const SampleTable::Line& line : table.lines) {
-            out += fmt::format("\n{:<{}}", line.name(), nameWidth);
-            for (const BenchRow* const row : line.cells)
-                for (const CellPart& part : cellParts)
-                    out += fmt::format("{:>{}}", row ? part.text(*row) : "-", part.width + 2);
-        }
-        out += "\n";
+        out += title(table) + "\n" + inText(outputOf(table));
         for (const std::string& words : memoryInWords(table)) out += words + "\n";
     }
     return out;
 }
 
-std::string sampleTablesHtml(const Bench& bench) {
-    std::string out;
+std::vector<output::Block> sampleBlocks(const Bench& bench) {
+    std::vector<output::Block> blocks;
     for (const SampleTable& table : sampleTables(bench)) {
-        out += fmt::format(
-            "<h2>Samples per pixel: {}</h2>\n<div class=\"box scroll rows\"><table><thead><tr><th></th>",
-            page::markup(title(table)));
-        for (const int samples : table.columns)
-            out += fmt::format("<th class=\"n\" colspan=\"{}\">{}</th>", std::size(cellParts),
-                               columnName(samples));
-        out += "</tr><tr><th></th>";
-        for (std::size_t column = 0; column < table.columns.size(); ++column)
-            for (const CellPart& part : cellParts) out += fmt::format("<th class=\"n\">{}</th>", part.name);
-        out += "</tr></thead>\n<tbody>";
-        for (const SampleTable::Line& line : table.lines) {
-            out += fmt::format("<tr><td>{}</td>", page::markup(line.name()));
-            for (const BenchRow* const row : line.cells)
-                for (const CellPart& part : cellParts)
-                    out += fmt::format("<td class=\"n\">{}</td>", row ? page::markup(part.text(*row)) : "");
-            out += "</tr>\n";
-        }
-        out += "</tbody></table></div>\n";
+        blocks.emplace_back(output::Heading{2, "Samples per pixel: " + title(table)});
+        blocks.emplace_back(outputOf(table));
         for (const std::string& words : memoryInWords(table))
-            out += "<p class=\"soft\">" + page::markup(words) + "</p>\n";
+            blocks.emplace_back(output::Paragraph{words, "soft"});
     }
-    return out;
+    return blocks;
 }
 
 nlohmann::ordered_json sampleTablesJson(const Bench& bench) {

@@ -42,7 +42,7 @@ std::uint64_t bytesPerSample(const BenchRow& row);
 std::vector<std::string> memoryInWords(const SampleTable& table);
 
 std::string sampleTablesText(const Bench& bench);
-std::string sampleTablesHtml(const Bench& bench);
+std::vector<output::Block> sampleBlocks(const Bench& bench);  // of the page
 nlohmann::ordered_json sampleTablesJson(const Bench& bench);
 
 }  // namespace diptych::bench

@@ -1,51 +1,108 @@
 // SPDX-License-Identifier: MIT
-// Terminal text of a benchmark.
+// Tables of a benchmark, and its terminal text.
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
 #include "compare/bench/sample_table.h"
+#include "compare/output/writers.h"
+#include "compare/page/text.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace diptych::bench {
 
-std::string benchTable(const Bench& bench, std::size_t first) {
-    std::string out;
-    if (first == 0)
-        out = fmt::format("{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9}  {:>6}  passes, ms\n",
-                          "lights", "size", "path", "assign", "ms", "min", "max", "assign ms", "share");
-    for (std::size_t i = first; i < bench.rows.size(); ++i) {
-        const BenchRow& row = bench.rows[i];
-        std::string passes;
-        for (const PassTime& pass : row.passes)
-            passes += fmt::format("{}{} {:.3g}", passes.empty() ? "" : ", ", pass.name, pass.ms);
-        out += fmt::format(
-            "{:>8}  {:>9}  {:<12}  {:<12}  {:>8}  {:>8}  {:>8}  {:>9.3g}  {:>5.1f}%  {}\n",
-            row.counters.lights, fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-            nameOf(row.settings.path), assignLabel(row.settings.assign, row.parts), msText(row.time.median),
-            msText(row.time.min), msText(row.time.max), assignMs(row), 100 * assignShare(row), passes);
-    }
-    return out;
+using output::Column;
+
+namespace {
+
+// The row's notes that other rows lack.
+std::string ownNotes(const BenchRow& row, const std::vector<std::string>& common) {
+    std::vector<std::string> own;
+    for (const std::string& note : row.notes)
+        if (std::ranges::count(common, note) == 0) own.push_back(note);
+    return fmt::format("{}", fmt::join(own, "; "));
 }
 
-std::string kernelTable(const KernelReport& kernels) {
+// ", 1e+06 triangles" with --table growth.
+std::string grownTo(const BenchRow& row) {
+    return row.growth ? fmt::format(", {:.6g} {}", row.growth->value, nameOf(row.growth->axis)) : "";
+}
+
+}  // namespace
+
+std::string passesInWords(const BenchRow& row) {
+    std::string words;
+    for (const PassTime& pass : row.passes)
+        words += fmt::format("{}{} {:.3g}", words.empty() ? "" : ", ", pass.name, pass.ms);
+    return words;
+}
+
+output::Table modeTable(const Bench& bench) {
+    output::Table table{{{"lights", Column::number, 8},
+                         {"size", Column::number, 9},
+                         {"path", Column::words, 12},
+                         {"assign", Column::words, 12},
+                         {"ms", Column::number, 8},
+                         {"min", Column::number, 8},
+                         {"max", Column::number, 8},
+                         {"assign ms", Column::number, 9},
+                         {"share", Column::number, 6},
+                         {"memory", Column::number, 0, Column::page},
+                         {"passes, ms", Column::prose},
+                         {"notes", Column::prose, 0, Column::page}}};
+    const std::vector<std::string> common = commonNotes(bench);
+    for (const BenchRow& row : bench.rows) {
+        const double share = 100 * assignShare(row);
+        table.rows.push_back(
+            {{fmt::format("{}", row.counters.lights),
+              fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
+              std::string(nameOf(row.settings.path)) + grownTo(row),
+              assignLabel(row.settings.assign, row.parts), msText(row.time.median), msText(row.time.min),
+              msText(row.time.max), fmt::format("{:.3g}", assignMs(row)),
+              output::either(fmt::format("{:.1f}%", share), fmt::format("{:.1f} %", share)),
+              page::bytes(row.bytes.images + row.bytes.buffers), passesInWords(row), ownNotes(row, common)}});
+    }
+    return table;
+}
+
+output::Table kernelTable(const KernelReport& kernels) {
+    output::Table table{{{"kernel", Column::words, 44, Column::everywhere, "whole"},
+                         {"ns", Column::number, 6},
+                         {"ratio to CPU", Column::number, 15},
+                         {"goal", Column::number, 6}}};
+    const output::Cell none = output::either("-", "");
+    for (const KernelRow& row : kernels.rows)
+        table.rows.push_back({{row.name, fmt::format("{:.3f}", row.ns),
+                               row.ratio ? output::Cell(fmt::format("{:.2f}", *row.ratio)) : none,
+                               row.goal ? output::either(fmt::format("{:.1f}", *row.goal),
+                                                         fmt::format("at most {:.1f}", *row.goal))
+                                        : none}});
+    return table;
+}
+
+std::string benchTable(const Bench& bench, std::size_t first) {
+    return inText(modeTable(bench), first == 0 ? 0 : first + 1);
+}
+
+namespace {
+
+std::string kernelText(const KernelReport& kernels) {
     std::string out = fmt::format(
         "\none listed point light at one pixel: the difference between lists of {} and {} out of {} lights, "
-        "{}x{}, {}, {}\n{:<44}  {:>6}  {:>15}  {:>6}\n",
+        "{}x{}, {}, {}\n",
         kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
         counted(static_cast<std::uint64_t>(kernels.runs), "run"),
-        counted(static_cast<std::uint64_t>(kernels.threads), "thread"), "kernel", "ns", "ratio to CPU",
-        "goal");
-    for (const KernelRow& row : kernels.rows)
-        out += fmt::format("{:<44}  {:>6.3f}  {:>15}  {:>6}\n", row.name, row.ns,
-                           row.ratio ? fmt::format("{:.2f}", *row.ratio) : "-",
-                           row.goal ? fmt::format("{:.1f}", *row.goal) : "-");
+        counted(static_cast<std::uint64_t>(kernels.threads), "thread"));
+    out += inText(kernelTable(kernels));
     for (const std::string& note : kernels.notes) out += note + "\n";
     return out;
 }
+
+}  // namespace
 
 std::string benchEnd(const Bench& bench) {
     std::string out;
@@ -63,7 +120,7 @@ std::string benchEnd(const Bench& bench) {
                                counted(row.counters.lights, "light"),
                                counted(row.counters.unsorted.fragments, "blended fragment"),
                                counted(row.counters.unsorted.pixels, "pixel"));
-    if (bench.kernels) out += kernelTable(*bench.kernels);
+    if (bench.kernels) out += kernelText(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
     if (bench.options.table == BenchTable::growth) return out + growthText(bench);

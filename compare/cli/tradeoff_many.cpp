@@ -7,7 +7,7 @@
 #include "compare/files/listed_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
-#include "compare/page/page.h"
+#include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
@@ -36,7 +36,6 @@ namespace diptych::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using page::markup;
 
 // One scene's row on the page of all scenes.
 struct Swept {
@@ -79,47 +78,44 @@ Swept sweptIn(const fs::path& root, const shards::Item& item) {
 }
 
 std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>& errors) {
+    using output::Column;
+    using output::numberCell;
     std::vector<std::string> scenes;
     for (const Swept& one : all) scenes.push_back(one.scene);
     const std::string common = page::commonFolder(scenes);
-    std::string rows, failed;
-    for (const Swept& one : all)
-        rows += fmt::format(
-            "<tr><td class=\"wide\"><a href=\"{}index.html\" title=\"{}\">{}</a></td><td "
-            "class=\"n\">{}</td><td "
-            "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}</td><td class=\"wide soft\">{}</td></tr>\n",
-            markup(one.folder), markup(one.scene), markup(page::inFolder(one.scene, common)), one.rows,
-            one.front, page::number(one.fastest_ms), page::number(one.fastest_flip),
-            page::number(one.best_ms), page::number(one.best_flip), markup(one.device));
-    for (const SceneError& error : errors) failed += fmt::format("<li>{}</li>", markup(errorText(error)));
-    if (!failed.empty())
-        failed = "<section class=\"box failures\"><h4>Failures</h4><ul>" + failed + "</ul></section>\n";
-    return fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error of "
-        "{0}</title>\n<style>{1}</style></head>\n<body><header><p class=\"brand\">Diptych</p><h1>Time "
-        "against error of {0}</h1></header>\n{2}<section class=\"index\"><div class=\"box "
-        "scroll\"><table><thead><tr>{3}</tr></thead><tbody>{4}</tbody></table></div></section>\n<p "
-        "class=\"soft small\">Times were measured on the device in the row; times of different devices do "
-        "not compare.</p>\n<script>{5}sortable(document.querySelector('.index table'), "
-        "true);</script>\n</body></html>\n",
-        counted(all.size(), "scene"), page::style, failed,
-        [] {
-            std::string heads;
-            for (const auto& [name, number] : {std::pair{"scene", false},
-                                               {"rows", true},
-                                               {"on the front", true},
-                                               {"fastest, ms", true},
-                                               {"its FLIP", true},
-                                               {"most accurate, ms", true},
-                                               {"FLIP", true},
-                                               {"device", false}})
-                heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
-                                     number ? " class=\"n\"" : "", name);
-            return heads;
-        }(),
-        rows, page::tables);
+    output::Table table{.columns = {}, .sortable = true, .style = "", .box = "box scroll"};
+    const auto add = [&](Column column, const auto& cellOf) { addColumn(table, column, all, cellOf); };
+    const auto addNumber = [&](const char* title, const auto& of) {
+        add({title, Column::number}, [&](const Swept& one) { return numberCell(one.*of); });
+    };
+    const auto addCount = [&](const char* title, std::size_t Swept::*of) {
+        add({title, Column::number}, [&](const Swept& one) { return fmt::format("{}", one.*of); });
+    };
+    add({.title = "scene", .style = "wide"}, [&](const Swept& one) {
+        const output::Span link(page::inFolder(one.scene, common), output::Span::link,
+                                one.folder + "index.html");
+        return output::styled(link, "", one.scene);
+    });
+    addCount("rows", &Swept::rows);
+    addCount("on the front", &Swept::front);
+    addNumber("fastest, ms", &Swept::fastest_ms);
+    addNumber("its FLIP", &Swept::fastest_flip);
+    addNumber("most accurate, ms", &Swept::best_ms);
+    addNumber("FLIP", &Swept::best_flip);
+    add({.title = "device", .style = "wide soft"}, [](const Swept& one) { return one.device; });
+    const std::string of = counted(all.size(), "scene");
+    output::Document page{.title = "time against error of " + of,
+                          .heading = "Time against error of " + of,
+                          .about =
+                              "Times were measured on the device in the row; times of different devices "
+                              "do not compare.",
+                          .blocks = {}};
+    output::List failed;
+    for (const SceneError& error : errors) failed.items.emplace_back(errorText(error));
+    if (!errors.empty())
+        page.blocks.emplace_back(output::Box{"box failures", {output::Heading{4, "Failures"}, failed}});
+    page.blocks.emplace_back(output::Box{"index", {table}});
+    return inHtml(page);
 }
 
 // Writes the page and the manifest, and returns the manifest. Called first without scenes, which marks the

@@ -2,7 +2,7 @@
 #include "compare/explain/html.h"
 
 #include "compare/explain/pictures.h"
-#include "compare/page/page.h"
+#include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "shared/text/counted.h"
 
@@ -14,6 +14,7 @@
 
 namespace diptych {
 
+using output::Span;
 using page::markup;
 using page::number;
 
@@ -70,65 +71,73 @@ std::string partsOf(const Cause& cause, const auto& parts, const auto& nameOf) {
     return out;
 }
 
-std::string table(const Explanation& e) {
-    const bool sampled = std::ranges::any_of(e.causes, [](const Cause& c) { return c.interval > 0; });
-    const bool lights = std::ranges::any_of(e.causes, [](const Cause& c) { return !c.lights.empty(); });
-    std::string out = fmt::format(
-        "<div class=\"box scroll\"><table class=\"stack\"><thead><tr><th>cause</th><th "
-        "class=\"n\">share</th>{}<th class=\"n\">of FLIP</th><th class=\"n\">alone</th><th "
-        "class=\"n\">last</th><th class=\"n\">largest at</th><th class=\"n\">worst pixel</th><th "
-        "class=\"n\">there</th><th>materials</th>{}</tr></thead>\n<tbody>",
-        sampled ? "<th class=\"n\">95 % interval</th>" : "", lights ? "<th>lights</th>" : "");
-    for (std::size_t i = 0; i < e.causes.size(); ++i) {
-        const Cause& cause = e.causes[i];
-        out += fmt::format("<tr><td>{}{}</td>{}", swatch(i), markup(cause.name),
-                           page::numberCell(cause.share, percentOf(e, cause.share)));
-        if (sampled)
-            out += page::numberCell(cause.interval, fmt::format("{:.2f} %", 100 * e.shareOf(cause.interval)));
-        out += page::numberCell(cause.flip, fmt::format("{:.2f} %", 100 * e.shareOfFlip(cause.flip))) +
-               page::numberCell(cause.alone, percentOf(e, cause.alone)) +
-               page::numberCell(cause.last, percentOf(e, cause.last)) +
-               page::numberCell(dominatedShare(e, i), fmt::format("{:.1f} %", 100 * dominatedShare(e, i)));
-        out += fmt::format("<td class=\"n\">{},{}</td>{}<td class=\"whole\">{}</td>", cause.worst_x,
-                           cause.worst_y, page::numberCell(cause.worst, number(cause.worst)),
-                           markup(partsOf(cause, cause.materials, materialName)));
-        if (lights)
-            out +=
-                fmt::format("<td class=\"whole\">{}</td>", markup(partsOf(cause, cause.lights, lightName)));
-        out += "</tr>\n";
-    }
-    return out +
-           fmt::format(
-               "</tbody></table><p class=\"soft small\">Shares are Shapley values: the part of the "
-               "mean lit difference that swapping the cause removes, averaged over all orders of "
-               "swapping. Shares and the unexplained part add up to 100 %. Of FLIP: the same for the mean of "
-               "HDR-FLIP. Alone: only this cause is swapped; last: it is swapped after all others. Largest "
-               "at: share of the affected pixels where this cause is the largest. There: its share at "
-               "its worst pixel, W/(sr m^2).</p></div>\n");
+output::Table table(const Explanation& e) {
+    using output::Column;
+    output::Table table{
+        .columns = {},
+        .box = "box scroll",
+        .note =
+            "Shares are Shapley values: the part of the mean lit difference that swapping the cause "
+            "removes, averaged over all orders of swapping. Shares and the unexplained part add up to "
+            "100 %. Of FLIP: the same for the mean of HDR-FLIP. Alone: only this cause is swapped; last: "
+            "it is swapped after all others. Largest at: share of the affected pixels where this cause "
+            "is the largest. There: its share at its worst pixel, W/(sr m^2)."};
+    const auto add = [&](const char* title, Column::Kind kind, const auto& cellOf) {
+        addColumn(table, {title, kind}, e.causes, cellOf);
+    };
+    const auto addShare = [&](const char* title, double Cause::*share) {
+        add(title, Column::number,
+            [&](const Cause& cause) { return output::sorted(cause.*share, percentOf(e, cause.*share)); });
+    };
+    const auto placeOf = [&](const Cause& cause) {
+        return static_cast<std::size_t>(&cause - e.causes.data());
+    };
+    add("cause", Column::words, [&](const Cause& cause) {
+        return output::Text{Span(swatch(placeOf(cause)), Span::drawn), cause.name};
+    });
+    addShare("share", &Cause::share);
+    if (std::ranges::any_of(e.causes, [](const Cause& cause) { return cause.interval > 0; }))
+        addShare("95 % interval", &Cause::interval);
+    add("of FLIP", Column::number, [&](const Cause& cause) {
+        return output::sorted(cause.flip, fmt::format("{:.2f} %", 100 * e.shareOfFlip(cause.flip)));
+    });
+    addShare("alone", &Cause::alone);
+    addShare("last", &Cause::last);
+    add("largest at", Column::number, [&](const Cause& cause) {
+        const double share = dominatedShare(e, placeOf(cause));
+        return output::sorted(share, fmt::format("{:.1f} %", 100 * share));
+    });
+    add("worst pixel", Column::number,
+        [](const Cause& cause) { return fmt::format("{},{}", cause.worst_x, cause.worst_y); });
+    add("there", Column::number, [](const Cause& cause) { return output::numberCell(cause.worst); });
+    add("materials", Column::prose,
+        [](const Cause& cause) { return partsOf(cause, cause.materials, materialName); });
+    if (std::ranges::any_of(e.causes, [](const Cause& cause) { return !cause.lights.empty(); }))
+        add("lights", Column::prose,
+            [](const Cause& cause) { return partsOf(cause, cause.lights, lightName); });
+    return table;
 }
 
-std::string remarks(const Explanation& e, const ExplainedPictures& of) {
-    std::vector<std::string> lines;
-    for (const CausePair& pair : e.pairs) lines.push_back(pairLine(e, pair));
+output::List remarks(const Explanation& e, const ExplainedPictures& of) {
+    output::List list{{}, "box says"};
+    const auto add = [&](const std::string& line) {
+        if (!line.empty()) list.items.emplace_back(line);
+    };
+    for (const CausePair& pair : e.pairs) add(pairLine(e, pair));
     if (e.shareOf(e.unexplained) > worthUnexplained)
-        lines.emplace_back(
-            "With every cause swapped, lit still differs: the rest comes from something that no channel and "
+        add("With every cause swapped, lit still differs: the rest comes from something that no channel and "
             "no Setting describes");
     if (!e.without_effect.empty())
-        lines.push_back(
-            fmt::format("Differs without an effect on any pixel: {}", fmt::join(e.without_effect, ", ")));
-    if (const std::string line = reproductionLine(e, of); !line.empty()) lines.push_back(line);
-    if (const std::string line = lightsLine(e); !line.empty()) lines.push_back(line);
+        add(fmt::format("Differs without an effect on any pixel: {}", fmt::join(e.without_effect, ", ")));
+    add(reproductionLine(e, of));
+    add(lightsLine(e));
     if (e.nonfinite > 0)
-        lines.push_back(fmt::format("excluded: {} with NaN or infinity in one of the pictures",
-                                    counted(e.nonfinite, "pixel")));
-    lines.push_back(fmt::format("FLIP is {} on average, {} with all causes swapped; {} shaded from {}",
-                                number(e.flip), number(e.flip_unexplained),
-                                counted(static_cast<std::uint64_t>(e.subsets), "picture"),
-                                counted(static_cast<std::uint64_t>(e.frames), "rendered frame")));
-    std::string out = "<div class=\"box says\"><ul>";
-    for (const std::string& line : lines) out += "<li>" + markup(line) + "</li>";
-    return out + "</ul></div>\n";
+        add(fmt::format("excluded: {} with NaN or infinity in one of the pictures",
+                        counted(e.nonfinite, "pixel")));
+    add(fmt::format("FLIP is {} on average, {} with all causes swapped; {} shaded from {}", number(e.flip),
+                    number(e.flip_unexplained), counted(static_cast<std::uint64_t>(e.subsets), "picture"),
+                    counted(static_cast<std::uint64_t>(e.frames), "rendered frame")));
+    return list;
 }
 
 std::string shareMaps(const Explanation& e, const PictureSource& source) {
@@ -148,14 +157,6 @@ std::string shareMaps(const Explanation& e, const PictureSource& source) {
         number(topOfMaps(e)), out);
 }
 
-std::string commands(const ExplainedPictures& of) {
-    std::string out;
-    for (const ExplainedPictures::Command& command : of.commands)
-        out += fmt::format("<p class=\"again\">{} <code>{}</code></p>", markup(command.does),
-                           markup(command.line));
-    return out.empty() ? out : "<h2>Commands</h2>\n<div class=\"box\">" + out + "</div>\n";
-}
-
 std::string difference(const Explanation& e) {
     return fmt::format("{} W/(sr m^2) on average, FLIP {}", number(e.distance), number(e.flip));
 }
@@ -170,14 +171,14 @@ std::string explanationSection(const Explanation& e, const ExplainedPictures& of
         fmt::format("<h2>Why lit differs</h2>\n<p class=\"soft\">lit of {} differs from that of {} by {}</p>",
                     markup(of.test), markup(of.baseline), difference(e));
     if (e.causes.empty())
-        return out + "<p class=\"equal\">no cause: no difference has an effect on lit</p>" + remarks(e, of) +
-               "</section>\n";
+        return out + "<p class=\"equal\">no cause: no difference has an effect on lit</p>" +
+               inHtml(remarks(e, of)) + "</section>\n";
     const std::string map = figure(
         source(dominantFile), "the largest cause at each pixel",
         "The largest cause at each pixel; dark: the picture itself, where no cause reduces the difference");
     out += map.empty() ? "<div class=\"box\">" + legend(e) + "</div>"
                        : "<div class=\"box pictures\">" + map + legend(e) + "</div>";
-    return out + table(e) + remarks(e, of) + shareMaps(e, source) + "</section>\n";
+    return out + inHtml(table(e)) + inHtml(remarks(e, of)) + shareMaps(e, source) + "</section>\n";
 }
 
 std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, const std::string& device) {
@@ -190,17 +191,21 @@ std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, c
             differenceFile, "their difference",
             fmt::format("Difference: black 0, pale yellow {} W/(sr m^2), cyan beyond", number(topOfMaps(e))));
     pictures += "</div>\n";
-    return fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: why lit differs, "
-        "{0}</title>\n<style>{1}</style></head>\n<body>\n<header><p "
-        "class=\"brand\">Diptych</p><h1>{0}</h1><p class=\"soft\">{2} against {3}, {4}\u00d7{5}, on "
-        "{6}</p></header>\n{7}{8}{9}<footer><p><a "
-        "href=\"explain.json\">explain.json</a></p></footer><script>{10}</script>\n</body></html>\n",
-        markup(of.scene), page::style, page::isolated(of.test), page::isolated(of.baseline), e.dominant.width,
-        e.dominant.height, markup(device),
-        explanationSection(e, of, [](const std::string& name) { return name; }), pictures, commands(of),
-        page::tables);
+    output::Document page{
+        .title = "why lit differs, " + of.scene,
+        .heading = of.scene,
+        .about = {Span(of.test, Span::foreign), " against ", Span(of.baseline, Span::foreign),
+                  fmt::format(", {}\u00d7{}, on {}", e.dominant.width, e.dominant.height, device)},
+        .blocks = {output::Drawing{explanationSection(e, of, [](const std::string& name) { return name; }) +
+                                   pictures}},
+        .files = {"explain.json"}};
+    output::Box commands{"box", {}};
+    for (const ExplainedPictures::Command& command : of.commands)
+        commands.blocks.emplace_back(
+            output::Paragraph{{command.does + " ", Span(command.line, Span::command)}, "again"});
+    if (!of.commands.empty())
+        page.blocks.insert(page.blocks.end(), {output::Heading{2, "Commands"}, commands});
+    return inHtml(page);
 }
 
 }  // namespace diptych

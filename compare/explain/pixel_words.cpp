@@ -2,6 +2,7 @@
 #include "compare/explain/pixel_words.h"
 
 #include "compare/files/frame_json.h"
+#include "compare/output/writers.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
 #include "shared/text/json.h"
@@ -46,32 +47,12 @@ private:
     int digits_ = 6;
 };
 
-// Rows of cells in columns; the last cell of a row is not padded.
-class Columns {
-public:
-    void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-    std::size_t size() const { return rows_.size(); }
-    // Rows [first, last), with the column widths of all rows.
-    std::string text(std::size_t first, std::size_t last) const {
-        std::vector<std::size_t> widths;
-        for (const auto& row : rows_) {
-            widths.resize(std::max(widths.size(), row.size()));
-            for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-        }
-        std::string text;
-        for (const auto& row : std::span(rows_).subspan(first, last - first)) {
-            std::string line;
-            for (std::size_t i = 0; i < row.size(); ++i)
-                line += fmt::format("  {:<{}}", row[i], i + 1 == row.size() ? 0 : widths[i]);
-            line.erase(line.find_last_not_of(' ') + 1);
-            text += fmt::format("{}\n", line);
-        }
-        return text;
-    }
-
-private:
-    std::vector<std::vector<std::string>> rows_;
-};
+// Left-aligned columns with these heads.
+output::Table tableWith(const std::vector<std::string>& heads) {
+    output::Table table{.columns = {}, .indent = 2};
+    for (const std::string& head : heads) table.columns.push_back({head});
+    return table;
+}
 
 std::string toleranceText(const PixelStep& step) {
     if (!step.isCompared()) return "-";
@@ -83,7 +64,7 @@ std::string differenceText(double difference, bool differs) {
     return fmt::format("{:.3g}{}", difference, differs ? "" : " (rounding)");
 }
 
-std::vector<std::string> stepRow(const PixelStep& step) {
+output::Row stepRow(const PixelStep& step) {
     std::vector<std::span<const double>> values;
     for (const PixelValue* value : {&step.values[0], &step.values[1], &step.reference})
         values.emplace_back(*value);
@@ -97,13 +78,9 @@ std::vector<std::string> stepRow(const PixelStep& step) {
             step.tolerance.because);
     else if (step.beyond)
         because = fmt::format("FAIL: beyond tolerance: {}", step.tolerance.because);
-    return {std::string(step.mode->name),
-            digits(values[0]),
-            digits(values[1]),
-            digits(values[2]),
-            step.isCompared() ? differenceText(step.difference, step.differs) : "-",
-            toleranceText(step),
-            because};
+    return {{step.mode->name, digits(values[0]), digits(values[1]), digits(values[2]),
+             step.isCompared() ? differenceText(step.difference, step.differs) : "-", toleranceText(step),
+             because}};
 }
 
 std::string lightTitle(const PixelBreakdown& breakdown, std::size_t light) {
@@ -164,7 +141,7 @@ std::string lightWords(const PixelBreakdown& breakdown, const PixelTerm& term) {
     return words;
 }
 
-std::vector<std::string> termRow(const PixelBreakdown& breakdown, const PixelTerm& term) {
+output::Row termRow(const PixelBreakdown& breakdown, const PixelTerm& term) {
     std::vector<std::span<const double>> values{term.values[0], term.values[1]};
     if (term.reference) values.emplace_back(*term.reference);
     // The residual is computed here, so more digits would be meaningless.
@@ -174,12 +151,11 @@ std::vector<std::string> termRow(const PixelBreakdown& breakdown, const PixelTer
     if (term.uncertainty > 0)
         words +=
             fmt::format("{}uncertainty of the reference {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
-    return {titleOf(breakdown, term),
-            digits(values[0]),
-            digits(values[1]),
-            values.size() > 2 ? digits(values[2]) : "-",
-            derived ? "" : differenceText(term.difference, term.differs || term.kind == PixelTerm::Kind::sum),
-            words};
+    return {
+        {titleOf(breakdown, term), digits(values[0]), digits(values[1]),
+         values.size() > 2 ? digits(values[2]) : "-",
+         derived ? "" : differenceText(term.difference, term.differs || term.kind == PixelTerm::Kind::sum),
+         words}};
 }
 
 std::vector<std::size_t> listOf(const PixelBreakdown& breakdown, std::size_t side) {
@@ -213,16 +189,16 @@ std::string listWords(const PixelBreakdown& breakdown) {
 }
 
 std::string termsText(const PixelBreakdown& breakdown) {
-    Columns columns;
-    columns.add({"term, W/(sr m^2)", breakdown.names[0], breakdown.names[1], "reference", "difference", ""});
+    output::Table table = tableWith(
+        {"term, W/(sr m^2)", breakdown.names[0], breakdown.names[1], "reference", "difference", ""});
     std::vector<std::size_t> dark;
     for (const PixelTerm& term : breakdown.terms) {
         if (term.kind == PixelTerm::Kind::light && isNothing(term))
             dark.push_back(term.lights.front());
         else
-            columns.add(termRow(breakdown, term));
+            table.rows.push_back(termRow(breakdown, term));
     }
-    std::string text = columns.text(0, columns.size());
+    std::string text = inText(table);
     if (!dark.empty()) {
         std::ranges::sort(dark);
         text += fmt::format("no contribution in any of the three by {} rendered alone: {}\n",
@@ -336,23 +312,22 @@ std::string firstDifference(const PixelBreakdown& breakdown) {
 }
 
 std::string inWords(const PixelBreakdown& breakdown) {
-    Columns steps;
-    steps.add(
+    output::Table steps = tableWith(
         {"step", breakdown.names[0], breakdown.names[1], "reference", "difference", "tolerance", "because"});
-    std::size_t before = 1;  // rows before the lights
+    std::size_t before = 1;  // lines before the lights
     for (const PixelStep& step : breakdown.steps) {
         const int mode = step.mode->number;
         // In the background only lit and material_id have meaning.
         if (!breakdown.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id))
             continue;
-        steps.add(stepRow(step));
+        steps.rows.push_back(stepRow(step));
         before += !isAfterTerms(mode);
     }
-    std::string text = headline(breakdown) + steps.text(0, before);
+    std::string text = headline(breakdown) + inText(steps, 0, before);
     if (breakdown.shown)
         text += listWords(breakdown) + howTermsWereMade(breakdown) + termsText(breakdown) +
                 residualText(breakdown);
-    text += steps.text(before, steps.size());
+    text += inText(steps, before);
     std::vector<std::string_view> differing;
     for (const PixelStep& step : breakdown.steps)
         if (step.differs) differing.push_back(step.mode->name);

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The button beside a command line.
+// The button beside a command line, and that of a difference that may be accepted.
+addEventListener('click', event => {
+  const button = event.target.closest('button');
+  if (button?.dataset.do === 'copy') copy(button);
+  if (button?.dataset.do === 'accept') accept(button);
+});
+
 async function copy(button) {
   const code = button.parentElement.querySelector('code');
   // Without access to the clipboard, the user only has to press Ctrl+C.

@@ -92,9 +92,7 @@ addEventListener('click', event => {
   if (card && opened) remember(card);
   if (!button) return;
   if (button.dataset.show) card.show(button.dataset.show, button.dataset.show === 'wipe' ? 50 : undefined);
-  else if (button.dataset.do === 'copy') copy(button);
-  else if (button.dataset.do === 'accept') accept(button);
-  else if (button.dataset.do) actions[button.dataset.do](card);
+  else actions[button.dataset.do]?.(card);
 });
 
 // No animation starts by itself if the user prefers reduced motion.

@@ -140,3 +140,4 @@ function sortable(table, down) {
 }
 
 prepare(document);
+for (const table of document.querySelectorAll('table.sortable')) sortable(table, false);

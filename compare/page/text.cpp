@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace diptych::page {
@@ -90,26 +89,6 @@ const char* unitOf(const DebugMode& mode) {
 std::string cameraTitle(const Frame& frame) {
     if (!frame.camera.name.empty()) return frame.camera.name;
     return frame.settings.camera.empty() ? "default view" : frame.settings.camera;
-}
-
-std::string csvLine(const std::vector<std::string>& fields) {
-    std::string out;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (i > 0) out += ',';
-        if (fields[i].find_first_of(",\"\r\n") == std::string::npos) {
-            out += fields[i];
-            continue;
-        }
-        out += '"';
-        for (const char c : fields[i]) out += c == '"' ? "\"\"" : std::string(1, c);
-        out += '"';
-    }
-    return out + "\r\n";
-}
-
-std::string numberCell(double value, std::string_view text) {
-    return fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", std::isfinite(value) ? value : 1e300,
-                       markup(text));
 }
 
 }  // namespace diptych::page

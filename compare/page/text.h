@@ -35,13 +35,6 @@ std::string inFolder(std::string_view path, std::string_view folder);
 // Escapes a name and allows line breaks after its underscores.
 std::string breakable(std::string_view name);
 
-// A table cell with a number, shown as `text`. Tables sort by the number; infinity is last.
-std::string numberCell(double value, std::string_view text);
-
-// A line of comma-separated values, terminated (RFC 4180): fields with a comma, a quote or a line break
-// are quoted.
-std::string csvLine(const std::vector<std::string>& fields);
-
 // The camera's name, else --camera as given, else "default view".
 std::string cameraTitle(const Frame& frame);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/html.h"
 
+#include "compare/output/writers.h"
 #include "compare/page/page.h"
+#include "compare/report/channel_table.h"
 #include "compare/report/folders.h"
 #include "compare/report/policy.h"
 #include "compare/report/titles.h"
@@ -16,11 +18,9 @@
 
 namespace diptych {
 
-using page::breakable;
 using page::inFolder;
 using page::isolated;
 using page::markup;
-using page::number;
 
 namespace {
 
@@ -190,78 +190,6 @@ constexpr const char* legend =
     "class=\"soft\">Keys act on the card last under the pointer; arrows need a click in the "
     "picture.</p></details>\n";
 
-std::string usedText(const ChannelDiff& channel) {
-    if (channel.stats.different == 0) return "<span class=\"soft\">equal</span>";
-    if (!channel.rule.empty())
-        return fmt::format("<span class=\"soft wide\">{}</span>", markup(channel.rule));
-    const double share = std::min(usedShare(channel), 1.0);
-    return fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
-                       nameOf(channel.verdict), 100 * share);
-}
-
-// The deciding metric as measured, and its limit.
-std::string criterionCells(const ChannelDiff& channel) {
-    if (!channel.criterion)
-        return "<td class=\"soft by\">nothing</td><td class=\"n\"></td><td class=\"n\"></td>";
-    const Criterion& c = *channel.criterion;
-    return fmt::format("<td class=\"soft by\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>",
-                       markup(c.figure), number(c.measured), c.least ? "\u2265 " : "", number(c.limit));
-}
-
-// The deciding metric under the channel's name, for pages too narrow for its column.
-std::string judgedBelow(const ChannelDiff& channel) {
-    return channel.criterion
-               ? fmt::format("<span class=\"soft judged\">{}</span>", markup(channel.criterion->figure))
-               : std::string();
-}
-
-// For a failing channel: the fraction of pixels that fail, or that differ if the metric covers all pixels.
-std::string beyondText(const ChannelDiff& channel) {
-    if (channel.verdict != Verdict::fail || !channel.criterion || channel.criterion->pixels == 0) return {};
-    return fmt::format("<span class=\"beyond\">{} of the pixels{}</span>",
-                       percentText(channel.criterion->share), channel.criterion->differing ? " differ" : "");
-}
-
-// "angle, °": pixel error and unit of the channel's row.
-std::string metricAndUnit(const DebugMode& mode) {
-    const std::string unit = page::unitOf(mode);
-    return std::string(nameOf(mode.metric)) + (unit.empty() ? "" : ", " + unit);
-}
-
-std::string overview(const Comparison& comparison, const std::string& id) {
-    std::string out = fmt::format(
-        "<div class=\"box scroll\"><table class=\"overview\"><thead><tr><th>channel</th><th "
-        "class=\"optional\">metric</th><th class=\"n optional\">max</th><th class=\"n "
-        "optional\">mean</th><th class=\"n optional\">p99.9</th><th class=\"by\">judged by</th><th "
-        "class=\"n\">measured</th><th class=\"n\">limit</th><th "
-        "class=\"optional\">used</th><th>verdict</th></tr></thead>\n<tbody>");
-    for (const ChannelDiff* channel : failuresFirst(comparison)) {
-        const ChannelStats& s = channel->stats;
-        out += fmt::format("<tr><td><a href=\"#{}\">{}</a>{}</td><td class=\"optional soft\">{}</td>",
-                           cardId(id, *channel->mode), breakable(channel->mode->name), judgedBelow(*channel),
-                           metricAndUnit(*channel->mode));
-        if (!isCompared(channel->verdict))
-            out +=
-                "<td class=\"n optional\">\u2013</td><td class=\"n optional\">\u2013</td><td class=\"n "
-                "optional\">\u2013</td><td class=\"by\"></td><td class=\"n\">\u2013</td><td "
-                "class=\"n\">\u2013</td><td class=\"optional\"></td>";
-        else
-            out += fmt::format(
-                "<td class=\"n optional\">{}</td><td class=\"n optional\">{}</td><td class=\"n "
-                "optional\">{}</td>{}<td class=\"optional\">{}</td>",
-                number(s.max), number(s.mean), number(s.p999), criterionCells(*channel), usedText(*channel));
-        out += fmt::format("<td><span class=\"verdict {0}\">{0}</span>{1}</td></tr>\n",
-                           nameOf(channel->verdict), beyondText(*channel));
-    }
-    return out +
-           "</tbody></table><p class=\"soft small\">Measured and limit belong to the metric in the column "
-           "judged by. max: the largest error. p99.9: the 99.9th percentile of the error. Excess: the error "
-           "minus the reference's uncertainty and the G-buffer's quantization bound. Pixels unexplained: "
-           "pixels whose difference the G-buffer's encoding does not explain; the limit is 0. Used: measured "
-           "divided by the limit; for pixels unexplained, the largest error divided by its pixel's "
-           "bound.</p></div>\n";
-}
-
 std::string footer(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     const std::string several =
         report.comparisons.size() > 1 ? fmt::format("; {} files in all", layout.files().size()) : "";
@@ -293,7 +221,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
     return fmt::format("<section class=\"comparison\" id=\"s{}\"><h2>{}</h2>\n", layout.ids[index],
                        layout.part ? std::string(titleLater) : sectionTitle(report, layout, index)) +
            leadingCards(report, layout, index) + "<h2>Channels</h2>\n" +
-           overview(comparison, layout.ids[index]) +
+           inHtml(channelTable(comparison, layout.ids[index])) +
            (comparison.explained ? comparison.explained->html(layout.source(layout.cause_maps[index])) : "") +
            otherCards(report, layout, index) + checksSection(report, layout, index) +
            "<h2>What was compared</h2>\n" + frameTables(report, comparison) + exrLinks(layout, comparison) +
@@ -346,7 +274,7 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
         body += texts.section(layout.order[at]);
     body += "</div>\n" + laterSections(layout, texts) + checksLinks(report, layout) + notes(report, layout) +
             legend;
-    const std::string script = fmt::format("{}{}{}", page::tables, page::copying, page::script);
+    const std::string script = std::string(page::tables) + page::script;
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{}<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Diptych: "

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/output/writers.h"
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/text/json.h"
@@ -11,7 +12,6 @@
 
 namespace diptych {
 
-using page::breakable;
 using page::bytes;
 using page::markup;
 
@@ -97,21 +97,22 @@ std::string costs(const Frame& a, const Frame& b) {
 std::string settings(const Frame& a, const Frame& b) {
     using Json = nlohmann::ordered_json;
     const Json left = parseOrderedJson(toJson(a.settings)), right = parseOrderedJson(toJson(b.settings));
-    std::string out = fmt::format(
-        "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all; differences are "
-        "coloured</span></summary><div "
-        "class=\"scroll\"><table><tr><th></th><th>{}</th><th>{}</th></tr>",
-        markup(a.name), markup(b.name));
+    output::Table table{
+        .columns = {{""}, {.title = a.name, .style = "mono wide"}, {.title = b.name, .style = "mono wide"}},
+        .style = "",
+        .box = "scroll"};
+    const auto text = [](const Json& json) {
+        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
     for (const auto& [key, value] : left.items()) {
         const Json& other = right.at(key);
-        const auto text = [](const Json& json) {
-            return markup(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-        };
-        out += fmt::format(
-            "<tr{}><td>{}</td><td class=\"mono wide\">{}</td><td class=\"mono wide\">{}</td></tr>",
-            value == other ? "" : " class=\"differs\"", breakable(key), text(value), text(other));
+        table.rows.push_back({{output::Span(key, output::Span::name), text(value), text(other)},
+                              value == other ? "" : "differs"});
     }
-    return out + "</table></div></details>\n";
+    return "<details class=\"box settings\"><summary><b>Settings</b> <span class=\"soft\">all; differences "
+           "are "
+           "coloured</span></summary>" +
+           inHtml(table) + "</details>\n";
 }
 
 std::string camera(const Report& report, const Frame& frame) {

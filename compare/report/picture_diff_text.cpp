@@ -3,6 +3,7 @@
 #include "compare/report/picture_diff_text.h"
 
 #include "compare/files/our_files.h"
+#include "compare/output/writers.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
 #include "shared/text/json_text.h"
@@ -11,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,7 +22,6 @@ using page::number;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using TextRow = std::array<std::string, 9>;
 
 // JSON has no infinity, as in an identical pair's PSNR or an error against a NaN.
 Json finiteOrNull(double value) {
@@ -45,7 +44,7 @@ std::string wordOf(Level level) {
     return level == Level::fail ? "FAIL" : std::string(nameOf(level));
 }
 
-TextRow rowOf(const PictureChannelDiff& channel) {
+output::Row rowOf(const PictureChannelDiff& channel) {
     const Measurement& m = *channel.measurement;
     const Condition* bound = singleBound(channel);
     const auto shown = [&](const char* figure) {
@@ -54,15 +53,8 @@ TextRow rowOf(const PictureChannelDiff& channel) {
     };
     const std::string judged = bound ? bound->quantity.figure : "rule";
     const std::optional<double> value = bound ? m(bound->quantity) : std::nullopt;
-    return {channel.pair.name,
-            judged,
-            value ? number(*value) : "-",
-            bound ? number(bound->limit) : "-",
-            shown("max"),
-            shown("rmse"),
-            shown("psnr"),
-            shown("ssim"),
-            wordOf(channel.decision.level)};
+    return {{channel.pair.name, judged, value ? number(*value) : "-", bound ? number(bound->limit) : "-",
+             shown("max"), shown("rmse"), shown("psnr"), shown("ssim"), wordOf(channel.decision.level)}};
 }
 
 Json flipJson(const HdrFlipResult& flip, bool display) {
@@ -125,17 +117,12 @@ Json channelJson(const PictureChannelDiff& channel) {
 std::string pictureDiffTable(const PictureDiff& diff) {
     std::string out =
         fmt::format("{} against {}, {}x{}\n", diff.test, diff.reference, diff.width, diff.height);
-    std::vector<TextRow> rows{
-        {"channel", "figure", "value", "tolerance", "max", "rmse", "psnr", "ssim", "verdict"}};
-    for (const PictureChannelDiff* channel : failuresFirst(diff)) rows.push_back(rowOf(*channel));
-    std::array<std::size_t, 9> widths{};
-    for (const TextRow& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    for (const TextRow& row : rows) {
-        out += fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-        for (std::size_t i = 2; i + 1 < row.size(); ++i) out += fmt::format("  {:>{}}", row[i], widths[i]);
-        out += "  " + row.back() + "\n";
-    }
+    output::Table table{.columns = {{"channel"}, {"figure"}}, .indent = 2};
+    for (const char* title : {"value", "tolerance", "max", "rmse", "psnr", "ssim"})
+        table.columns.push_back({title, output::Column::number});
+    table.columns.push_back({"verdict"});
+    for (const PictureChannelDiff* channel : failuresFirst(diff)) table.rows.push_back(rowOf(*channel));
+    out += inText(table);
     std::string failed;
     for (const PictureChannelDiff* channel : failuresFirst(diff)) {
         if (channel->decision.level == Level::pass) continue;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Terminal output of a report.
+#include "compare/output/writers.h"
+#include "compare/report/channel_table.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
@@ -7,8 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <set>
 
 namespace diptych {
@@ -16,22 +16,6 @@ namespace diptych {
 using page::number;
 
 namespace {
-
-using TableRow = std::array<std::string, 9>;
-
-TableRow rowOf(const ChannelDiff& channel) {
-    const std::string verdict(channel.verdict == Verdict::fail ? "FAIL" : nameOf(channel.verdict));
-    const std::string name(channel.mode->name), metric(nameOf(channel.mode->metric));
-    if (!isCompared(channel.verdict)) return {name, metric, "-", "-", "-", "-", "-", "-", verdict};
-    const ChannelStats& s = channel.stats;
-    TableRow row{name, metric, number(s.max), number(s.mean), number(s.p999), "nothing", "-", "-", verdict};
-    if (const auto& c = channel.criterion) {
-        row[5] = c->figure;
-        row[6] = number(c->measured);
-        row[7] = fmt::format("{}{}", c->least ? ">= " : "", number(c->limit));
-    }
-    return row;
-}
 
 // How much the encoding explains, after a lit channel's criterion.
 std::string explainedLine(const ChannelDiff& channel) {
@@ -86,20 +70,7 @@ std::string comparisonTable(const Report& report, const Comparison& comparison) 
                        baseline.settings.size.width, baseline.settings.size.height,
                        pairTitle(report, comparison));
     out += frameLine(baseline) + frameLine(test);
-
-    std::vector<TableRow> rows{
-        {"channel", "metric", "max", "mean", "p99.9", "judged by", "measured", "limit", "verdict"}};
-    for (const ChannelDiff* channel : failuresFirst(comparison)) rows.push_back(rowOf(*channel));
-    std::array<std::size_t, 9> widths{};
-    for (const TableRow& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    for (const TableRow& row : rows) {
-        std::string line = fmt::format("  {:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-        for (std::size_t i = 2; i < 8; ++i)
-            line += i == 5 ? fmt::format("  {:<{}}", row[i], widths[i])
-                           : fmt::format("  {:>{}}", row[i], widths[i]);
-        out += line + "  " + row[8] + "\n";
-    }
+    out += inText(channelTable(comparison, ""));
     for (const ChannelDiff& channel : comparison.channels) out += explainedLine(channel);
     for (const auto& [figure, meaning] :
          {std::pair{"excess",

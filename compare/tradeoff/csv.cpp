@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace diptych::tradeoff {
 namespace {
 
-using page::csvLine;
-
 // All digits; infinity is "inf".
 std::string digits(double value) {
     return fmt::format("{}", value);
-}
-
-// Options that a sweep can vary. The path has its own column.
-std::vector<std::string> optionColumns() {
-    std::vector<std::string> options;
-    for (const Field& field : settingFields())
-        if (!field.sweep.empty() && field.option != "path") options.emplace_back(field.option);
-    return options;
 }
 
 std::vector<std::string> passNames(const Tradeoff& tradeoff) {
@@ -33,66 +23,66 @@ std::vector<std::string> passNames(const Tradeoff& tradeoff) {
     return names;
 }
 
-std::vector<std::string> head(const std::vector<std::string>& passes) {
-    std::vector<std::string> names{"row", "path"};
-    for (const std::string& option : optionColumns()) names.push_back(option);
-    for (const char* name : {"ms", "ms_min", "ms_max", "runs"}) names.emplace_back(name);
-    for (const ErrorFigure& figure : errorFigures)
-        for (const char* which : {"", "_min", "_max"}) names.push_back(std::string(figure.name) + which);
-    for (const ErrorFigure& figure : errorFigures) names.push_back("front_" + std::string(figure.name));
-    for (const ShadowFigure& figure : shadowFigures) names.push_back("shadow_" + std::string(figure.name));
-    for (const SampleFigure& figure : sampleFigures) names.push_back("samples_" + std::string(figure.name));
-    for (const char* name : {"image_bytes", "buffer_bytes", "gbuffer_bytes_per_pixel"})
-        names.emplace_back(name);
-    for (const std::string& pass : passes) names.push_back("ms: " + pass);
-    for (const char* name : {"warnings", "picture", "measure", "render", "compare"}) names.emplace_back(name);
-    return names;
-}
-
 }  // namespace
 
 std::string tradeoffCsv(const Tradeoff& tradeoff) {
-    const std::vector<std::string> passes = passNames(tradeoff);
-    std::array<std::vector<std::size_t>, errorFigures.size()> fronts;
-    for (std::size_t f = 0; f < fronts.size(); ++f) fronts[f] = frontOf(tradeoff, f);
-    std::string out = csvLine(head(passes));
-    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
-        const TradeoffRow& row = tradeoff.rows[i];
-        std::vector<std::string> fields{fmt::format("{}", i + 1), row.renderer.empty()
-                                                                      ? std::string(nameOf(row.settings.path))
-                                                                      : row.renderer};
-        for (const std::string& option : optionColumns())
-            fields.push_back(ignoredBecause(row.settings, option).empty() ? row.settings.valueOf(option)
-                                                                          : "");
-        const Spread time = timeOf(row);
-        for (const double ms : {time.value, time.low, time.high}) fields.push_back(digits(ms));
-        fields.push_back(fmt::format("{}", tradeoff.runs));
-        for (std::size_t f = 0; f < errorFigures.size(); ++f) {
-            const Spread error = errorOf(row, f);
-            for (const double value : {error.value, error.low, error.high}) fields.push_back(digits(value));
-        }
-        for (const auto& front : fronts) fields.emplace_back(std::ranges::count(front, i) > 0 ? "1" : "0");
-        const std::optional<ShadowErrors> shadow = shadowOf(row);
-        for (std::size_t f = 0; f < shadowFigures.size(); ++f)
-            fields.push_back(shadow ? digits((*shadow)[f]) : "");
-        const std::optional<SampleShares> samples = samplesOf(row);
-        for (std::size_t f = 0; f < sampleFigures.size(); ++f)
-            fields.push_back(samples ? digits((*samples)[f]) : "");
-        const FrameBytes bytes = bytesOf(row);
-        for (const std::uint64_t count : {bytes.images, bytes.buffers, bytes.gbuffer_per_pixel})
-            fields.push_back(fmt::format("{}", count));
-        const std::vector<PassTime> times = passesOf(row);
-        for (const std::string& pass : passes) {
+    output::Table table;
+    const auto add = [&](std::string_view before, std::string_view title, const auto& valueOf) {
+        addColumn(table, {fmt::format("{}{}", before, title)}, tradeoff.rows, valueOf);
+    };
+    using Row = TradeoffRow;
+    const auto placeOf = [&](const Row& row) {
+        return static_cast<std::size_t>(&row - tradeoff.rows.data());
+    };
+    add("", "row", [&](const Row& row) { return fmt::format("{}", placeOf(row) + 1); });
+    add("", "path", [](const Row& row) {
+        return row.renderer.empty() ? std::string(nameOf(row.settings.path)) : row.renderer;
+    });
+    // Options that a sweep can vary. The path has its own column.
+    for (const Field& field : settingFields())
+        if (!field.sweep.empty() && field.option != "path")
+            add("", field.option, [&](const Row& row) {
+                return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
+                                                                          : "";
+            });
+    using Part = std::pair<const char*, double Spread::*>;
+    const Part parts[] = {{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}};
+    for (const auto& [end, part] : parts)
+        add("ms", end, [&, of = part](const Row& row) { return digits(timeOf(row).*of); });
+    add("", "runs", [&](const Row&) { return fmt::format("{}", tradeoff.runs); });
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        for (const auto& [end, part] : parts)
+            add(errorFigures[f].name, end,
+                [f, of = part](const Row& row) { return digits(errorOf(row, f).*of); });
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        add("front_", errorFigures[f].name, [&, front = frontOf(tradeoff, f)](const Row& row) {
+            return std::ranges::count(front, placeOf(row)) > 0 ? "1" : "0";
+        });
+    const auto addFigures = [&](const char* before, const auto& figures, const auto& valuesOf) {
+        for (std::size_t f = 0; f < figures.size(); ++f)
+            add(before, figures[f].name, [&](const Row& row) {
+                const auto values = valuesOf(row);
+                return values ? digits((*values)[f]) : "";
+            });
+    };
+    addFigures("shadow_", shadowFigures, shadowOf);
+    addFigures("samples_", sampleFigures, samplesOf);
+    for (const auto& [name, bytes] : {std::pair{"image_bytes", &FrameBytes::images},
+                                      {"buffer_bytes", &FrameBytes::buffers},
+                                      {"gbuffer_bytes_per_pixel", &FrameBytes::gbuffer_per_pixel}})
+        add("", name, [of = bytes](const Row& row) { return fmt::format("{}", bytesOf(row).*of); });
+    for (const std::string& pass : passNames(tradeoff))
+        add("ms: ", pass, [&](const Row& row) {
+            const std::vector<PassTime> times = passesOf(row);
             const auto found = std::ranges::find(times, pass, &PassTime::name);
-            fields.push_back(found == times.end() ? "" : digits(found->ms));
-        }
-        std::string warnings;
-        for (const std::string& warning : row.warnings) warnings += (warnings.empty() ? "" : "; ") + warning;
-        fields.insert(fields.end(), {warnings, row.picture, measuringCommand(tradeoff, row),
-                                     renderingCommand(tradeoff, row), comparingCommand(tradeoff, row)});
-        out += csvLine(fields);
-    }
-    return out;
+            return found == times.end() ? "" : digits(found->ms);
+        });
+    add("", "warnings", [](const Row& row) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
+    add("", "picture", [](const Row& row) { return row.picture; });
+    add("", "measure", [&](const Row& row) { return measuringCommand(tradeoff, row); });
+    add("", "render", [&](const Row& row) { return renderingCommand(tradeoff, row); });
+    add("", "compare", [&](const Row& row) { return comparingCommand(tradeoff, row); });
+    return inCsv(table);
 }
 
 }  // namespace diptych::tradeoff

@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/figure_table.h"
 
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 namespace diptych::tradeoff {
 
-using page::bytes;
-using page::markup;
-using page::number;
+using output::bytesCell;
+using output::Cell;
+using output::Column;
+using output::millisecondsCell;
+using output::numberCell;
+using output::Span;
 
-std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::string_view option) {
-    const Settings& settings = tradeoff.rows[row].settings;
+namespace {
+
+Cell settingsCell(const TradeoffRow& row, const std::string& words) {
+    return output::Text{Span("", Span::swatch, nameOf(row.settings.path)), words};
+}
+
+std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, std::string_view option) {
     std::vector<Choice> choices = choicesOf(settings, tradeoff.given);
     const auto named = [&](const Choice& choice) { return choice.first == option; };
     if (std::ranges::none_of(choices, named))
@@ -22,54 +31,83 @@ std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::stri
     return inWords(choices);
 }
 
-std::string inText(const Tradeoff& tradeoff, const FigureTable& table) {
-    if (table.rows.empty()) return {};
-    std::string out = table.title + ":\n row        ms      memory";
-    for (const FigureColumn& column : table.columns) out += fmt::format("  {:>10}", column.title);
-    if (!table.last_title.empty()) out += fmt::format("  {:<12}", table.last_title);
-    out += "  settings\n";
-    for (const FigureRow& row : table.rows) {
-        const TradeoffRow& measured = tradeoff.rows[row.row];
-        out += fmt::format("{:>4}  {:>8.4g}  {:>10}", row.row + 1, timeOf(measured).value,
-                           bytes(memoryOf(measured)));
-        for (const double value : row.values) out += fmt::format("  {:>10}", number(value));
-        if (!table.last_title.empty()) out += fmt::format("  {:<12}", row.last);
-        out += fmt::format("  {}\n", row.settings);
-    }
-    return out;
+}  // namespace
+
+output::Table sweepHead() {
+    output::Table table{{{"row", Column::number, 4},
+                         {"settings", Column::prose},
+                         {"ms", Column::number, 8},
+                         {"min", Column::number, 8},
+                         {"max", Column::number, 8}}};
+    for (const auto& [figure, width] : {std::pair{0, 8}, {1, 13}, {2, 12}})
+        table.columns.push_back({std::string(errorFigures.at(static_cast<std::size_t>(figure)).title),
+                                 Column::number, static_cast<std::size_t>(width)});
+    table.columns.insert(table.columns.end(), {{"memory", Column::number, 10},
+                                               {"front", Column::words, 0, Column::page},
+                                               {"command", Column::prose, 0, Column::page}});
+    table.sortable = true;
+    return table;
 }
 
-std::string inHtml(const Tradeoff& tradeoff, const FigureTable& table) {
-    if (table.rows.empty()) return {};
-    std::string out = fmt::format(
-        "<h2>{}</h2>\n<p class=\"soft\">{}</p><div class=\"box scroll rows\"><table "
-        "class=\"stack\"><thead><tr>",
-        markup(table.title), markup(table.explanation));
-    const auto head = [&](std::string_view title, std::string_view means, bool isNumber) {
-        out += fmt::format("<th{}{}><button type=\"button\">{}</button></th>", isNumber ? " class=\"n\"" : "",
-                           means.empty() ? "" : fmt::format(" title=\"{}\"", markup(std::string(means))),
-                           markup(std::string(title)));
-    };
-    head("row", {}, false);
-    head("settings", {}, false);
-    head("ms", "median time of a whole frame", true);
-    head("memory", "images and buffers of a frame", true);
-    for (const FigureColumn& column : table.columns) head(column.title, column.means, true);
-    if (!table.last_title.empty()) head(table.last_title, {}, false);
-    out += "</tr></thead>\n<tbody>";
-    for (const FigureRow& row : table.rows) {
-        const TradeoffRow& measured = tradeoff.rows[row.row];
-        out += fmt::format(
-            "<tr data-row=\"{0}\"><td>{0}</td><td class=\"whole\"><i class=\"swatch {1}\"></i>{2}</td>",
-            row.row + 1, nameOf(measured.settings.path), markup(row.settings));
-        const double ms = timeOf(measured).value;
-        out += page::numberCell(ms, fmt::format("{:.4g}", ms));
-        out += page::numberCell(static_cast<double>(memoryOf(measured)), bytes(memoryOf(measured)));
-        for (const double value : row.values) out += page::numberCell(value, number(value));
-        if (!table.last_title.empty()) out += fmt::format("<td>{}</td>", markup(row.last));
-        out += "</tr>\n";
+output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    const Spread time = timeOf(row);
+    output::Row cells{{fmt::format("{}", index + 1), settingsCell(row, inWords(row, tradeoff.given)),
+                       millisecondsCell(time.value), millisecondsCell(time.low), millisecondsCell(time.high)},
+                      "",
+                      index + 1};
+    std::vector<std::string_view> on;
+    for (std::size_t f = 0; f < errorFigures.size(); ++f) {
+        cells.cells.push_back(numberCell(row.errors[f]));
+        if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
     }
-    return out + "</tbody></table></div>\n";
+    cells.cells.insert(cells.cells.end(), {bytesCell(memoryOf(row)), fmt::format("{}", fmt::join(on, ", ")),
+                                           Span(measuringCommand(tradeoff, row), Span::command)});
+    return cells;
+}
+
+output::Table sweepTable(const Tradeoff& tradeoff) {
+    output::Table table = sweepHead();
+    Fronts fronts;
+    for (std::size_t f = 0; f < fronts.size(); ++f) fronts[f] = frontOf(tradeoff, f);
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        table.rows.push_back(sweepRow(tradeoff, i, fronts));
+    return table;
+}
+
+output::Table figureHead() {
+    return {
+        .columns = {{"row", Column::number, 4},
+                    {"settings", Column::prose},
+                    {"ms", Column::number, 8, Column::everywhere, "", "median time of a whole frame"},
+                    {"memory", Column::number, 10, Column::everywhere, "", "images and buffers of a frame"}},
+        .sortable = true};
+}
+
+void addFigure(FigureTable& table, std::string_view title, std::string_view means) {
+    table.table.columns.push_back(
+        {std::string(title), Column::number, 10, Column::everywhere, "", std::string(means)});
+}
+
+output::Row figureRow(const Tradeoff& tradeoff, std::size_t index, std::string_view option,
+                      std::span<const double> figures) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    output::Row cells{
+        {fmt::format("{}", index + 1), settingsCell(row, settingsInWords(tradeoff, row.settings, option)),
+         millisecondsCell(timeOf(row).value), bytesCell(memoryOf(row))},
+        "",
+        index + 1};
+    for (const double value : figures) cells.cells.push_back(numberCell(value));
+    return cells;
+}
+
+std::string inText(const FigureTable& table) {
+    return table.table.rows.empty() ? "" : table.title + ":\n" + inText(table.table);
+}
+
+std::vector<output::Block> blocksOf(const FigureTable& table) {
+    if (table.table.rows.empty()) return {};
+    return {output::Heading{2, table.title}, output::Paragraph{table.explanation, "soft"}, table.table};
 }
 
 }  // namespace diptych::tradeoff

@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: MIT
-// A table of selected rows of a sweep with their own metrics, below the main table.
+// Tables of a sweep's rows: all of them, and selected ones with their own metrics.
 #pragma once
 
+#include "compare/output/document.h"
 #include "compare/tradeoff/tradeoff.h"
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace diptych::tradeoff {
 
-struct FigureColumn {
-    std::string_view title, means;
-};
-
-struct FigureRow {
-    std::size_t row = 0;         // index in the sweep
-    std::string settings;        // as text
-    std::vector<double> values;  // one per column
-    std::string last{};          // cell of FigureTable::last_title
-};
+// Every row. The terminal's columns have fixed widths.
+output::Table sweepTable(const Tradeoff& tradeoff);
+output::Table sweepHead();
+// Rows on the front of time and each error.
+using Fronts = std::array<std::vector<std::size_t>, errorFigures.size()>;
+output::Row sweepRow(const Tradeoff& tradeoff, std::size_t row, const Fronts& fronts);
+inline constexpr std::size_t settingsColumn = 1;
 
 struct FigureTable {
     std::string title, explanation;  // one or two sentences, for the page
-    std::vector<FigureColumn> columns;
-    std::vector<FigureRow> rows;
-    std::string last_title{};  // title of a text column; empty: no such column
+    output::Table table;
 };
 
-// A row's Settings as text. Always includes `option`, even at its given value.
-std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::string_view option);
+// Row, settings, time and memory; followed by addFigure() and the caller's columns.
+output::Table figureHead();
+void addFigure(FigureTable& table, std::string_view title, std::string_view means);
+// Its first cells. The row's Settings include `option`, even at its given value.
+output::Row figureRow(const Tradeoff& tradeoff, std::size_t row, std::string_view option,
+                      std::span<const double> figures);
 
-// For a terminal, and for the page. Includes each row's time and memory. Empty without rows.
-std::string inText(const Tradeoff& tradeoff, const FigureTable& table);
-std::string inHtml(const Tradeoff& tradeoff, const FigureTable& table);
+// Empty without rows.
+std::string inText(const FigureTable& table);
+std::vector<output::Block> blocksOf(const FigureTable& table);
 
 }  // namespace diptych::tradeoff

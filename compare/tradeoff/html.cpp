@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/html.h"
 
-#include "compare/page/page.h"
+#include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
@@ -17,6 +17,8 @@
 
 namespace diptych::tradeoff {
 
+using output::Heading;
+using output::Span;
 using page::bytes;
 using page::markup;
 using page::number;
@@ -28,28 +30,13 @@ std::string hiddenUnless(bool shown) {
 }
 
 std::string again(const char* what, const std::string& command) {
-    return fmt::format(
-        "<p class=\"again\">{}<code>{}</code><button type=\"button\" data-do=\"copy\">copy</button></p>",
-        what, markup(command));
+    return inHtml(output::Paragraph{{what, Span(command, Span::command)}, "again"});
 }
 
 std::string spreadText(const Spread& spread) {
     return spread.low < spread.value || spread.high > spread.value
                ? fmt::format("{} ({} to {})", number(spread.value), number(spread.low), number(spread.high))
                : number(spread.value);
-}
-
-std::string header(const Tradeoff& tradeoff) {
-    const Size& size = tradeoff.given.size;
-    std::vector<std::string> cameras;
-    for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
-    return fmt::format(
-        "<header><p class=\"brand\">Diptych</p><h1>Time against error: {}</h1><p class=\"soft\">{} at {}x{} "
-        "on {} ({}), {} each; {}; errors of lit against the reference</p></header>\n",
-        page::isolated(tradeoff.scene), counted(tradeoff.rows.size(), "row"), size.width, size.height,
-        markup(tradeoff.device.name), markup(tradeoff.device.driver),
-        counted(static_cast<std::uint64_t>(tradeoff.runs), "timed frame"),
-        page::isolated(fmt::format("{}", fmt::join(cameras, "; "))));
 }
 
 std::string switches() {
@@ -122,90 +109,63 @@ std::string plots(const Tradeoff& tradeoff) {
     return out + "</div></div>\n";
 }
 
-std::string table(const Tradeoff& tradeoff) {
-    std::string out =
-        "<h2>Every row</h2>\n<div class=\"box scroll rows\" id=\"rows\"><table "
-        "class=\"stack\"><thead><tr><th><button type=\"button\">row</button></th><th><button "
-        "type=\"button\">settings</button></th>";
-    std::vector<std::string> heads{"ms", "min", "max"};
-    for (const ErrorFigure& figure : errorFigures) heads.emplace_back(figure.title);
-    heads.emplace_back("memory");
-    for (const std::string& head : heads)
-        out += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>", markup(head));
-    out +=
-        "<th><button type=\"button\">front</button></th><th><button "
-        "type=\"button\">command</button></th></tr></thead>\n<tbody>";
-    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
-        const TradeoffRow& row = tradeoff.rows[i];
-        const Spread time = timeOf(row);
-        out += fmt::format(
-            "<tr data-row=\"{0}\"><td>{0}</td><td class=\"whole\"><i class=\"swatch {1}\"></i>{2}</td>",
-            i + 1, nameOf(row.settings.path), markup(inWords(row, tradeoff.given)));
-        for (const double ms : {time.value, time.low, time.high})
-            out += page::numberCell(ms, fmt::format("{:.4g}", ms));
-        std::vector<std::string> fronts;
-        for (std::size_t f = 0; f < errorFigures.size(); ++f) {
-            out += page::numberCell(row.errors[f], number(row.errors[f]));
-            if (std::ranges::count(frontOf(tradeoff, f), i) > 0) fronts.emplace_back(errorFigures[f].title);
-        }
-        out += page::numberCell(static_cast<double>(memoryOf(row)), bytes(memoryOf(row)));
-        out += fmt::format(
-            "<td>{}</td><td class=\"whole\"><span class=\"again\"><code>{}</code><button type=\"button\" "
-            "data-do=\"copy\">copy</button></span></td></tr>\n",
-            markup(fmt::format("{}", fmt::join(fronts, ", "))), markup(measuringCommand(tradeoff, row)));
-    }
-    return out + "</tbody></table></div>\n";
-}
-
-std::string skips(const Tradeoff& tradeoff) {
-    if (tradeoff.skips.empty()) return {};
-    std::string out = "<h2>Not drawn, and why</h2>\n<div class=\"box skips\"><dl>";
+output::Terms skips(const Tradeoff& tradeoff) {
+    output::Terms terms{{}, "box skips"};
     for (const SkipGroup& group : groupsOf(tradeoff.skips))
-        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(group.reason),
-                           markup(fmt::format("{}", fmt::join(group.tried, ", "))));
-    return out + "</dl></div>\n";
+        terms.items.emplace_back(group.reason, fmt::format("{}", fmt::join(group.tried, ", ")));
+    return terms;
 }
 
-std::string how(const Tradeoff& tradeoff) {
+output::List how(const Tradeoff& tradeoff) {
     const char* const blocks =
         tradeoff.runs > 1
             ? "Each row is timed in several blocks: one when it is drawn, more in later rounds over all rows "
               "in random order, six rows interleaved. A temporary disturbance of the device thus affects all "
               "rows alike. A row's time is the mean of its blocks' medians"
             : "Each row has one timed frame";
-    std::string out =
-        "<h2>How it was measured</h2>\n<div class=\"box how\"><ul><li>Time is that of a whole frame, not "
-        "split into passes, from culling to linear lit, with the scene already uploaded. One uncounted frame "
-        "comes first. ";
-    out += blocks;
-    out +=
-        "; with several cameras, the mean over them. Pass times come from a separate, profiled "
-        "run.</li><li>Errors are those of linear lit over the pixels that show a surface in the reference: "
-        "the mean HDR-FLIP, and the root mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the "
-        "mean luminance). Pixels of all cameras count equally.</li><li>A row of another size is resized "
-        "bilinearly to the reference's size. A resized pixel is background if its nearest source pixel "
-        "is.</li>";
-    for (const std::string& line : howItWent(tradeoff)) out += "<li>" + markup(line) + "</li>";
-    for (const std::string& line : tradeoff.notes) out += "<li>" + markup(line) + "</li>";
-    out += "</ul></div>\n<footer><p>";
-    for (const char* file : {"tradeoff.json", "tradeoff.csv"})
-        out += fmt::format("<a href=\"{0}\">{0}</a> ", file);
-    for (std::size_t f = 0; f < errorFigures.size(); ++f)
-        out += fmt::format("<a href=\"{0}\">{0}</a> ", plotName(f, {}));
-    return out + "</p></footer>\n";
+    output::List list{
+        {fmt::format("Time is that of a whole frame, not split into passes, from culling to linear lit, with "
+                     "the scene already uploaded. One uncounted frame comes first. {}; with several cameras, "
+                     "the mean over them. Pass times come from a separate, profiled run.",
+                     blocks),
+         "Errors are those of linear lit over the pixels that show a surface in the reference: the mean "
+         "HDR-FLIP, and the root mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean "
+         "luminance). Pixels of all cameras count equally.",
+         "A row of another size is resized bilinearly to the reference's size. A resized pixel is background "
+         "if its nearest source pixel is."},
+        "box how"};
+    for (const std::vector<std::string>& lines : {howItWent(tradeoff), tradeoff.notes})
+        list.items.insert(list.items.end(), lines.begin(), lines.end());
+    return list;
 }
 
 }  // namespace
 
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
-    return fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error, "
-        "{}</title>\n<style>{}{}{}</style></head>\n<body>\n<a class=\"skip\" href=\"#rows\">Skip to the "
-        "table</a>{}{}{}{}{}{}{}<script>{}{}{}</script>\n</body></html>\n",
-        markup(tradeoff.scene), page::style, plotStyle, tradeoffStyle, header(tradeoff), switches(),
-        plots(tradeoff), table(tradeoff), shadowTableHtml(tradeoff) + inHtml(tradeoff, sampleTable(tradeoff)),
-        skips(tradeoff), how(tradeoff), page::tables, page::copying, tradeoffScript);
+    const Size& size = tradeoff.given.size;
+    std::vector<std::string> cameras;
+    for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
+    output::Document page{
+        .title = "time against error, " + tradeoff.scene,
+        .heading = {"Time against error: ", Span(tradeoff.scene, Span::foreign)},
+        .about = {fmt::format("{} at {}x{} on {} ({}), {} each; ", counted(tradeoff.rows.size(), "row"),
+                              size.width, size.height, tradeoff.device.name, tradeoff.device.driver,
+                              counted(static_cast<std::uint64_t>(tradeoff.runs), "timed frame")),
+                  Span(fmt::format("{}", fmt::join(cameras, "; ")), Span::foreign),
+                  "; errors of lit against the reference"},
+        .blocks = {output::Drawing{switches() + plots(tradeoff)},
+                   output::Box{"", {Heading{2, "Every row"}, sweepTable(tradeoff)}, "rows"}},
+        .files = {"tradeoff.json", "tradeoff.csv"},
+        .style = std::string(plotStyle) + tradeoffStyle,
+        .script = tradeoffScript,
+        .skip = "rows"};
+    for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));
+    for (const FigureTable& table : {shadowTable(tradeoff), sampleTable(tradeoff)})
+        for (output::Block& block : blocksOf(table)) page.blocks.push_back(std::move(block));
+    if (!tradeoff.skips.empty())
+        page.blocks.insert(page.blocks.end(), {Heading{2, "Not drawn, and why"}, skips(tradeoff)});
+    page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, how(tradeoff)});
+    return inHtml(page);
 }
 
 }  // namespace diptych::tradeoff

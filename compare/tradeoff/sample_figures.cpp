@@ -43,13 +43,11 @@ FigureTable sampleTable(const Tradeoff& tradeoff) {
                       "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
                       "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
                       "is that of all samples. The other modes are compared with exact.",
-                      {},
-                      {}};
-    for (const SampleFigure& figure : sampleFigures) table.columns.push_back({figure.title, figure.means});
+                      figureHead()};
+    for (const SampleFigure& figure : sampleFigures) addFigure(table, figure.title, figure.means);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (const std::optional<SampleShares> shares = samplesOf(tradeoff.rows[i]))
-            table.rows.push_back(
-                {i, settingsInWords(tradeoff, i, "msaa-edges"), {shares->begin(), shares->end()}});
+            table.table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", *shares));
     return table;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/shadow_rows.h"
 
-#include "compare/tradeoff/figure_table.h"
 #include "compare/tradeoff/pareto.h"
 
 #include <fmt/format.h>
@@ -29,24 +28,6 @@ std::string beatenIn(const ShadowRow& row) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-FigureTable tableOf(const Tradeoff& tradeoff) {
-    FigureTable table{
-        "Sun shadow, compared with traced rays",
-        "V: fraction of the sun a pixel sees; R: the same in the reference; E: irradiance of the unshadowed "
-        "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
-        "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
-        {},
-        {},
-        "dominated in"};
-    for (const ShadowFigure& figure : shadowFigures) table.columns.push_back({figure.title, figure.means});
-    for (const ShadowRow& row : shadowRowsOf(tradeoff))
-        table.rows.push_back({row.row,
-                              settingsInWords(tradeoff, row.row, "shadows"),
-                              {row.errors.begin(), row.errors.end()},
-                              beatenIn(row)});
-    return table;
-}
-
 }  // namespace
 
 std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
@@ -67,12 +48,21 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
     return rows;
 }
 
-std::string shadowTable(const Tradeoff& tradeoff) {
-    return inText(tradeoff, tableOf(tradeoff));
-}
-
-std::string shadowTableHtml(const Tradeoff& tradeoff) {
-    return inHtml(tradeoff, tableOf(tradeoff));
+FigureTable shadowTable(const Tradeoff& tradeoff) {
+    FigureTable table{
+        "Sun shadow, compared with traced rays",
+        "V: fraction of the sun a pixel sees; R: the same in the reference; E: irradiance of the unshadowed "
+        "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
+        "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
+        figureHead()};
+    for (const ShadowFigure& figure : shadowFigures) addFigure(table, figure.title, figure.means);
+    table.table.columns.push_back({"dominated in", output::Column::words, 12});
+    for (const ShadowRow& row : shadowRowsOf(tradeoff)) {
+        output::Row& cells =
+            table.table.rows.emplace_back(figureRow(tradeoff, row.row, "shadows", row.errors));
+        cells.cells.emplace_back(beatenIn(row));
+    }
+    return table;
 }
 
 }  // namespace diptych::tradeoff

@@ -2,7 +2,7 @@
 // Rows of a sweep with evaluated sun shadows, and whether others dominate them.
 #pragma once
 
-#include "compare/tradeoff/tradeoff.h"
+#include "compare/tradeoff/figure_table.h"
 
 namespace diptych::tradeoff {
 
@@ -19,9 +19,6 @@ struct ShadowRow {
 // shadows.
 std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff);
 
-// For a terminal; empty without such rows.
-std::string shadowTable(const Tradeoff& tradeoff);
-// For the page; empty without such rows.
-std::string shadowTableHtml(const Tradeoff& tradeoff);
+FigureTable shadowTable(const Tradeoff& tradeoff);
 
 }  // namespace diptych::tradeoff

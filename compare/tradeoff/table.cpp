@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Terminal text of a sweep.
-#include "compare/page/text.h"
+#include "compare/output/writers.h"
+#include "compare/tradeoff/figure_table.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/tradeoff/shadow_rows.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -9,78 +10,51 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 namespace diptych::tradeoff {
 
-using page::bytes;
-using page::number;
+using output::Column;
 
 namespace {
 
-// A numeric column: title, width, and priority. Columns with the largest `left_out` are dropped first if
-// the terminal is narrow; 0 is never dropped.
-struct Number {
-    std::string_view title;
-    std::size_t width;
-    int left_out;
-};
-constexpr std::array numbers{
-    Number{"row", 4, 0},
-    Number{"ms", 8, 0},
-    Number{"min", 8, 4},
-    Number{"max", 8, 5},
-    Number{errorFigures[0].title, 8, 0},
-    Number{errorFigures[1].title, 13, 1},
-    Number{errorFigures[2].title, 12, 3},
-    Number{"memory", 10, 2},
-};
-constexpr std::size_t gap = 2, fewestWords = 24;
+// Columns that a narrow terminal lacks; the first are dropped first.
+constexpr std::string_view leftOut[] = {"max", "min", errorFigures[2].title, "memory", errorFigures[1].title};
+constexpr std::size_t fewestWords = 24;
 
 }  // namespace
 
 TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
                              bool commands)
-    : words_(std::string_view("settings").size()), commands_(commands) {
+    : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
         words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
     std::size_t width = 0;
-    for (const Number& one : numbers) width += one.width + gap;
-    int left_out = 6;  // columns from this value on are dropped
-    while (columns > 0 && left_out > 1 && width + std::min(words_, fewestWords) > columns) {
-        --left_out;
-        for (const Number& one : numbers)
-            if (one.left_out == left_out) width -= one.width + gap;
+    for (const Column& column : head_.columns)
+        if (column.kind == Column::number) width += column.width + head_.gap;
+    for (const std::string_view title : leftOut) {
+        if (columns == 0 || width + std::min(words_, fewestWords) <= columns) break;
+        Column& column = *std::ranges::find(head_.columns, title, &Column::title);
+        column.where = Column::page;
+        width -= column.width + head_.gap;
     }
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (numbers.at(i).left_out < left_out) shown_.push_back(i);
     if (columns > 0) words_ = std::min(words_, std::max(columns - std::min(columns, width), fewestWords));
 }
 
-std::string TradeoffTable::joined(const std::vector<std::string>& cells, const std::string& words) const {
-    std::string line;
-    for (const std::size_t i : shown_)
-        line += fmt::format("{:>{}}{:{}}", cells.at(i), numbers.at(i).width, "", gap);
-    return line + (words.size() <= words_ ? words : words.substr(0, words_ - 3) + "...") + "\n";
-}
-
 std::string TradeoffTable::head() const {
-    std::vector<std::string> titles;
-    for (const Number& one : numbers) titles.emplace_back(one.title);
-    return joined(titles, "settings");
+    return inText(head_);
 }
 
 std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) const {
     const TradeoffRow& row = tradeoff.rows[index];
-    const Spread time = timeOf(row);
-    const auto ms = [](double value) { return fmt::format("{:.4g}", value); };
-    std::string line =
-        joined({fmt::format("{}", index + 1), ms(time.value), ms(time.low), ms(time.high),
-                number(row.errors[0]), number(row.errors[1]), number(row.errors[2]), bytes(memoryOf(row))},
-               inWords(row, tradeoff.given));
+    output::Table table = head_;
+    table.rows = {sweepRow(tradeoff, index, {})};
+    if (const std::string words = inWords(row, tradeoff.given); words.size() > words_)
+        table.rows[0].cells[settingsColumn] = words.substr(0, words_ - 3) + "...";
+    std::string line = inText(table, 1);
     if (commands_)
-        line += fmt::format("{:>{}}{}\n", "", numbers[0].width + gap, measuringCommand(tradeoff, row));
+        line += fmt::format("{:>{}}{}\n", "", table.columns[0].width + table.gap,
+                            measuringCommand(tradeoff, row));
     return line;
 }
 
@@ -114,8 +88,7 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
                                            : fmt::format("row{} {}", numbers.size() == 1 ? "" : "s",
                                                          fmt::join(numbers, ", ")));
     }
-    out += shadowTable(tradeoff);
-    out += inText(tradeoff, sampleTable(tradeoff));
+    out += inText(shadowTable(tradeoff)) + inText(sampleTable(tradeoff));
     if (driftOf(tradeoff))
         out +=
             "note: times above are from each row's first timing block; times in the files are from all its "

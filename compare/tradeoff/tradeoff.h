@@ -2,6 +2,7 @@
 // A complete sweep and its outputs.
 #pragma once
 
+#include "compare/output/document.h"
 #include "compare/picture/picture.h"
 #include "compare/tradeoff/row.h"
 #include "compare/tradeoff/sweep.h"
@@ -67,10 +68,8 @@ public:
     std::string line(const Tradeoff& tradeoff, std::size_t row) const;
 
 private:
-    std::string joined(const std::vector<std::string>& cells, const std::string& words) const;
-
-    std::size_t words_ = 0;           // width of the Settings
-    std::vector<std::size_t> shown_;  // indices of shown numbers
+    output::Table head_;
+    std::size_t words_;  // width of the Settings
     bool commands_;
 };
 // Fronts, warnings, skips with reasons, notes, cost.

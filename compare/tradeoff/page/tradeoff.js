@@ -21,7 +21,6 @@ const rowOf = event => event.target.closest?.('.point[data-row], .rows tbody tr'
 addEventListener('pointerover', event => { if (event.target.closest?.('svg')) show(rowOf(event) ?? kept); });
 addEventListener('focusin', event => { if (event.target.matches('.point')) keep(rowOf(event)); });
 addEventListener('click', event => {
-  if (event.target.closest('button[data-do=copy]')) return copy(event.target.closest('button'));
   const row = rowOf(event);
   if (!row || event.target.closest('a, button, code')) return;
   keep(row);
@@ -46,5 +45,3 @@ function showError(button) {
 }
 for (const button of $$('[data-shows]')) button.addEventListener('click', () => showError(button));
 showError($$('[data-shows]').find(button => button.dataset.shows === choices.get('error')) ?? $('[data-shows]'));
-
-sortable($('.rows table'), false);

@@ -60,6 +60,7 @@ const std::vector<Module> modules = {
     {"compare/picture", 41},
     {"compare/page", 41},
     {"compare/plot", 42},
+    {"compare/output", 43},
     {"compare/render", 50},
     {"compare/checks", 51},
     {"compare/verdict", 60},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Savings and changes from deferred lighting's sample groups, per row of a sweep.
+#include "compare/output/writers.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "shared/contract/debug_mode.h"
 
@@ -52,7 +53,7 @@ TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
     Tradeoff tradeoff;
     tradeoff.given.path = Path::deferred;
     tradeoff.given.msaa = 4;
-    EXPECT_EQ(inText(tradeoff, sampleTable(tradeoff)), "");
+    EXPECT_EQ(inText(sampleTable(tradeoff)), "");
     for (const MsaaEdges edges : {MsaaEdges::exact, MsaaEdges::similar}) {
         TradeoffRow row;
         row.settings = tradeoff.given;
@@ -63,8 +64,7 @@ TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
         row.cameras = {camera};
         tradeoff.rows.push_back(row);
     }
-    const std::string text = inText(tradeoff, sampleTable(tradeoff)),
-                      html = inHtml(tradeoff, sampleTable(tradeoff));
+    const std::string text = inText(sampleTable(tradeoff)), html = inHtml(blocksOf(sampleTable(tradeoff)));
     EXPECT_NE(text.find("   2        12"), std::string::npos) << text;
     EXPECT_NE(text.find("1.25"), std::string::npos) << text;
     EXPECT_NE(text.find("msaa-edges similar"), std::string::npos) << text;

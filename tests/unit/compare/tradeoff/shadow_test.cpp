@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Errors of the sun's shadow, and the dominated rows of a sweep.
+#include "compare/output/writers.h"
 #include "compare/tradeoff/shadow_rows.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/contract/debug_mode.h"
@@ -112,7 +113,7 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 1, 2}));
     EXPECT_EQ(time, (std::vector{false, false, true, true}));
     EXPECT_EQ(memory, (std::vector{false, true, false, true}));
-    const std::string text = shadowTable(sweep), page = shadowTableHtml(sweep);
+    const std::string text = inText(shadowTable(sweep)), page = inHtml(blocksOf(shadowTable(sweep)));
     EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
     EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
     for (const ShadowFigure& figure : shadowFigures)
@@ -122,8 +123,8 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
 TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
     const Tradeoff alike = sweptRows({{0.1, 50, 400}, {0.1, 10, 100}});
     EXPECT_TRUE(shadowRowsOf(alike).empty());
-    EXPECT_EQ(shadowTable(alike), "");
-    EXPECT_EQ(shadowTableHtml(Tradeoff()), "");
+    EXPECT_EQ(inText(shadowTable(alike)), "");
+    EXPECT_TRUE(blocksOf(shadowTable(Tradeoff())).empty());
 }
 
 // A sweep over shadows is compared with the shadowed ground truth, whatever the given Settings.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Writers of tables and documents, one an output.
+#pragma once
+
+#include "compare/output/document.h"
+
+#include <cstddef>
+#include <string>
+
+namespace diptych::output {
+
+// Lines [first, last) of a table for a terminal; line 0 has the heads. Widths are those of all lines.
+std::string inText(const Table& table, std::size_t first = 0, std::size_t last = ~std::size_t{0});
+
+// RFC 4180: fields with a comma, a quote or a line break are quoted.
+std::string inCsv(const Table& table);
+
+// All texts are escaped.
+std::string inHtml(const Text& text);
+std::string inHtml(const Block& block);
+std::string inHtml(const std::vector<Block>& blocks);
+// A page without external resources, readable from file://.
+std::string inHtml(const Document& document);
+
+}  // namespace diptych::output

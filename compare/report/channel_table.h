@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "compare/output/document.h"
+#include "compare/verdict/comparison.h"
+
+#include <string>
+
+namespace diptych {
+
+// A comparison's channels, failures first, for a terminal and the page. `id`: from ReportLayout::ids.
+output::Table channelTable(const Comparison& comparison, const std::string& id);
+
+}  // namespace diptych
