@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/measure.h"
 
+#include "compare/experiment/errors.h"
+#include "compare/experiment/kept.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
-#include "compare/reference/key.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <future>
@@ -21,15 +23,13 @@
 
 namespace diptych::audit {
 
+using experiment::knownOrInfinite;
+
 namespace {
 
 constexpr auto litOf = static_cast<int>(gpu::DEBUG_lit), idsOf = static_cast<int>(gpu::DEBUG_material_id),
                depthOf = static_cast<int>(gpu::DEBUG_depth);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double knownOrInfinite(double value) {
-    return std::isfinite(value) ? value : infinity;
-}
 
 void multiply(Image& image, double factor) {
     for (float& value : image.data) value = static_cast<float>(value * factor);
@@ -232,11 +232,8 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 }
 
 std::string Measurer::fingerprint() {
-    reference::Key key;
     const Truth& truth = original(subject_.given.settings.size);
-    for (const Frame* frame : {&truth.lit, &truth.rays})
-        for (const auto& [mode, image] : frame->channels) key.addAll(image.data);
-    return fmt::format("{:016x}", key.value());
+    return experiment::fingerprint(std::array{&truth.lit, &truth.rays});
 }
 
 Step Measurer::measure(const Quantity& quantity, std::span<const Series> series, double magnitude) {

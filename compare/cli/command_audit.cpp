@@ -8,13 +8,10 @@
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
-#include "compare/files/checkpoint_folder.h"
-#include "compare/files/our_files.h"
+#include "compare/experiment/kept.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
-#include "compare/run/version.h"
 #include "shared/text/counted.h"
-#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -58,15 +55,6 @@ void checkAuditOptions(const Options& options) {
         throw std::runtime_error(
             "--msaa: audit compares one sample per pixel, like its reference; leave it out");
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
-}
-
-// Size and modification time of the scene file, which also detect changes outside the view. Null for a
-// built-in scene.
-Json fileFacts(const std::string& scene) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(scene, error);
-    if (error) return nullptr;
-    return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
 }
 
 // Temporary folder, removed by the destructor.
@@ -146,19 +134,11 @@ public:
     }
 
 private:
-    // Inputs of a step besides its magnitude and series. The ground truth's fingerprint identifies the
-    // scene's visible contents.
+    // Inputs of a step besides its magnitude and series.
     Json keyOf(audit::Measurer& measurer, const audit::Subject& subject) const {
-        return {{"schema", 1},
-                {"software", softwareName},
-                {"commit", commitName()},
-                {"scene", audit_.scene},
-                {"truth", measurer.fingerprint()},
-                {"lights", audit::lightsFileOf(subject.given)},
-                {"file", fileFacts(audit_.scene)},
-                {"settings", parseOrderedJson(toJson(settings_))},
-                {"device", audit_.device.name},
-                {"driver", audit_.device.driver}};
+        Json key = experiment::keyOf(audit_.scene, measurer.fingerprint(), settings_, audit_.device);
+        key["lights"] = audit::lightsFileOf(subject.given);
+        return key;
     }
 
     void measure(const audit::Quantity& quantity, const audit::Subject& subject, audit::Measurer& measurer,
@@ -210,14 +190,10 @@ private:
 
     static std::optional<audit::Step> keptStep(const CheckpointFolder& kept, const std::string& name,
                                                std::size_t series) {
-        const Json json = kept.find(name);
-        if (json.is_null()) return {};
-        try {
+        return experiment::findKept(kept, name, [&](const Json& json) {
             audit::Step step = audit::stepFromJson(json);
             return step.outcomes.size() == series ? std::optional(std::move(step)) : std::nullopt;
-        } catch (const std::exception&) {  // malformed: measure the step again
-            return {};
-        }
+        });
     }
 
     const Options& options_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/tradeoff_many.h"
+#include "compare/experiment/grid.h"
+#include "compare/experiment/kept.h"
+#include "compare/experiment/sensitivity.h"
 #include "compare/external/external_frame.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
@@ -10,10 +13,7 @@
 #include "compare/run/color.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
-#include "compare/run/version.h"
-#include "compare/tradeoff/grid.h"
 #include "compare/tradeoff/measure.h"
-#include "compare/tradeoff/sensitivity.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/contract/debug_mode.h"
@@ -33,6 +33,8 @@
 namespace diptych::cli {
 
 using namespace tradeoff;
+using experiment::ReferenceFrames;
+using experiment::SweepRows;
 
 namespace {
 
@@ -52,27 +54,17 @@ void checkTradeoffOptions(const Options& options) {
         throw std::runtime_error(*problem);
 }
 
-// Inputs of a row besides its Settings. The reference's fingerprint identifies the visible contents; the
-// file's size and time detect other changes.
+// Inputs of a row besides its Settings.
 Json keyOf(const Options& options, const Tradeoff& tradeoff, const ReferenceFrames& references) {
-    const std::string& scene = options.scenes.front();
-    std::error_code error;
-    Json file = nullptr;
-    if (const auto size = std::filesystem::file_size(scene, error); !error)
-        file = {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
-    return {{"schema", 1},
-            {"software", softwareName},
-            {"commit", commitName()},
-            {"scene", scene},
-            {"file", file},
-            {"truth", fingerprint(references)},
-            {"settings", parseOrderedJson(toJson(tradeoff.reference))},
-            {"cameras", options.cameras},
-            {"exposure", references.exposure.factor},
-            {"tonemap", references.exposure.tonemap},
-            {"runs", options.runs},
-            {"device", tradeoff.device.name},
-            {"driver", tradeoff.device.driver}};
+    std::vector<const Frame*> frames;
+    for (const Frame& frame : references.frames) frames.push_back(&frame);
+    Json key = experiment::keyOf(tradeoff.scene, experiment::fingerprint(frames), tradeoff.reference,
+                                 tradeoff.device);
+    key["cameras"] = options.cameras;
+    key["exposure"] = references.exposure.factor;
+    key["tonemap"] = references.exposure.tonemap;
+    key["runs"] = options.runs;
+    return key;
 }
 
 // Relative cost of a row, pixels, for the progress line.
@@ -101,11 +93,12 @@ public:
           progress_(progressOutput(options)),
           device_(deviceOptions(options)) {
         say(options, "on " + device_.info().name);
-        sweep_ = withoutRefused(std::move(sweep_), options.settings,
-                                [&](const Settings& row) { return drawingProblem(device_, row); });
+        sweep_ = experiment::withoutRefused(std::move(sweep_), options.settings, [&](const Settings& row) {
+            return drawingProblem(device_, row);
+        });
         tradeoff_.scene = options.scenes.front();
         tradeoff_.cameras = options.cameras;
-        tradeoff_.given = referenceFor(options.settings, sweep_.rows);
+        tradeoff_.given = experiment::referenceFor(options.settings, sweep_.rows);
         tradeoff_.reference = referenceSettings(tradeoff_.given);
         tradeoff_.device = reportDevice(device_);
         tradeoff_.runs = options.runs;
@@ -121,7 +114,8 @@ public:
         stage.at(loading, "upload");
         SceneViews views(scene);
         if (options_.grid.empty())
-            sweep_ = sensitiveRows(sweep_, views.at(viewRequest(options_.settings)).lights, &views.scene());
+            sweep_ = experiment::sensitiveRows(sweep_, views.at(viewRequest(options_.settings)).lights,
+                                               &views.scene());
         tradeoff_.skips = sweep_.skips;
         Renderer renderer(device_, views);
         tradeoff_.cost.reading = msSince(start_);
@@ -132,10 +126,11 @@ public:
         drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
             return references_.open(key, floats);
         };
-        const ReferenceFrames references = drawReferenceFrames(renderer, tradeoff_.given, options_.cameras,
-                                                               pictureChoice(options_), drawing);
+        const ReferenceFrames references = experiment::drawReferenceFrames(
+            renderer, tradeoff_.given, options_.cameras, pictureChoice(options_), drawing);
         tradeoff_.cost.reference = msSince(uploaded);
-        addNotes(tradeoff_.notes, references, sweep_.rows, views.at(viewRequest(options_.settings)).needs);
+        experiment::addNotes(tradeoff_.notes, references, sweep_.rows,
+                             views.at(viewRequest(options_.settings)).needs);
         SweepState state(folder_, keyOf(options_, tradeoff_, references));
         if (state.isRenewed())
             note(options_,
@@ -291,7 +286,8 @@ int runTradeoff(const Options& words) {
     checkTradeoffOptions(options);
     const Settings& given = options.settings;
     const SweepRows sweep =
-        makeSweepRows(given, options.grid.empty() ? defaultGrids(given) : readGrids(options.grid, given));
+        experiment::makeSweepRows(given, options.grid.empty() ? experiment::defaultGrids(given)
+                                                              : experiment::readGrids(options.grid, given));
     if (options.debug_given) note(options, "--debug is not used: errors are measured in lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are measured in lit");
     if (options.scenes.size() == 1 && options.shard.empty()) return Sweep(options, sweep).run();

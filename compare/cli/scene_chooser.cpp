@@ -3,14 +3,14 @@
 
 #include "compare/choose/table.h"
 #include "compare/cli/commands.h"
-#include "compare/cli/scene_evaluator.h"
 #include "compare/cli/scene_variations.h"
+#include "compare/experiment/evaluator.h"
+#include "compare/experiment/grid.h"
+#include "compare/experiment/sensitivity.h"
+#include "compare/experiment/sweep.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
 #include "compare/run/command_text.h"
-#include "compare/tradeoff/grid.h"
-#include "compare/tradeoff/sensitivity.h"
-#include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
 
 #include <fmt/format.h>
@@ -36,9 +36,9 @@ double secondsSince(Clock::time_point start) {
 
 std::size_t figureOf(const std::string& name) {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < tradeoff::errorFigures.size(); ++i) {
-        if (tradeoff::errorFigures[i].name == name) return i;
-        names.push_back(tradeoff::errorFigures[i].name);
+    for (std::size_t i = 0; i < experiment::errorFigures.size(); ++i) {
+        if (experiment::errorFigures[i].name == name) return i;
+        names.push_back(experiment::errorFigures[i].name);
     }
     throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
 }
@@ -47,27 +47,27 @@ std::size_t figureOf(const std::string& name) {
 std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
                                     const Scene& scene) {
     const Settings& given = options.settings;
-    tradeoff::SweepRows sweep =
-        tradeoff::makeSweepRows(given, options.grid.empty() ? tradeoff::defaultGrids(given)
-                                                            : tradeoff::readGrids(options.grid, given));
-    if (options.grid.empty()) sweep = tradeoff::sensitiveRows(sweep, view.lights, &scene);
-    sweep = tradeoff::withoutRefused(std::move(sweep), given,
-                                     [&](const Settings& row) { return drawingProblem(device, row); });
+    experiment::SweepRows sweep =
+        experiment::makeSweepRows(given, options.grid.empty() ? experiment::defaultGrids(given)
+                                                              : experiment::readGrids(options.grid, given));
+    if (options.grid.empty()) sweep = experiment::sensitiveRows(sweep, view.lights, &scene);
+    sweep = experiment::withoutRefused(std::move(sweep), given,
+                                       [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
     std::ranges::stable_sort(sweep.rows, {},
-                             [&](const Settings& row) { return tradeoff::choicesOf(row, given).size(); });
+                             [&](const Settings& row) { return experiment::choicesOf(row, given).size(); });
     return std::move(sweep.rows);
 }
 
 // Settings with further changes; empty if a sweep would not render them.
 std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
-    tradeoff::Grid grid;
-    for (const tradeoff::Choice& choice : tradeoff::choicesOf(of, given))
+    experiment::Grid grid;
+    for (const experiment::Choice& choice : experiment::choicesOf(of, given))
         if (std::ranges::count(changes, choice.first, &Change::option) == 0)
             grid.push_back({choice.first, {choice.second}});
     for (const Change& change : changes) grid.push_back({change.option, {change.value}});
     try {
-        const tradeoff::SweepRows sweep = tradeoff::makeSweepRows(given, {grid});
+        const experiment::SweepRows sweep = experiment::makeSweepRows(given, {grid});
         for (const Change& change : changes)
             if (sweep.rows.front().valueOf(change.option) != change.value) return {};
         return sweep.rows.front();
@@ -112,7 +112,7 @@ struct SceneChooser::LoadedScene {
     Scene scene;
     SceneViews views;
     Renderer renderer;
-    std::optional<SceneEvaluator> evaluator{};
+    std::optional<experiment::SceneEvaluator> evaluator{};
 };
 
 SceneChooser::SceneChooser(const Options& options)
@@ -157,20 +157,20 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.notes = loaded.scene.notes;
     report.given = given;
     report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
-    report.figure = tradeoff::errorFigures.at(figure_).title;
-    report.figure_name = tradeoff::errorFigures.at(figure_).name;
+    report.figure = experiment::errorFigures.at(figure_).title;
+    report.figure_name = experiment::errorFigures.at(figure_).name;
     report.device = reportDevice(device_);
 
-    const Settings truth = tradeoff::referenceFor(given, candidates);
+    const Settings truth = experiment::referenceFor(given, candidates);
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
-    const tradeoff::ReferenceFrames& references =
+    const experiment::ReferenceFrames& references =
         references_
-            .insert_or_assign(where, tradeoff::drawReferenceFrames(loaded.renderer, truth, cameras,
-                                                                   pictureChoice(options_), drawing, false))
+            .insert_or_assign(where, experiment::drawReferenceFrames(loaded.renderer, truth, cameras,
+                                                                     pictureChoice(options_), drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
-    tradeoff::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
+    experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
     loaded.evaluator.emplace(loaded.renderer, references, figure_, renderOptions(options_));
 
     SearchOptions search;
@@ -187,7 +187,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.choice = choose::search(tableOf(candidates), *loaded.evaluator, search);
 
     for (Candidate& candidate : report.choice.candidates) {
-        report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
+        report.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
         // Printed commands apply to all cameras, and maybe to other scenes.
         candidate.settings.camera = options_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
@@ -221,7 +221,7 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
     // Without blended pixels the candidates may differ in transparency settings. Equalize these, because
     // variations may add blending.
     std::array<Settings, 2> compared{chosen.settings, choice.candidates[*other].settings};
-    const tradeoff::ReferenceFrames& references = references_.at(report.scene);
+    const experiment::ReferenceFrames& references = references_.at(report.scene);
     if (std::ranges::all_of(references.frames,
                             [](const Frame& frame) { return frame.blended.pixels() == 0; }))
         for (const Field& field : settingFields())
@@ -245,9 +245,9 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
                                       const std::string& camera) {
     RenderOptions drawing = renderOptions(options_);
     drawing.progress = {};
-    const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
+    const experiment::ReferenceFrames references = experiment::drawReferenceFrames(
         loaded.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
-    SceneEvaluator evaluator(loaded.renderer, references, figure_, drawing);
+    experiment::SceneEvaluator evaluator(loaded.renderer, references, figure_, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = evaluator.judge(chosen.settings).error;
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
@@ -273,7 +273,7 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     Settings given = options_.settings;
     given.camera.clear();
     for (CommonCandidate& candidate : all.choice.candidates) {
-        all.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
+        all.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
         candidate.settings.camera = options_.settings.camera;
         all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
     }

@@ -5,8 +5,8 @@
 #include "compare/choose/common.h"
 #include "compare/choose/report.h"
 #include "compare/cli/options.h"
+#include "compare/experiment/references.h"
 #include "compare/run/progress.h"
-#include "compare/tradeoff/measure.h"
 #include "shared/vulkan/device.h"
 
 #include <map>
@@ -42,7 +42,7 @@ private:
     Progress progress_;
     Device device_;
     std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::string, tradeoff::ReferenceFrames> references_;  // key: scene
+    std::map<std::string, experiment::ReferenceFrames> references_;  // key: scene
     std::unique_ptr<LoadedScene> loaded_;
 };
 

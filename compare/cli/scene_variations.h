@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/choose/sensitivity.h"
+#include "compare/experiment/references.h"
 #include "compare/render/renderer.h"
-#include "compare/tradeoff/measure.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/scene_view.h"
@@ -20,7 +20,7 @@ struct VariedScene {
     std::shared_ptr<PipelineSet> pipelines;
     SceneViews& views;  // of the original scene
     Renderer& renderer;
-    const tradeoff::ReferenceFrames& references;
+    const experiment::ReferenceFrames& references;
     std::array<Settings, 2> settings;  // chosen path, other path
 };
 

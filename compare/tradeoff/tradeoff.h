@@ -2,9 +2,9 @@
 // A complete sweep and its outputs.
 #pragma once
 
+#include "compare/experiment/sweep.h"
 #include "compare/picture/picture.h"
 #include "compare/tradeoff/row.h"
-#include "compare/tradeoff/sweep.h"
 #include "compare/verdict/comparison.h"
 
 #include <filesystem>
@@ -12,6 +12,13 @@
 #include <vector>
 
 namespace diptych::tradeoff {
+
+using experiment::Choice;
+using experiment::choicesOf;
+using experiment::groupsOf;
+using experiment::inWords;
+using experiment::SkipGroup;
+using experiment::SweepSkip;
 
 // Wall-clock time of this run, ms; excludes rows of an earlier run.
 struct SweepCost {

@@ -63,6 +63,7 @@ const std::vector<Module> modules = {
     {"compare/render", 50},
     {"compare/checks", 51},
     {"compare/verdict", 60},
+    {"compare/experiment", 65},
     {"compare/report", 70},
     {"compare/explain", 70},
     {"compare/tradeoff", 70},

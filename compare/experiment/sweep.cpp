@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/sweep.h"
+#include "compare/experiment/sweep.h"
 
 #include "compare/verdict/baseline.h"
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 namespace {
 
 constexpr std::string_view each = "*";
@@ -222,4 +222,4 @@ Settings referenceFor(const Settings& given, const std::vector<Settings>& rows) 
     return truth;
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

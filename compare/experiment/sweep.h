@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 
 // An option, and a value in the words of Settings::set().
 using Choice = std::pair<std::string, std::string>;
@@ -58,4 +58,4 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
 std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment
