@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace diptych::cli {
+namespace diptych::choose {
 
 struct VariedScene {
     Device& device;
@@ -25,11 +25,11 @@ struct VariedScene {
 };
 
 // Renders both Settings of the original scene, from every camera of the references.
-choose::DrawInOrder drawAsIs(const VariedScene& of);
+DrawInOrder drawAsIs(const VariedScene& of);
 
 // Size, overdraw, lights per pixel, blended pixels, samples, materials and triangles. The references in
 // `of` must outlive the variations. Variations are created on demand, one at a time.
-std::vector<choose::Property> propertiesOf(const VariedScene& of);
+std::vector<Property> propertiesOf(const VariedScene& of);
 
 // Copies of a scene with one change. withLights(): `lights` have world transforms. `factor` n repeats each
 // light n times; 1/n keeps every n-th light.
@@ -44,4 +44,4 @@ Scene withOwnMaterials(const Scene& scene);
 // Makes every material blended, or none.
 Scene withBlends(const Scene& scene, bool all);
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

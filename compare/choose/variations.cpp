@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_variations.h"
+#include "compare/choose/variations.h"
 
 #include "compare/experiment/evaluator.h"
 #include "compare/render/frame_facts.h"
@@ -15,9 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace diptych::cli {
-
-using namespace choose;
+namespace diptych::choose {
 
 namespace {
 
@@ -315,4 +313,4 @@ std::vector<Property> propertiesOf(const VariedScene& of) {
     return Properties(of).all();
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose
