@@ -121,12 +121,6 @@ void checkValidation(const Device& device) {
                                              device.firstValidationMessage()));
 }
 
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
-    // In units of one rendered frame, roughly. File sizes vary widely; built-in scenes load at once.
-    const double load = scene.starts_with("builtin:") ? 0.1 : 4;
-    return load / (load + framesIn(render) * static_cast<double>(frames));
-}
-
 void note(const Options& options, const std::string& line) {
     if (options.quiet) return;
     wipeProgress();

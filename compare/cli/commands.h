@@ -75,9 +75,6 @@ std::filesystem::path outputFolder(const Options& options, const char* name, con
 // With --validate, throws if the validation layers reported messages: their count and the first one.
 void checkValidation(const Device& device);
 
-// Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
-
 // Print a line on stderr: note() unless --quiet is given, say() only with --verbose.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
