@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/compare_many.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
@@ -95,9 +94,9 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
                              other ? reportDevice(*other) : ReportDevice(), againFolder(folder),
                              stage.part(drawing, comparing));
     double explained = comparing;
-    if (isExplained(options, report)) {
+    if (isExplained(options.explain, report)) {
         explained = 0.5 * (1 + comparing);
-        addExplanations(options, device, report, stage.part(comparing, explained));
+        explainReport(options, device, report, stage.part(comparing, explained));
     }
     std::vector<IndexRow> rows;
     for (const Comparison& comparison : report.comparisons) rows.push_back(indexRowOf(report, comparison));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
+#include "compare/explain/explanations.h"
+#include "compare/explain/substitute.h"
 #include "compare/explain/two_devices.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"

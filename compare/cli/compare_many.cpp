@@ -2,7 +2,6 @@
 #include "compare/cli/compare_many.h"
 
 #include "compare/cli/commands.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/scene_items.h"
 #include "compare/cli/verdict_words.h"
@@ -177,9 +176,9 @@ private:
                                  other_ ? reportDevice(*other_) : ReportDevice(), againBeside(folder_),
                                  stage.part(drawing, comparing));
         double explained = comparing;
-        if (isExplained(options_, report)) {
+        if (isExplained(options_.explain, report)) {
             explained = 0.5 * (1 + comparing);
-            addExplanations(options_, device_, report, stage.part(comparing, explained));
+            explainReport(options_, device_, report, stage.part(comparing, explained));
         }
         ReportPart part =
             writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));

@@ -239,4 +239,11 @@ Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn
     return report;
 }
 
+void explainReport(const Options& options, Device& device, Report& report, const Stage& progress) {
+    addExplanations(
+        {options.explain, options.settings, options.sides, renderOptions(options), options.picture}, device,
+        report, progress);
+    checkValidation(device);
+}
+
 }  // namespace diptych::cli

@@ -4,6 +4,7 @@
 
 #include "compare/checks/visual_checks.h"
 #include "compare/cli/options.h"
+#include "compare/explain/explanations.h"
 #include "compare/render/render_many.h"
 #include "compare/render/render_options.h"
 #include "compare/verdict/comparison.h"
@@ -72,6 +73,9 @@ DrawnScene drawScene(const Scene& scene, const Options& options, const std::vect
                      Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
                      const std::shared_ptr<PipelineSet>& pipelines = nullptr,
                      AgainstDevice* against = nullptr);
+
+// Explains the report's comparisons; with --validate, throws as checkValidation() does.
+void explainReport(const Options& options, Device& device, Report& report, const Stage& progress);
 
 // Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
 double ourShare(const Options& options);
