@@ -8,6 +8,7 @@
 #include "compare/run/color.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
+#include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/sweep.h"
 #include "shared/contract/debug_mode.h"
 

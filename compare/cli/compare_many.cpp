@@ -28,7 +28,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 namespace diptych::cli {
@@ -96,7 +95,8 @@ private:
 
     void findKept() {
         for (const shards::Item* item : items_.mine) {
-            if (kept_.find(nameOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
+            if (kept_.find(nameOf(*item)) != shards::stampOf(item->scene) ||
+                !isPartThere(kept_.path(), item->folder))
                 continue;
             try {
                 parts_.emplace(item, readPart(kept_.path(), item->folder));
@@ -109,16 +109,11 @@ private:
                                        items_.mine.size()));
     }
 
-    // Runs `work` on one scene. A scene that cannot be read or rendered becomes an error of the report,
-    // and the other scenes continue.
+    // A scene that fails becomes an error of the report.
     void attempt(const shards::Item* item, const std::function<void()>& work) {
-        try {
-            work();
-        } catch (const std::system_error&) {
-            throw;  // errors of this machine, such as a full disk, end the command
-        } catch (const std::runtime_error& error) {
-            errors_.emplace(item, SceneError{item->scene, error.what()});
-            say(options_, fmt::format("{}; continuing with the other scenes", error.what()));
+        if (const std::optional<SceneError> error = shards::attempt(item->scene, work)) {
+            errors_.emplace(item, *error);
+            say(options_, fmt::format("{}; continuing with the other scenes", error->message));
         }
     }
 
@@ -183,7 +178,7 @@ private:
         ReportPart part =
             writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));
         // If an external renderer failed, the next run tries the scene again.
-        if (report.errors.empty()) kept_.keep(nameOf(item), stampOf(item.scene));
+        if (report.errors.empty()) kept_.keep(nameOf(item), shards::stampOf(item.scene));
         for (const SceneError& error : report.errors) errors_.emplace(&item, error);
         references.remove();
         return part;
@@ -225,7 +220,7 @@ private:
     const fs::path folder_;
     const PictureChoice picture_;
     const CompareOptions compare_;
-    const SceneItems items_;
+    const shards::SceneItems items_;
     CheckpointFolder kept_;
     const RenderOptions render_;
     Progress progress_;

@@ -7,140 +7,38 @@
 #include "compare/files/listed_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
-#include "compare/page/page.h"
-#include "compare/page/text.h"
-#include "compare/report/folders.h"
 #include "compare/report/titles.h"
 #include "compare/run/print.h"
 #include "compare/shards/merge.h"
+#include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/counted.h"
-#include "shared/text/fail.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
-#include "shared/text/json_at.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace diptych::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using page::markup;
-
-// One scene's row on the page of all scenes.
-struct Swept {
-    std::string scene, folder, device;
-    std::size_t rows = 0, front = 0;
-    double fastest_ms = 0, fastest_flip = 0, best_ms = 0, best_flip = 0;
-};
-
-using Place = JsonAt<nlohmann::json>;
-
-Swept sweptOf(const shards::Item& item, const Place& json) {
-    Swept swept{item.scene, item.folder, json.at("device").textOr("name", "")};
-    const std::vector<Place> rows = json.at("rows").each();
-    swept.rows = rows.size();
-    for (const Place& front : json.at("fronts").each())
-        if (front.at("error").text() == "flip" && front.at("path").json().is_null())
-            swept.front = front.at("rows").size();
-    bool first = true;
-    for (const Place& row : rows) {
-        const double ms = row.at("ms").at("median").number();
-        const Place error = row.at("errors").at("flip");
-        const double flip = error.json().is_number() ? error.number() : 1e300;
-        if (first || ms < swept.fastest_ms)
-            std::tie(swept.fastest_ms, swept.fastest_flip) = std::pair(ms, flip);
-        if (first || flip < swept.best_flip) std::tie(swept.best_ms, swept.best_flip) = std::pair(ms, flip);
-        first = false;
-    }
-    return swept;
-}
-
-// Reads a scene's tradeoff below `root`; throws if the file is not a tradeoff.
-Swept sweptIn(const fs::path& root, const shards::Item& item) {
-    const std::string name = item.folder + tradeoff::tradeoffManifest;
-    return named((root / name).string(), [&] {
-        const nlohmann::json json = parseJson(textBelow(root, name, json_bytes));
-        const Place top(json);
-        if (top.textOr("software", "") != softwareName) fail("is not a report of tradeoff");
-        return sweptOf(item, top);
-    });
-}
-
-std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>& errors) {
-    std::vector<std::string> scenes;
-    for (const Swept& one : all) scenes.push_back(one.scene);
-    const std::string common = page::commonFolder(scenes);
-    std::string rows, failed;
-    for (const Swept& one : all)
-        rows += fmt::format(
-            "<tr><td class=\"wide\"><a href=\"{}index.html\" title=\"{}\">{}</a></td><td "
-            "class=\"n\">{}</td><td "
-            "class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}</td><td class=\"wide soft\">{}</td></tr>\n",
-            markup(one.folder), markup(one.scene), markup(page::inFolder(one.scene, common)), one.rows,
-            one.front, page::number(one.fastest_ms), page::number(one.fastest_flip),
-            page::number(one.best_ms), page::number(one.best_flip), markup(one.device));
-    for (const SceneError& error : errors) failed += fmt::format("<li>{}</li>", markup(errorText(error)));
-    if (!failed.empty())
-        failed = "<section class=\"box failures\"><h4>Failures</h4><ul>" + failed + "</ul></section>\n";
-    return fmt::format(
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\"><title>Diptych: time against error of "
-        "{0}</title>\n<style>{1}</style></head>\n<body><header><p class=\"brand\">Diptych</p><h1>Time "
-        "against error of {0}</h1></header>\n{2}<section class=\"index\"><div class=\"box "
-        "scroll\"><table><thead><tr>{3}</tr></thead><tbody>{4}</tbody></table></div></section>\n<p "
-        "class=\"soft small\">Times were measured on the device in the row; times of different devices do "
-        "not compare.</p>\n<script>{5}sortable(document.querySelector('.index table'), "
-        "true);</script>\n</body></html>\n",
-        counted(all.size(), "scene"), page::style, failed,
-        [] {
-            std::string heads;
-            for (const auto& [name, number] : {std::pair{"scene", false},
-                                               {"rows", true},
-                                               {"on the front", true},
-                                               {"fastest, ms", true},
-                                               {"its FLIP", true},
-                                               {"most accurate, ms", true},
-                                               {"FLIP", true},
-                                               {"device", false}})
-                heads += fmt::format("<th{}><button type=\"button\">{}</button></th>",
-                                     number ? " class=\"n\"" : "", name);
-            return heads;
-        }(),
-        rows, page::tables);
-}
 
 // Writes the page and the manifest, and returns the manifest. Called first without scenes, which marks the
 // folder as ours, and again with all scenes.
 std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
                       const std::vector<const shards::Item*>& done) {
-    std::vector<Swept> swept;
-    for (const shards::Item* item : done) swept.push_back(sweptIn(folder, *item));
-    ListedFolder out(folder, tradeoffsManifest, options.force);
-    out.put("index.html", pageOf(swept, manifest.errors));
-    nlohmann::ordered_json json = parseOrderedJson(textOf(manifest));
-    json["scenes"] = nlohmann::ordered_json::array();
-    for (const Swept& one : swept)
-        json["scenes"].push_back({{"scene", one.scene},
-                                  {"folder", one.folder},
-                                  {"device", one.device},
-                                  {"rows", one.rows},
-                                  {"front", one.front},
-                                  {"fastest", {{"ms", one.fastest_ms}, {"flip", one.fastest_flip}}},
-                                  {"most_accurate", {{"ms", one.best_ms}, {"flip", one.best_flip}}}});
-    return out.finish(std::move(json));
+    std::vector<tradeoff::SweptScene> scenes;
+    for (const shards::Item* item : done) scenes.push_back({item->scene, item->folder});
+    std::vector<std::string> failures;
+    for (const SceneError& error : manifest.errors) failures.push_back(errorText(error));
+    return tradeoff::writeAllScenes(folder, parseOrderedJson(textOf(manifest)), scenes, failures,
+                                    options.force);
 }
 
 void showMany(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
@@ -163,16 +61,15 @@ int finish(const Options& options, const fs::path& folder, const shards::Manifes
 
 int tradeoffMany(const Options& options, const fs::path& folder,
                  const std::function<void(const Options&)>& sweep) {
-    const SceneItems items = itemsOf(options, {options.settings});
+    const shards::SceneItems items = itemsOf(options, {options.settings});
     CheckpointFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
-    if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
+    if (!isOurManifest(folder / tradeoff::tradeoffsManifest)) writePage(options, folder, manifest, {});
     for (const shards::Item* item : items.mine) {
-        const std::string folder_name =
-            item->folder.empty() ? sceneFolders({item->scene}).front() : item->folder;
-        const std::string name = folder_name.substr(0, folder_name.size() - 1) + "-scene";
-        if (kept.find(name) == stampOf(item->scene) &&
+        const std::string name =
+            item->folder.empty() ? "scene" : item->folder.substr(0, item->folder.size() - 1) + "-scene";
+        if (kept.find(name) == shards::stampOf(item->scene) &&
             isOurManifest(folder / item->folder / tradeoff::tradeoffManifest)) {
             done.push_back(item);
             continue;
@@ -182,16 +79,14 @@ int tradeoffMany(const Options& options, const fs::path& folder,
         one.out = folder / (item->folder.empty() ? "." : item->folder);
         one.json = false;
         one.quiet = options.quiet || options.json;
-        try {
+        const auto error = shards::attempt(item->scene, [&] {
             sweep(one);
-            kept.keep(name, stampOf(item->scene));
+            kept.keep(name, shards::stampOf(item->scene));
             done.push_back(item);
-        } catch (const std::system_error&) {
-            throw;  // errors of this machine, such as a full disk, end the command
-        } catch (const std::runtime_error& error) {
-            manifest.errors.push_back({item->scene, error.what()});
-            say(options, fmt::format("{}; continuing with the other scenes", error.what()));
-        }
+        });
+        if (!error) continue;
+        manifest.errors.push_back(*error);
+        say(options, fmt::format("{}; continuing with the other scenes", error->message));
     }
     if (done.empty() && !manifest.errors.empty() && options.shard.empty())
         throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
@@ -203,8 +98,10 @@ int tradeoffMany(const Options& options, const fs::path& folder,
 }
 
 int mergeTradeoffs(const Options& options) {
-    const fs::path folder = outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest);
-    shards::Chosen chosen = shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoffsManifest);
+    const fs::path folder =
+        outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoff::tradeoffsManifest);
+    shards::Chosen chosen =
+        shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoff::tradeoffsManifest);
     std::vector<const shards::Item*> done;
     writePage(options, folder, chosen.manifest, {});
     for (const shards::Item& item : chosen.manifest.items) {
@@ -217,7 +114,7 @@ int mergeTradeoffs(const Options& options) {
         std::vector<std::string> names = listedIn(from / manifest);
         std::erase(names, tradeoff::tradeoffManifest);
         try {
-            sweptIn(from, item);
+            tradeoff::checkSwept(from, {item.scene, item.folder});
             for (const std::string& name : names)
                 named((from / item.folder / name).string(), [&] { InputFile(from, item.folder + name); });
         } catch (const std::runtime_error& problem) {
