@@ -2,20 +2,16 @@
 #include "compare/cli/commands.h"
 #include "compare/cli/tradeoff_many.h"
 #include "compare/experiment/grid.h"
-#include "compare/external/external_frame.h"
 #include "compare/files/scene_folders.h"
-#include "compare/render/reference_frame.h"
 #include "compare/run/color.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/sweep.h"
-#include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -32,36 +28,6 @@ void checkTradeoffOptions(const Options& options) {
             "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())
         throw std::runtime_error(*problem);
-}
-
-// Adds a row for each external renderer, over all cameras. Returns the errors of those that failed.
-std::vector<SceneError> addExternalRows(const Options& options, Sweep& sweep,
-                                        const std::function<void(std::size_t)>& shown) {
-    std::vector<SceneError> errors;
-    const std::string& scene = sweep.tradeoff().scene;
-    for (const external::Renderer& renderer : options.renderers) {
-        std::vector<Frame> frames;
-        std::string problem;
-        for (const Settings& settings : sweep.givenFromEachCamera()) {
-            external::Attempt attempt = external::drawExternally(
-                renderer, sweep.views().scene(), sweep.views().at(viewRequest(settings)), settings);
-            problem = attempt.problem;
-            if (attempt.frame && !attempt.frame->channels.contains(static_cast<int>(gpu::DEBUG_lit)))
-                problem = "its picture has no R, G, B";
-            if (!problem.empty()) break;
-            for (const std::string& line : attempt.frame->notes) sweep.addNote(line);
-            frames.push_back(std::move(*attempt.frame));
-        }
-        if (problem.empty()) {
-            sweep.add(std::move(frames));
-            shown(sweep.tradeoff().rows.size() - 1);
-        } else {
-            errors.push_back({scene, fmt::format("{}: renderer {} ({}): {}", scene, renderer.name,
-                                                 renderer.file.string(), problem)});
-            sweep.addNote("no row: " + errors.back().message);
-        }
-    }
-    return errors;
 }
 
 int sweepOne(const Options& options, const experiment::SweepRows& rows) {
@@ -90,7 +56,7 @@ int sweepOne(const Options& options, const experiment::SweepRows& rows) {
     const auto shown = [&](std::size_t row) { print(table.line(sweep.tradeoff(), row)); };
     print(table.head());
     sweep.draw(shown);
-    const std::vector<SceneError> errors = addExternalRows(options, sweep, shown);
+    const std::vector<SceneError> errors = sweep.drawExternally(options.renderers, shown);
     checkValidation(device);
     const std::string json = sweep.write(options.force);
     progress.wipe();

@@ -3,10 +3,14 @@
 
 #include "compare/experiment/kept.h"
 #include "compare/experiment/sensitivity.h"
+#include "compare/external/external_frame.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/shown_scene.h"
 #include "compare/tradeoff/measure.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/draw/depth_storage.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -184,21 +188,36 @@ void Sweep::timeAgain(const Stage& stage) {
     }
 }
 
-std::vector<Settings> Sweep::givenFromEachCamera() const {
-    std::vector<Settings> given;
-    for (const Frame& reference : references_.frames)
-        given.push_back(experiment::seenFrom(reference, tradeoff_.given));
-    return given;
-}
-
-void Sweep::add(std::vector<Frame> frames) {
-    MeasuredRow measured = measuredRow(std::move(frames), references_);
-    state_.keep(measured);
-    tradeoff_.rows.push_back(std::move(measured.row));
-}
-
-void Sweep::addNote(const std::string& line) {
-    if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer> renderers,
+                                              const std::function<void(std::size_t)>& shown) {
+    std::vector<SceneError> errors;
+    for (const external::Renderer& renderer : renderers) {
+        std::vector<Frame> frames;
+        std::string problem;
+        for (const Frame& reference : references_.frames) {
+            const Settings settings = experiment::seenFrom(reference, tradeoff_.given);
+            external::Attempt attempt =
+                external::drawExternally(renderer, scene_, views_.at(viewRequest(settings)), settings);
+            problem = attempt.problem;
+            if (attempt.frame && !attempt.frame->channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+                problem = "its picture has no R, G, B";
+            if (!problem.empty()) break;
+            for (const std::string& line : attempt.frame->notes)
+                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+            frames.push_back(std::move(*attempt.frame));
+        }
+        if (!problem.empty()) {
+            errors.push_back({tradeoff_.scene, fmt::format("{}: renderer {} ({}): {}", tradeoff_.scene,
+                                                           renderer.name, renderer.file.string(), problem)});
+            tradeoff_.notes.push_back("no row: " + errors.back().message);
+            continue;
+        }
+        MeasuredRow measured = measuredRow(std::move(frames), references_);
+        state_.keep(measured);
+        tradeoff_.rows.push_back(std::move(measured.row));
+        shown(tradeoff_.rows.size() - 1);
+    }
+    return errors;
 }
 
 std::string Sweep::write(bool force) {

@@ -4,6 +4,7 @@
 
 #include "compare/experiment/references.h"
 #include "compare/experiment/sweep.h"
+#include "compare/external/renderer_file.h"
 #include "compare/render/reference_frame.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,12 +48,9 @@ public:
     // Draws and times the rows. `shown`: called with a row's index after its first timing block.
     void draw(const std::function<void(std::size_t)>& shown);
 
-    // For another renderer: the scene, and the given Settings from each camera. add(): its row, from a
-    // Frame per camera, and notes that are not there yet.
-    SceneViews& views() { return views_; }
-    std::vector<Settings> givenFromEachCamera() const;
-    void add(std::vector<Frame> frames);
-    void addNote(const std::string& line);
+    // Adds a row for each external renderer, over all cameras. Returns the errors of those that failed.
+    std::vector<SceneError> drawExternally(std::span<const external::Renderer> renderers,
+                                           const std::function<void(std::size_t)>& shown);
 
     // Writes the folder, removes what was kept and returns tradeoff.json.
     std::string write(bool force);
