@@ -5,6 +5,7 @@
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/scene_items.h"
 #include "compare/cli/verdict_words.h"
+#include "compare/explain/explanations.h"
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/render/reference_frame.h"
@@ -50,6 +51,7 @@ public:
           folder_(folder),
           picture_(pictureChoice(options)),
           compare_(compareOptions(options)),
+          compared_(comparedOf(options)),
           items_(itemsOf(options, settings)),
           kept_(folder, "scenes", resumeKey(options, settings)),
           render_(judgedOptions(renderOptions(options), settings, isTraced(settings, {}),
@@ -160,16 +162,17 @@ private:
         render.keep = [&](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
             return references.open(key, floats);
         };
-        const auto [drawing, comparing] = sharesOf(render);
-        const double ours = ourShare(options_) * drawing;
+        const auto [drawing, comparing] = experiment::sharesOf(render);
+        const double ours = compared_.ourShare() * drawing;
         render.progress = stage.part(0, ours);
-        DrawnScene drawn = drawScene(scene, options_, settings_, device_, render, probe_,
-                                     stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
+        experiment::DrawnScene drawn =
+            experiment::drawScene(scene, compared_, settings_, device_, render, probe_,
+                                  stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
         checkValidation(device_);
         if (other_) checkValidation(*other_);
-        Report report = reportOf(options_, compare_, std::move(drawn), {}, reportDevice(device_),
-                                 other_ ? reportDevice(*other_) : ReportDevice(), againBeside(folder_),
-                                 stage.part(drawing, comparing));
+        Report report = experiment::reportOf(compared_, compare_, std::move(drawn), {}, reportDevice(device_),
+                                             other_ ? reportDevice(*other_) : ReportDevice(),
+                                             againBeside(folder_), stage.part(drawing, comparing));
         double explained = comparing;
         if (isExplained(options_.explain, report)) {
             explained = 0.5 * (1 + comparing);
@@ -220,6 +223,7 @@ private:
     const fs::path folder_;
     const PictureChoice picture_;
     const CompareOptions compare_;
+    const experiment::Compared compared_;
     const shards::SceneItems items_;
     CheckpointFolder kept_;
     const RenderOptions render_;
@@ -227,8 +231,8 @@ private:
     Device device_;
     const std::shared_ptr<PipelineSet> pipelines_;
     const std::unique_ptr<Device> other_;  // --against-device
-    AgainstDevice against_;
-    TextureProbe probe_;
+    experiment::AgainstDevice against_;
+    experiment::TextureProbe probe_;
     std::map<const shards::Item*, ReportPart> parts_;
     std::multimap<const shards::Item*, SceneError> errors_;  // of the scene or of external renderers
 };
