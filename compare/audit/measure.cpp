@@ -48,7 +48,7 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
     scale.exposure.factor *= exposure;
     const Image8 a = channelPicture(debugMode(litOf), truth, scale),
                  b = channelPicture(debugMode(litOf), test, scale);
-    std::vector<int> apart;
+    std::vector<double> apart;
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
         if (!where.covered[i]) continue;
@@ -57,10 +57,7 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
             most = std::max(most, std::abs(int{a.data[c]} - int{b.data[c]}));
         apart.push_back(most);
     }
-    if (apart.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(apart.size()))) - 1;
-    std::nth_element(apart.begin(), apart.begin() + rank, apart.end());
-    return apart[static_cast<std::size_t>(rank)] / 255.0;
+    return experiment::nearestRank(std::move(apart), 0.99) / 255.0;
 }
 
 // Removes the pixels that `out` selects.

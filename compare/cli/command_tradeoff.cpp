@@ -45,13 +45,7 @@ int sweepOne(const Options& options, const experiment::SweepRows& rows) {
              "anew");
     sayWhenInterrupted(fmt::format("finished rows are kept in {}: the same command continues from there",
                                    SweepState::folderOf(folder).string()));
-    // A closed stdout does not stop the sweep: the folder is the result.
-    const auto print = [&](const std::string& text) {
-        if (options.json || options.quiet || std::ferror(stdout)) return;
-        progress.wipe();
-        printText(text);
-        std::fflush(stdout);
-    };
+    const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const TradeoffTable table(sweep.tradeoff(), sweep.rows(), terminalColumns(stdout), options.verbose);
     const auto shown = [&](std::size_t row) { print(table.line(sweep.tradeoff(), row)); };
     print(table.head());

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -150,6 +151,13 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
 
 void printColored(const Options& options, const std::string& text) {
     printText(text, options.color);
+}
+
+void printLive(const Options& options, Progress& progress, const std::string& text) {
+    if (options.json || options.quiet || std::ferror(stdout)) return;
+    progress.wipe();
+    printText(text);
+    std::fflush(stdout);
 }
 
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,

@@ -88,6 +88,10 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
 // Prints text for people on stdout, in colour if --color or the terminal allows it.
 void printColored(const Options& options, const std::string& text);
 
+// Prints a result on stdout above the progress line; nothing with --json or --quiet. A closed stdout does not
+// end a command that writes a folder.
+void printLive(const Options& options, Progress& progress, const std::string& text);
+
 // Changes since the report of --since, for comparisons with these rows; nullptr without --since.
 // checkSince() throws std::runtime_error if the file is not a report. Call it before any long work.
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,

@@ -91,13 +91,9 @@ private:
         kept_.keep("device", {{"device", device}});
     }
 
-    std::string nameOf(const shards::Item& item) const {
-        return item.folder.empty() ? "scene" : item.folder.substr(0, item.folder.size() - 1) + "-scene";
-    }
-
     void findKept() {
         for (const shards::Item* item : items_.mine) {
-            if (kept_.find(nameOf(*item)) != shards::stampOf(item->scene) ||
+            if (kept_.find(shards::partOf(*item)) != shards::stampOf(item->scene) ||
                 !isPartThere(kept_.path(), item->folder))
                 continue;
             try {
@@ -181,7 +177,7 @@ private:
         ReportPart part =
             writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));
         // If an external renderer failed, the next run tries the scene again.
-        if (report.errors.empty()) kept_.keep(nameOf(item), shards::stampOf(item.scene));
+        if (report.errors.empty()) kept_.keep(shards::partOf(item), shards::stampOf(item.scene));
         for (const SceneError& error : report.errors) errors_.emplace(&item, error);
         references.remove();
         return part;

@@ -2,6 +2,7 @@
 #include "compare/cli/scene_items.h"
 
 #include "compare/cli/verdict_words.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
 #include "shared/image/limits.h"
 #include "shared/text/input_file.h"
@@ -69,7 +70,7 @@ Json resumeKey(const Options& options, const std::vector<Settings>& settings) {
     Json files = Json::array();
     for (const std::string& name : {options.settings.valueOf("env"), options.settings.valueOf("lights")}) {
         std::error_code ignored;
-        if (!name.empty() && fs::exists(name, ignored)) files.push_back(shards::stampOfFile(name));
+        if (!name.empty() && fs::exists(name, ignored)) files.push_back(fileStamp(name));
     }
     return {{"schema", 1},
             {"software", softwareName},

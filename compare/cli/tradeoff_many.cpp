@@ -67,8 +67,7 @@ int tradeoffMany(const Options& options, const fs::path& folder,
     std::vector<const shards::Item*> done;
     if (!isOurManifest(folder / tradeoff::tradeoffsManifest)) writePage(options, folder, manifest, {});
     for (const shards::Item* item : items.mine) {
-        const std::string name =
-            item->folder.empty() ? "scene" : item->folder.substr(0, item->folder.size() - 1) + "-scene";
+        const std::string name = shards::partOf(*item);
         if (kept.find(name) == shards::stampOf(item->scene) &&
             isOurManifest(folder / item->folder / tradeoff::tradeoffManifest)) {
             done.push_back(item);

@@ -26,15 +26,21 @@ double knownOrInfinite(double value) {
     return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
 }
 
+double nearestRank(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())));
+    const auto nth = values.begin() + std::max<std::ptrdiff_t>(rank, 1) - 1;
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
 RelativeErrors relativeErrors(std::vector<double> errors) {
     if (errors.empty()) return {};
     double squares = 0;
     for (const double e : errors) squares += e * e;
     const auto count = static_cast<double>(errors.size());
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count));
-    const auto nth = errors.begin() + std::max<std::ptrdiff_t>(rank, 1) - 1;
-    std::nth_element(errors.begin(), nth, errors.end());
-    return {knownOrInfinite(std::sqrt(squares / count)), knownOrInfinite(*nth)};
+    return {knownOrInfinite(std::sqrt(squares / count)),
+            knownOrInfinite(nearestRank(std::move(errors), 0.99))};
 }
 
 ErrorsAgainst::ErrorsAgainst(const Frame& reference)

@@ -29,6 +29,9 @@ using Errors = std::array<double, errorFigures.size()>;
 // The value; infinity if it is not finite.
 double knownOrInfinite(double value);
 
+// The ceil(share N)-th smallest value; 0 without values.
+double nearestRank(std::vector<double> values, double share);
+
 // Errors of a Frame of the reference's size. `pixels`: relative error of each covered pixel.
 struct FrameErrors {
     Errors errors{};

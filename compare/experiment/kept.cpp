@@ -8,9 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <system_error>
-
 namespace diptych::experiment {
 namespace {
 
@@ -18,14 +15,6 @@ using Json = nlohmann::ordered_json;
 
 std::string digitsOf(const reference::Key& key) {
     return fmt::format("{:016x}", key.value());
-}
-
-// Size and modification time; null for a built-in scene.
-Json fileFacts(const std::string& scene) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(scene, error);
-    if (error) return nullptr;
-    return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
 }
 
 }  // namespace
@@ -49,7 +38,7 @@ Json keyOf(const std::string& scene, const std::string& truth, const Settings& s
             {"software", softwareName},
             {"commit", commitName()},
             {"scene", scene},
-            {"file", fileFacts(scene)},
+            {"file", fileStamp(scene)},
             {"truth", truth},
             {"settings", parseOrderedJson(toJson(settings))},
             {"device", device.name},

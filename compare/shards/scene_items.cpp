@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/scene_items.h"
 
+#include "compare/files/checkpoint_folder.h"
 #include "compare/report/folders.h"
 
 #include <cstdlib>
@@ -40,16 +41,13 @@ SceneItems itemsOf(const std::vector<std::string>& scenes, bool several, const s
     return items;
 }
 
-Json stampOfFile(const fs::path& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    if (error) return {file.string(), nullptr};
-    return {file.string(), size, fs::last_write_time(file, error).time_since_epoch().count()};
+std::string partOf(const Item& item) {
+    return item.folder.empty() ? "scene" : item.folder.substr(0, item.folder.size() - 1) + "-scene";
 }
 
 Json stampOf(const std::string& scene) {
     Json files = Json::array();
-    for (const fs::path& file : filesOf(scene)) files.push_back(stampOfFile(file));
+    for (const fs::path& file : filesOf(scene)) files.push_back(fileStamp(file));
     return {{"scene", scene}, {"files", files}};
 }
 

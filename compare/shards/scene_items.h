@@ -26,8 +26,8 @@ struct SceneItems {
 SceneItems itemsOf(const std::vector<std::string>& scenes, bool several, const std::string& shard,
                    const std::filesystem::path& timings);
 
-// Name, size and time of a file; of all files of a scene. Detect changed files.
-nlohmann::ordered_json stampOfFile(const std::filesystem::path& file);
+// Name of a scene's kept part, and stamps of its files.
+std::string partOf(const Item& item);
 nlohmann::ordered_json stampOf(const std::string& scene);
 
 // Runs `work` on one scene. If the scene cannot be read or rendered, returns the error, and the other scenes
