@@ -187,6 +187,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
             report.held_out.push_back(atHeldOut(loaded, truth, report, camera));
     if (question_.explain && report.choice.chosen)
         report.sensitivities = sensitivityOf(loaded, report, stage.part(0.95, 1));
+    checkValidation(device_);
     report.seconds = secondsSince(start);
     progress_.wipe();
     return report;
@@ -265,6 +266,7 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
         candidate.settings.camera = question_.settings.camera;
         all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
     }
+    checkValidation(device_);
     all.seconds = secondsSince(start);
     progress_.wipe();
     return all;

@@ -81,12 +81,10 @@ int runChoose(const Options& options) {
     };
     for (const std::string& scene : scenes) {
         choices.scenes.push_back(chooser.choose(scene));
-        checkValidation(device);
         tell(inWords(choices.scenes.back()));
     }
     if (scenes.size() > 1) {
         choices.all = chooser.chooseForAll(choices.scenes);
-        checkValidation(device);
         tell(inWords(*choices.all, choices.scenes.front()));
     }
     std::optional<Settings> settings = chosenSettings(choices);

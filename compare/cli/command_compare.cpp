@@ -3,7 +3,6 @@
 #include "compare/cli/compare_many.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/explain/explanations.h"
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
@@ -100,7 +99,7 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     double explained = comparing;
     if (isExplained(options.explain, report)) {
         explained = 0.5 * (1 + comparing);
-        explainReport(options, device, report, stage.part(comparing, explained));
+        addExplanations(explanationOf(options), device, report, stage.part(comparing, explained));
     }
     std::vector<IndexRow> rows;
     for (const Comparison& comparison : report.comparisons) rows.push_back(indexRowOf(report, comparison));

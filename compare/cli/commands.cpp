@@ -116,12 +116,6 @@ void refuseOut(const Options& options) {
                                              options.out.string(), options.command, options.command));
 }
 
-void checkValidation(const Device& device) {
-    if (const std::uint64_t count = device.validationMessages(); count > 0)
-        throw std::runtime_error(fmt::format("--validate: {}, the first: {}", counted(count, "message"),
-                                             device.firstValidationMessage()));
-}
-
 void note(const Options& options, const std::string& line) {
     if (options.quiet) return;
     wipeProgress();

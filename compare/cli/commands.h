@@ -72,9 +72,6 @@ void refuseOut(const Options& options);
 std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,
                                    const char* manifest);
 
-// With --validate, throws if the validation layers reported messages: their count and the first one.
-void checkValidation(const Device& device);
-
 // Print a line on stderr: note() unless --quiet is given, say() only with --verbose.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);

@@ -2,7 +2,6 @@
 #include "compare/cli/scene_comparison.h"
 
 #include "compare/cli/commands.h"
-#include "compare/explain/explanations.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/baseline.h"
 #include "shared/contract/debug_mode.h"
@@ -68,11 +67,8 @@ void checkAgainstDevice(const Options& options, const std::vector<Settings>& set
                             of.msaa));
 }
 
-void explainReport(const Options& options, Device& device, Report& report, const Stage& progress) {
-    addExplanations(
-        {options.explain, options.settings, options.sides, renderOptions(options), options.picture}, device,
-        report, progress);
-    checkValidation(device);
+ExplanationQuestion explanationOf(const Options& options) {
+    return {options.explain, options.settings, options.sides, renderOptions(options), options.picture};
 }
 
 }  // namespace diptych::cli

@@ -4,7 +4,7 @@
 
 #include "compare/cli/options.h"
 #include "compare/experiment/comparison.h"
-#include "compare/run/progress.h"
+#include "compare/explain/explanations.h"
 
 #include <optional>
 #include <vector>
@@ -24,7 +24,6 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
 // Throws std::runtime_error, one line, for options that a cross-device comparison does not support.
 void checkAgainstDevice(const Options& options, const std::vector<Settings>& settings);
 
-// Explains the report's comparisons; with --validate, throws as checkValidation() does.
-void explainReport(const Options& options, Device& device, Report& report, const Stage& progress);
+ExplanationQuestion explanationOf(const Options& options);
 
 }  // namespace diptych::cli

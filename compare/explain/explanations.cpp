@@ -124,6 +124,7 @@ void addExplanations(const ExplanationQuestion& question, Device& device, Report
         letGo(left);
         letGo(right);
     }
+    checkValidation(device);
 }
 
 std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
