@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/measure.h"
 
+#include "compare/experiment/errors.h"
+#include "compare/experiment/kept.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
-#include "compare/reference/key.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <future>
@@ -21,15 +23,13 @@
 
 namespace diptych::audit {
 
+using experiment::knownOrInfinite;
+
 namespace {
 
 constexpr auto litOf = static_cast<int>(gpu::DEBUG_lit), idsOf = static_cast<int>(gpu::DEBUG_material_id),
                depthOf = static_cast<int>(gpu::DEBUG_depth);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double knownOrInfinite(double value) {
-    return std::isfinite(value) ? value : infinity;
-}
 
 void multiply(Image& image, double factor) {
     for (float& value : image.data) value = static_cast<float>(value * factor);
@@ -48,7 +48,7 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
     scale.exposure.factor *= exposure;
     const Image8 a = channelPicture(debugMode(litOf), truth, scale),
                  b = channelPicture(debugMode(litOf), test, scale);
-    std::vector<int> apart;
+    std::vector<double> apart;
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
         if (!where.covered[i]) continue;
@@ -57,10 +57,7 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
             most = std::max(most, std::abs(int{a.data[c]} - int{b.data[c]}));
         apart.push_back(most);
     }
-    if (apart.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(apart.size()))) - 1;
-    std::nth_element(apart.begin(), apart.begin() + rank, apart.end());
-    return apart[static_cast<std::size_t>(rank)] / 255.0;
+    return experiment::nearestRank(std::move(apart), 0.99) / 255.0;
 }
 
 // Removes the pixels that `out` selects.
@@ -232,11 +229,8 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 }
 
 std::string Measurer::fingerprint() {
-    reference::Key key;
     const Truth& truth = original(subject_.given.settings.size);
-    for (const Frame* frame : {&truth.lit, &truth.rays})
-        for (const auto& [mode, image] : frame->channels) key.addAll(image.data);
-    return fmt::format("{:016x}", key.value());
+    return experiment::fingerprint(std::array{&truth.lit, &truth.rays});
 }
 
 Step Measurer::measure(const Quantity& quantity, std::span<const Series> series, double magnitude) {

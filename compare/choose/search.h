@@ -6,6 +6,7 @@
 
 #include "compare/choose/ranking.h"
 #include "compare/choose/table.h"
+#include "compare/experiment/evaluator.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 
@@ -19,6 +20,9 @@
 
 namespace diptych::choose {
 
+using experiment::Evaluator;
+using experiment::Judged;
+
 struct Budget {
     std::optional<double> error;         // in the chosen metric
     std::optional<double> ms;            // per frame
@@ -29,27 +33,6 @@ struct Budget {
 
 // Errors within this ratio count as equal.
 inline constexpr double alikeErrors = 1.01;
-
-// Deterministic results of one candidate.
-struct Judged {
-    double error = 0;
-    std::uint64_t bytes = 0;
-};
-
-// Evaluates candidates: on a device, or from recorded times.
-class Evaluator {
-public:
-    Evaluator() = default;
-    Evaluator(const Evaluator&) = delete;
-    Evaluator& operator=(const Evaluator&) = delete;
-    virtual ~Evaluator() = default;
-    virtual Judged judge(const Settings& settings) = 0;
-    // Renders frames[order[i]] for each i; returns the times, ms.
-    virtual std::vector<double> time(std::span<const Settings> frames,
-                                     std::span<const std::size_t> order) = 0;
-    // Passes of one frame, each timed alone, ms.
-    virtual std::vector<PassTime> profile(const Settings& settings) = 0;
-};
 
 // Settings with further changes; empty if the combination is invalid.
 using Combine = std::function<std::optional<Settings>(const Settings&, std::span<const Change>)>;

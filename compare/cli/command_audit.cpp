@@ -1,38 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/audit.h"
-#include "compare/audit/failures.h"
-#include "compare/audit/quantities.h"
-#include "compare/audit/small_scene.h"
+#include "compare/audit/auditor.h"
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
-#include "compare/files/checkpoint_folder.h"
-#include "compare/files/our_files.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
-#include "compare/run/version.h"
 #include "shared/text/counted.h"
-#include "shared/text/json.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace diptych::cli {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -60,178 +45,71 @@ void checkAuditOptions(const Options& options) {
     if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
 }
 
-// Size and modification time of the scene file, which also detect changes outside the view. Null for a
-// built-in scene.
-Json fileFacts(const std::string& scene) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(scene, error);
-    if (error) return nullptr;
-    return {size, std::filesystem::last_write_time(scene, error).time_since_epoch().count()};
+// Runs a command exactly as the report would print it. Returns whether compare fails.
+bool compareFails(const Options& options, std::vector<std::string> words,
+                  const std::filesystem::path& folder) {
+    const std::string out = (folder / "report").string();
+    words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
+    try {
+        return runCommand(parseCommandLine(words)) == 1;
+    } catch (const std::runtime_error& error) {
+        say(options, fmt::format("{}: does not reproduce the failure: {}", words.back(), error.what()));
+        return false;
+    }
 }
 
-// Temporary folder, removed by the destructor.
-struct TrialFolder {
-    std::filesystem::path path;
+audit::AuditQuestion questionOf(const Options& options, const std::filesystem::path& folder) {
+    std::vector<std::string> device;
+    if (!options.device.empty()) device = {"--device", options.device};
+    return {options.audit.quantities,
+            options.audit.required,
+            folder,
+            options.force,
+            device,
+            [&](const std::vector<std::string>& words, const std::filesystem::path& trial) {
+                return compareFails(options, words, trial);
+            }};
+}
 
-    TrialFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "diptych-audit-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
-        path = name;
+int auditQuantities(const Options& options, const Settings& settings) {
+    AuditOpening opened(options, settings, "diptych-audit", "audit", audit::auditManifest);
+    audit::Audited audited = opened.audited();
+    if (!options.shadows_given)
+        audited.notes.emplace_back(
+            "--shadows off, except for shadow quantities: a shadow filter's error would hide other "
+            "errors");
+    const audit::AuditQuestion question = questionOf(options, opened.folder());
+    audit::Auditor auditor(question, std::move(audited), opened.subject(), opened.device(),
+                           [&](const std::string& step) { say(options, step); });
+    if (auditor.isRenewed())
+        note(options,
+             "the results of an interrupted audit belong to another scene, device or Settings; starting "
+             "anew");
+    sayWhenInterrupted("finished steps are kept: the same command continues from there");
+    auditor.measure(opened.stage(),
+                    [&](const audit::QuantityAudit& quantity) { opened.print(audit::inWords(quantity)); });
+    checkValidation(opened.device());
+    opened.stage().at(0.98, "write");
+    if (const std::size_t kept = auditor.audit().kept; kept > 0)
+        note(options, fmt::format("{} kept from an interrupted run", counted(kept, "step")));
+    const std::string json = auditor.write();
+    opened.progress().wipe();
+    bool met = true;
+    for (const audit::Requirement& requirement : auditor.audit().requirements) {
+        met = met && requirement.met;
+        opened.print(audit::inWords(requirement));
     }
-    ~TrialFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    TrialFolder(const TrialFolder&) = delete;
-    TrialFolder& operator=(const TrialFolder&) = delete;
-};
-
-class Auditor {
-public:
-    explicit Auditor(const Options& options)
-        : options_(options),
-          settings_(auditedSettings(options)),
-          opened_(options, settings_, "diptych-audit", "audit", audit::auditManifest),
-          audit_{opened_.audited(), {}, {}, {}, {}, 0} {}
-
-    int run() {
-        const audit::Subject& subject = opened_.subject();
-        const Stage& stage = opened_.stage();
-        if (!options_.shadows_given)
-            audit_.notes.emplace_back(
-                "--shadows off, except for shadow quantities: a shadow filter's error would hide other "
-                "errors");
-        audit::Measurer measurer(opened_.device(), subject,
-                                 [&](const std::string& step) { say(options_, step); });
-        CheckpointFolder kept(opened_.folder(), "audit", keyOf(measurer, subject));
-        if (kept.isRenewed())
-            note(options_,
-                 "the results of an interrupted audit belong to another scene, device or Settings; starting "
-                 "anew");
-        sayWhenInterrupted("finished steps are kept: the same command continues from there");
-        // Quantities of --require are measured too.
-        std::vector<std::string> names = options_.audit.quantities;
-        for (const auto& [name, magnitude] : options_.audit.required)
-            if (!names.empty()) names.push_back(name);
-        const std::vector<const audit::Quantity*> all = audit::quantitiesOf(names);
-        for (const audit::Quantity* quantity : all) audit_.to_come.emplace_back(quantity->name);
-        for (std::size_t q = 0; q < all.size(); ++q) {
-            const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
-            audit_.to_come.erase(audit_.to_come.begin());
-            measure(*all[q], subject, measurer, kept,
-                    stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
-            // Plots of finished quantities can be viewed while others are measured.
-            const bool shown = audit_.quantities.back().lacks.empty();
-            if (shown && q + 1 < all.size()) audit::writeAudit(audit_, opened_.folder(), options_.force);
-        }
-        for (const auto& [name, magnitude] : options_.audit.required)
-            for (const audit::QuantityAudit& quantity : audit_.quantities)
-                if (quantity.quantity->name == name)
-                    audit_.requirements.push_back(audit::evaluate(quantity, magnitude));
-        checkValidation(opened_.device());
-        stage.at(0.98, "write");
-        if (audit_.kept > 0)
-            note(options_, fmt::format("{} kept from an interrupted run", counted(audit_.kept, "step")));
-        const std::string json = audit::writeAudit(audit_, opened_.folder(), options_.force);
-        kept.remove();
-        opened_.progress().wipe();
-        bool met = true;
-        for (const audit::Requirement& requirement : audit_.requirements) {
-            met = met && requirement.met;
-            opened_.print(audit::inWords(requirement));
-        }
-        if (options_.json) printText(json);
-        opened_.print((opened_.folder() / "index.html").string() + "\n");
-        return met ? 0 : 1;
-    }
-
-private:
-    // Inputs of a step besides its magnitude and series. The ground truth's fingerprint identifies the
-    // scene's visible contents.
-    Json keyOf(audit::Measurer& measurer, const audit::Subject& subject) const {
-        return {{"schema", 1},
-                {"software", softwareName},
-                {"commit", commitName()},
-                {"scene", audit_.scene},
-                {"truth", measurer.fingerprint()},
-                {"lights", audit::lightsFileOf(subject.given)},
-                {"file", fileFacts(audit_.scene)},
-                {"settings", parseOrderedJson(toJson(settings_))},
-                {"device", audit_.device.name},
-                {"driver", audit_.device.driver}};
-    }
-
-    void measure(const audit::Quantity& quantity, const audit::Subject& subject, audit::Measurer& measurer,
-                 const CheckpointFolder& kept, const Stage& stage) {
-        const auto steps = static_cast<double>(quantity.magnitudes.size() + 4);  // plus some in between
-        double done = 0;
-        std::vector<double> required;
-        for (const auto& [name, magnitude] : options_.audit.required)
-            if (name == quantity.name) required.push_back(magnitude);
-        audit_.quantities.push_back(audit::auditQuantity(
-            quantity, subject,
-            [&](std::span<const audit::Series> series, double magnitude) {
-                stage.at(std::min(done / steps, 1.0),
-                         fmt::format("{} {}", quantity.name, audit::magnitudeInWords(magnitude)));
-                done += 1;
-                const std::string name = fmt::format("{}-{:.17g}", quantity.name, magnitude);
-                if (auto step = keptStep(kept, name, series.size())) {
-                    ++audit_.kept;
-                    return *step;
-                }
-                audit::Step step = measurer.measure(quantity, series, magnitude);
-                kept.keep(name, audit::toJson(step));
-                return step;
-            },
-            required));
-        stage.at(1, fmt::format("{}: reduce failures", quantity.name));
-        const TrialFolder folder;
-        std::vector<std::string> device;
-        if (!options_.device.empty()) device = {"--device", options_.device};
-        const audit::Trial trial{folder.path, std::move(device), [&](std::vector<std::string> words) {
-                                     return compareFails(std::move(words), folder.path);
-                                 }};
-        audit::addFailures(audit_.quantities.back(), subject, measurer, trial, opened_.folder(),
-                           audit_.scenes);
-        opened_.print(audit::inWords(audit_.quantities.back()));
-    }
-
-    // Runs a command exactly as the report would print it. Returns whether compare fails.
-    bool compareFails(std::vector<std::string> words, const std::filesystem::path& folder) const {
-        const std::string out = (folder / "report").string();
-        words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
-        try {
-            return runCommand(parseCommandLine(words)) == 1;
-        } catch (const std::runtime_error& error) {
-            say(options_, fmt::format("{}: does not reproduce the failure: {}", words.back(), error.what()));
-            return false;
-        }
-    }
-
-    static std::optional<audit::Step> keptStep(const CheckpointFolder& kept, const std::string& name,
-                                               std::size_t series) {
-        const Json json = kept.find(name);
-        if (json.is_null()) return {};
-        try {
-            audit::Step step = audit::stepFromJson(json);
-            return step.outcomes.size() == series ? std::optional(std::move(step)) : std::nullopt;
-        } catch (const std::exception&) {  // malformed: measure the step again
-            return {};
-        }
-    }
-
-    const Options& options_;
-    const Settings settings_;
-    AuditOpening opened_;
-    audit::Audit audit_;
-};
+    if (options.json) printText(json);
+    opened.print((opened.folder() / "index.html").string() + "\n");
+    return met ? 0 : 1;
+}
 
 }  // namespace
 
 int runAudit(const Options& options) {
     checkAuditOptions(options);
-    if (options.audit.relations) return runRelations(options, auditedSettings(options));
-    return Auditor(options).run();
+    const Settings settings = auditedSettings(options);
+    return options.audit.relations ? runRelations(options, settings) : auditQuantities(options, settings);
 }
 
 }  // namespace diptych::cli

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -66,13 +65,7 @@ int runBench(const Options& options) {
                 {},
                 cases.skips,
                 {}};
-    const bool prints = !options.json && !options.quiet;
-    const auto print = [&](const std::string& text) {
-        if (!prints || std::ferror(stdout)) return;
-        progress.wipe();
-        printText(text);
-        std::fflush(stdout);
-    };
+    const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const Stage whole(progress, bench.scene);
     const double groups = static_cast<double>(cases.groups.size()) + (requested.kernels ? 0.5 : 0.0);
     for (std::size_t i = 0; i < cases.groups.size(); ++i) {

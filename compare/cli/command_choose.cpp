@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/html.h"
 #include "compare/choose/report.h"
+#include "compare/choose/scene_chooser.h"
 #include "compare/cli/commands.h"
-#include "compare/cli/scene_chooser.h"
 #include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
 #include "compare/run/print.h"
@@ -53,12 +53,28 @@ void checkChooseOptions(const Options& options) {
         throw std::runtime_error(*problem);
 }
 
+Question questionOf(const Options& options) {
+    const ChooseOptions& choose = options.choose;
+    return {options.settings,
+            options.camera_given ? options.cameras : std::vector<std::string>(),
+            options.grid,
+            figureNamed(choose.figure),
+            {choose.max_error, choose.max_ms, choose.max_bytes},
+            choose.explain,
+            renderOptions(options),
+            pictureChoice(options)};
+}
+
 }  // namespace
 
 int runChoose(const Options& options) {
     checkChooseOptions(options);
     const std::vector<std::string> scenes = scenesOf(options.scenes);
-    SceneChooser chooser(options);
+    const Question question = questionOf(options);
+    Progress progress(progressOutput(options));
+    Device device(deviceOptions(options));
+    say(options, "on " + device.info().name);
+    SceneChooser chooser(question, device, progress);
     Choices choices;
     const auto tell = [&](const std::string& words) {
         if (!options.json && !options.quiet) printColored(options, words);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/compare_many.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
@@ -62,6 +61,7 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
                     std::optional<Frame> baseline, const std::filesystem::path& folder) {
     const PictureChoice picture = pictureChoice(options);
     const CompareOptions compare = compareOptions(options);
+    const experiment::Compared compared = comparedOf(options);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
@@ -73,15 +73,17 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
         return kept.open(key, floats);
     };
     const std::string& name = options.scenes.front();
-    const Stage drawn_stage = Stage(progress, name).part(0, sharesOf(render).drawn);
+    const Stage drawn_stage = Stage(progress, name).part(0, experiment::sharesOf(render).drawn);
     const double loading = loadingShare(name, render, settings.size());
     const Scene scene = loadShown(name, options.settings, drawn_stage.part(0, loading));
-    const double ours = loading + ourShare(options) * (1 - loading);
+    const double ours = loading + compared.ourShare() * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);
-    TextureProbe probe;
-    AgainstDevice against{other ? *other : device, nullptr, precisionsOf(device, other ? *other : device)};
-    DrawnScene drawn = drawScene(scene, options, settings, device, render, probe, drawn_stage.part(ours, 1),
-                                 nullptr, other ? &against : nullptr);
+    experiment::TextureProbe probe;
+    experiment::AgainstDevice against{other ? *other : device, nullptr,
+                                      precisionsOf(device, other ? *other : device)};
+    experiment::DrawnScene drawn =
+        experiment::drawScene(scene, compared, settings, device, render, probe, drawn_stage.part(ours, 1),
+                              nullptr, other ? &against : nullptr);
     checkValidation(device);
     if (other) checkValidation(*other);
     const ReportDevice here = reportDevice(device);
@@ -90,14 +92,14 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
         updated = updateBaseline(options.baseline_file,
                                  renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
     const Stage stage(progress, folder.string());
-    const auto [drawing, comparing] = sharesOf(render);
-    Report report = reportOf(options, compare, std::move(drawn), std::move(baseline), here,
-                             other ? reportDevice(*other) : ReportDevice(), againFolder(folder),
-                             stage.part(drawing, comparing));
+    const auto [drawing, comparing] = experiment::sharesOf(render);
+    Report report = experiment::reportOf(compared, compare, std::move(drawn), std::move(baseline), here,
+                                         other ? reportDevice(*other) : ReportDevice(), againFolder(folder),
+                                         stage.part(drawing, comparing));
     double explained = comparing;
-    if (isExplained(options, report)) {
+    if (isExplained(options.explain, report)) {
         explained = 0.5 * (1 + comparing);
-        addExplanations(options, device, report, stage.part(comparing, explained));
+        addExplanations(explanationOf(options), device, report, stage.part(comparing, explained));
     }
     std::vector<IndexRow> rows;
     for (const Comparison& comparison : report.comparisons) rows.push_back(indexRowOf(report, comparison));
@@ -130,7 +132,7 @@ int runCompare(const Options& given) {
     }
     Options options = given;
     options.scenes = scenesOf(given.scenes);
-    const std::vector<Settings> settings = settingsOf(options, comparedPaths(options));
+    const std::vector<Settings> settings = settingsOf(options, comparedOf(options).paths());
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     noteUnused(options);
     std::optional<Frame> baseline = readBaseline(options, settings);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
+#include "compare/experiment/two_devices.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
-#include "compare/explain/two_devices.h"
+#include "compare/explain/explanations.h"
+#include "compare/explain/substitute.h"
 #include "compare/explain/words.h"
 #include "compare/explain/write.h"
 #include "compare/external/external_frame.h"
@@ -162,10 +163,11 @@ int explainScene(const Options& options) {
             of.test = fmt::format("{} on {}", nameOf(test.path), other->info().name);
     Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     if (other) {
-        explanation.devices = deviceShares(
-            explanation, a, b,
-            acrossDevices(scene, views.at(viewRequest(a.settings)),
-                          precisionsOf(device, *other, !scene.textures.empty(), test.textures), a));
+        explanation.devices =
+            deviceShares(explanation, a, b,
+                         experiment::acrossDevices(
+                             scene, views.at(viewRequest(a.settings)),
+                             precisionsOf(device, *other, !scene.textures.empty(), test.textures), a));
         checkValidation(*other);
     }
     checkValidation(device);

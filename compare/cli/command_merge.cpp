@@ -3,6 +3,7 @@
 #include "compare/cli/compare_many.h"
 #include "compare/cli/tradeoff_many.h"
 #include "compare/shards/merge.h"
+#include "compare/tradeoff/all_scenes.h"
 #include "shared/text/counted.h"
 #include "shared/text/json_at.h"
 
@@ -27,7 +28,7 @@ int runMerge(const Options& options) {
         throw std::runtime_error(
             "merge: the folders of the shards are missing; for example diptych merge shard-*/ -o report");
     const bool tradeoffs = std::ranges::any_of(options.scenes, [](const std::string& shard) {
-        return std::filesystem::exists(std::filesystem::path(shard) / tradeoffsManifest);
+        return std::filesystem::exists(std::filesystem::path(shard) / tradeoff::tradeoffsManifest);
     });
     if (tradeoffs) return mergeTradeoffs(options);
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -115,18 +116,6 @@ void refuseOut(const Options& options) {
                                              options.out.string(), options.command, options.command));
 }
 
-void checkValidation(const Device& device) {
-    if (const std::uint64_t count = device.validationMessages(); count > 0)
-        throw std::runtime_error(fmt::format("--validate: {}, the first: {}", counted(count, "message"),
-                                             device.firstValidationMessage()));
-}
-
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
-    // In units of one rendered frame, roughly. File sizes vary widely; built-in scenes load at once.
-    const double load = scene.starts_with("builtin:") ? 0.1 : 4;
-    return load / (load + framesIn(render) * static_cast<double>(frames));
-}
-
 void note(const Options& options, const std::string& line) {
     if (options.quiet) return;
     wipeProgress();
@@ -156,6 +145,13 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
 
 void printColored(const Options& options, const std::string& text) {
     printText(text, options.color);
+}
+
+void printLive(const Options& options, Progress& progress, const std::string& text) {
+    if (options.json || options.quiet || std::ferror(stdout)) return;
+    progress.wipe();
+    printText(text);
+    std::fflush(stdout);
 }
 
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,

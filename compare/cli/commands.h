@@ -72,12 +72,6 @@ void refuseOut(const Options& options);
 std::filesystem::path outputFolder(const Options& options, const char* name, const char* what,
                                    const char* manifest);
 
-// With --validate, throws if the validation layers reported messages: their count and the first one.
-void checkValidation(const Device& device);
-
-// Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
-
 // Print a line on stderr: note() unless --quiet is given, say() only with --verbose.
 void note(const Options& options, const std::string& line);
 void say(const Options& options, const std::string& line);
@@ -90,6 +84,10 @@ void sayProblems(const Options& options, const std::vector<std::string>& problem
 
 // Prints text for people on stdout, in colour if --color or the terminal allows it.
 void printColored(const Options& options, const std::string& text);
+
+// Prints a result on stdout above the progress line; nothing with --json or --quiet. A closed stdout does not
+// end a command that writes a folder.
+void printLive(const Options& options, Progress& progress, const std::string& text);
 
 // Changes since the report of --since, for comparisons with these rows; nullptr without --since.
 // checkSince() throws std::runtime_error if the file is not a report. Call it before any long work.

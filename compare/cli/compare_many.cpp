@@ -2,242 +2,26 @@
 #include "compare/cli/compare_many.h"
 
 #include "compare/cli/commands.h"
-#include "compare/cli/explanations.h"
 #include "compare/cli/scene_comparison.h"
 #include "compare/cli/scene_items.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/files/checkpoint_folder.h"
-#include "compare/files/our_files.h"
 #include "compare/render/reference_frame.h"
-#include "compare/report/folders.h"
-#include "compare/report/parts.h"
-#include "compare/report/report.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
-#include "compare/shards/manifest.h"
+#include "compare/shards/collection.h"
 #include "compare/verdict/pair_reports.h"
-#include "shared/scene/load.h"
 #include "shared/text/counted.h"
 #include "shared/text/input_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
-#include <future>
-#include <map>
-#include <optional>
-#include <span>
 #include <stdexcept>
-#include <system_error>
-#include <utility>
 
 namespace diptych::cli {
+
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-// The report's commands write beside the report instead of replacing it.
-std::string againBeside(const fs::path& folder) {
-    constexpr const char* name = "diptych-again";
-    return folder.filename() == name ? std::string(name) + "-again" : name;
-}
-
-class Collection {
-public:
-    Collection(const Options& options, const std::vector<Settings>& settings, const fs::path& folder)
-        : options_(options),
-          settings_(settings),
-          folder_(folder),
-          picture_(pictureChoice(options)),
-          compare_(compareOptions(options)),
-          items_(itemsOf(options, settings)),
-          kept_(folder, "scenes", resumeKey(options, settings)),
-          render_(judgedOptions(renderOptions(options), settings, isTraced(settings, {}),
-                                !options.against_device.empty(), options.twice)),
-          progress_(progressOutput(options)),
-          device_(deviceOptions(options)),
-          pipelines_(makePipelineSet(device_)),
-          other_(againstDevice(options)),
-          against_{other_ ? *other_ : device_, other_ ? makePipelineSet(*other_) : nullptr,
-                   precisionsOf(device_, other_ ? *other_ : device_)} {}
-
-    int run() {
-        say(options_, "on " + device_.info().name + (other_ ? " and " + other_->info().name : ""));
-        checkDevice();
-        findKept();
-        checkHeaders();
-        sayWhenInterrupted(fmt::format(
-            "finished scenes are kept in {}: the same command continues from there", kept_.path().string()));
-        compareAll();
-        sayWhenInterrupted("");
-        return finish();
-    }
-
-private:
-    // All parts of a report come from the same device, or the same two devices.
-    void checkDevice() {
-        Json device = Json::array();
-        for (const Device* of : {&device_, other_.get()})
-            if (of)
-                for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
-                    device.push_back(word);
-        const Json there = kept_.find("device");
-        if (there.is_object() && there.value("device", Json()) != device)
-            throw std::runtime_error(fmt::format(
-                "{}: holds scenes rendered on another device ({}); remove it, or use that --device",
-                kept_.path().string(), there["device"].dump()));
-        kept_.keep("device", {{"device", device}});
-    }
-
-    std::string nameOf(const shards::Item& item) const {
-        return item.folder.empty() ? "scene" : item.folder.substr(0, item.folder.size() - 1) + "-scene";
-    }
-
-    void findKept() {
-        for (const shards::Item* item : items_.mine) {
-            if (kept_.find(nameOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
-                continue;
-            try {
-                parts_.emplace(item, readPart(kept_.path(), item->folder));
-            } catch (const std::runtime_error& problem) {
-                note(options_, fmt::format("{}; comparing the scene again", problem.what()));
-            }
-        }
-        if (!parts_.empty())
-            note(options_, fmt::format("{} of {} scenes are kept from an interrupted run", parts_.size(),
-                                       items_.mine.size()));
-    }
-
-    // Runs `work` on one scene. A scene that cannot be read or rendered becomes an error of the report,
-    // and the other scenes continue.
-    void attempt(const shards::Item* item, const std::function<void()>& work) {
-        try {
-            work();
-        } catch (const std::system_error&) {
-            throw;  // errors of this machine, such as a full disk, end the command
-        } catch (const std::runtime_error& error) {
-            errors_.emplace(item, SceneError{item->scene, error.what()});
-            say(options_, fmt::format("{}; continuing with the other scenes", error.what()));
-        }
-    }
-
-    // Detects unreadable scenes before the long rendering starts.
-    void checkHeaders() {
-        for (const shards::Item* item : items_.mine)
-            if (!parts_.contains(item))
-                attempt(item, [&] { checkScene(item->scene, options_.settings.variant); });
-    }
-
-    void compareAll() {
-        std::vector<const shards::Item*> left;
-        for (const shards::Item* item : items_.mine)
-            if (!parts_.contains(item) && !errors_.contains(item)) left.push_back(item);
-        const auto all = static_cast<double>(items_.mine.size());
-        auto done = all - static_cast<double>(left.size());
-        // Loads the next scene while one is rendered.
-        const auto load = [&](std::size_t i) {
-            return std::async(std::launch::async, [this, name = left[i]->scene] {
-                return loadShown(name, options_.settings, {});
-            });
-        };
-        std::future<Scene> next;
-        if (!left.empty()) next = load(0);
-        for (std::size_t i = 0; i < left.size(); ++i, ++done) {
-            const shards::Item* item = left[i];
-            say(options_, item->scene);
-            const Stage stage =
-                Stage(progress_, item->scene).part(0.99 * done / all, 0.99 * (done + 1) / all);
-            stage.at(0, "load");
-            attempt(item, [&] {
-                std::future<Scene> loading = std::move(next);
-                loading.wait();
-                if (i + 1 < left.size()) next = load(i + 1);
-                const Scene scene = loading.get();
-                parts_.emplace(item, compareOne(*item, scene, stage));
-            });
-        }
-    }
-
-    ReportPart compareOne(const shards::Item& item, const Scene& scene, const Stage& stage) {
-        KeptReferences references(folder_, true);
-        RenderOptions render = render_;
-        render.keep = [&](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-            return references.open(key, floats);
-        };
-        const auto [drawing, comparing] = sharesOf(render);
-        const double ours = ourShare(options_) * drawing;
-        render.progress = stage.part(0, ours);
-        DrawnScene drawn = drawScene(scene, options_, settings_, device_, render, probe_,
-                                     stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
-        checkValidation(device_);
-        if (other_) checkValidation(*other_);
-        Report report = reportOf(options_, compare_, std::move(drawn), {}, reportDevice(device_),
-                                 other_ ? reportDevice(*other_) : ReportDevice(), againBeside(folder_),
-                                 stage.part(drawing, comparing));
-        double explained = comparing;
-        if (isExplained(options_, report)) {
-            explained = 0.5 * (1 + comparing);
-            addExplanations(options_, device_, report, stage.part(comparing, explained));
-        }
-        ReportPart part =
-            writePart(report, kept_.path(), reportOptions(item.folder, stage.part(explained, 1)));
-        // If an external renderer failed, the next run tries the scene again.
-        if (report.errors.empty()) kept_.keep(nameOf(item), stampOf(item.scene));
-        for (const SceneError& error : report.errors) errors_.emplace(&item, error);
-        references.remove();
-        return part;
-    }
-
-    ReportOptions reportOptions(const std::optional<std::string>& scene_folder, const Stage& stage) const {
-        return {picture_, options_.single_file, options_.keep, options_.force, stage, scene_folder};
-    }
-
-    int finish() {
-        WholeReport whole;
-        for (const shards::Item* item : items_.mine) {
-            const auto [first, last] = errors_.equal_range(item);
-            for (auto error = first; error != last; ++error) whole.errors.push_back(error->second);
-            if (const auto part = parts_.find(item); part != parts_.end())
-                whole.parts.push_back({std::move(part->second), kept_.path(), true});
-        }
-        if (whole.parts.empty() && options_.shard.empty())
-            throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
-                                                 counted(items_.all.size(), "scene"),
-                                                 whole.errors.front().message));
-        if (!options_.shard.empty())
-            whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items_.plan, items_.shard,
-                                                  items_.all, whole.errors});
-        const Report summary = summaryOf(whole);
-        ReportOptions report = reportOptions(std::nullopt, {});
-        report.since = sinceOf(options_, summary, rowsOf(whole));
-        writeWhole(whole, summary, folder_, report);
-        kept_.remove();
-        progress_.wipe();
-        noteLeftByOthers(options_, KeptReferences(folder_, true));
-        showWhole(options_, whole, summary, folder_, report.since.get(), true);
-        sayErrors(summary.errors);
-        return exitCodeOf(summary);
-    }
-
-    const Options& options_;
-    const std::vector<Settings>& settings_;
-    const fs::path folder_;
-    const PictureChoice picture_;
-    const CompareOptions compare_;
-    const SceneItems items_;
-    CheckpointFolder kept_;
-    const RenderOptions render_;
-    Progress progress_;
-    Device device_;
-    const std::shared_ptr<PipelineSet> pipelines_;
-    const std::unique_ptr<Device> other_;  // --against-device
-    AgainstDevice against_;
-    TextureProbe probe_;
-    std::map<const shards::Item*, ReportPart> parts_;
-    std::multimap<const shards::Item*, SceneError> errors_;  // of the scene or of external renderers
-};
 
 }  // namespace
 
@@ -248,7 +32,46 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
     if (options.single_file && !options.shard.empty())
         throw std::runtime_error(
             "--single-file: merge takes a shard's images from beside its page; leave it out");
-    return Collection(options, settings, folder).run();
+    const shards::CollectionQuestion question{
+        settings,
+        comparedOf(options),
+        compareOptions(options),
+        judgedOptions(renderOptions(options), settings, isTraced(settings, {}),
+                      !options.against_device.empty(), options.twice),
+        explanationOf(options),
+        {pictureChoice(options), options.single_file, options.keep, options.force},
+        folder,
+        resumeKey(options, settings),
+        [&](const std::string& line) { note(options, line); },
+        [&](const std::string& line) { say(options, line); }};
+    const shards::SceneItems items = itemsOf(options, settings);
+    Progress progress(progressOutput(options));
+    Device device(deviceOptions(options));
+    const std::unique_ptr<Device> other = againstDevice(options);
+    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
+    shards::Collection collection(question, items, device, other.get(), progress);
+    sayWhenInterrupted(fmt::format("finished scenes are kept in {}: the same command continues from there",
+                                   collection.keptIn().string()));
+    collection.compareAll();
+    sayWhenInterrupted("");
+    WholeReport whole = collection.whole();
+    if (whole.parts.empty() && options.shard.empty())
+        throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
+                                             counted(items.all.size(), "scene"),
+                                             whole.errors.front().message));
+    if (!options.shard.empty())
+        whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items.plan, items.shard,
+                                              items.all, whole.errors});
+    const Report summary = summaryOf(whole);
+    ReportOptions report = question.report;
+    report.since = sinceOf(options, summary, rowsOf(whole));
+    writeWhole(whole, summary, folder, report);
+    collection.remove();
+    progress.wipe();
+    noteLeftByOthers(options, KeptReferences(folder, true));
+    showWhole(options, whole, summary, folder, report.since.get(), true);
+    sayErrors(summary.errors);
+    return exitCodeOf(summary);
 }
 
 void showWhole(const Options& options, const WholeReport& whole, const Report& summary,

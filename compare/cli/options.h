@@ -27,7 +27,7 @@ namespace diptych::cli {
 struct ChooseOptions {
     std::optional<double> max_error, max_ms;
     std::optional<std::uint64_t> max_bytes;
-    std::string figure = "flip";  // name in tradeoff::errorFigures
+    std::string figure = "flip";  // name in experiment::errorFigures
     bool explain = false;         // --explain-choice
 };
 

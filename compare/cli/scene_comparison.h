@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Renders a scene with all paths and cameras and compares the Frames.
+// What the options compare, and what they do not support.
 #pragma once
 
-#include "compare/checks/visual_checks.h"
 #include "compare/cli/options.h"
-#include "compare/render/render_many.h"
-#include "compare/render/render_options.h"
-#include "compare/verdict/comparison.h"
-#include "compare/verdict/pair_reports.h"
-#include "shared/frame/frame.h"
-#include "shared/material/texture_probe.h"
-#include "shared/scene/model/scene.h"
-#include "shared/vulkan/device.h"
+#include "compare/experiment/comparison.h"
+#include "compare/explain/explanations.h"
 
-#include <array>
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace diptych::cli {
 
-bool againstReference(const Options& options);
-std::vector<Path> comparedPaths(const Options& options);
+experiment::Compared comparedOf(const Options& options);
 
 // Whether the baseline is a reference in mode scene, rendered now or read from a file.
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline);
@@ -35,50 +24,6 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
 // Throws std::runtime_error, one line, for options that a cross-device comparison does not support.
 void checkAgainstDevice(const Options& options, const std::vector<Settings>& settings);
 
-// Fractions of a scene's time after which rendering and comparing end. Per Frame, comparing takes one
-// rendered frame, writing three (lavapipe, gallery, 1280x720: 4.8 s, 0.3 s and 0.9 s).
-struct Shares {
-    double drawn, compared;
-};
-Shares sharesOf(const RenderOptions& render);
-
-// The rendered Frames of a scene.
-struct DrawnScene {
-    std::vector<Frame> frames;  // in pairs; in triples if the reference comes first
-    std::vector<Requirements> needs;
-    // Per camera and time: visual inspections, and material names by ID.
-    std::vector<std::vector<FeatureChecks>> visual_checks;
-    std::vector<std::vector<std::string>> materials;
-    std::optional<TextureSampling> texels{};  // for textured scenes with a reference in mode scene
-    std::vector<ExternalPicture> external{};  // --renderer
-    std::vector<SceneError> errors{};         // failed external renderers
-    // With --against-device: one per view and path; frames are then in groups of four.
-    std::vector<AcrossDevices> across{};
-};
-
-// The other device of --against-device, and data that scenes share: its pipelines and both devices'
-// precision. Texture precision is measured at the first textured scene.
-struct AgainstDevice {
-    Device& device;
-    std::shared_ptr<PipelineSet> pipelines;
-    std::array<DevicePrecision, 2> precision;
-};
-
-// The device's texture sampling, measured at the first use.
-using TextureProbe = std::optional<TextureSampling>;
-// `outside`: progress of external renderers. `pipelines`: shared with other scenes; nullptr: its own.
-// `against`: renders every Frame there too.
-DrawnScene drawScene(const Scene& scene, const Options& options, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
-                     const std::shared_ptr<PipelineSet>& pipelines = nullptr,
-                     AgainstDevice* against = nullptr);
-
-// Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
-double ourShare(const Options& options);
-
-// The scene's comparisons and errors. Commands in the report write to `again`.
-Report reportOf(const Options& options, CompareOptions compare, DrawnScene drawn,
-                std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
-                const std::string& again, const Stage& progress);
+ExplanationQuestion explanationOf(const Options& options);
 
 }  // namespace diptych::cli

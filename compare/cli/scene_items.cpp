@@ -2,16 +2,14 @@
 #include "compare/cli/scene_items.h"
 
 #include "compare/cli/verdict_words.h"
+#include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
-#include "compare/report/folders.h"
 #include "shared/image/limits.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
 #include "shared/text/named.h"
 
-#include <cstdlib>
-#include <map>
-#include <optional>
+#include <utility>
 
 namespace diptych::cli {
 namespace {
@@ -21,13 +19,6 @@ using Json = nlohmann::ordered_json;
 
 std::string contentsHash(const fs::path& file) {
     return named(file.string(), [&] { return shards::hashOf(textIn(file, limits::imageBytes())); });
-}
-
-Json fileStamp(const fs::path& file) {
-    std::error_code error;
-    const auto size = fs::file_size(file, error);
-    if (error) return {file.string(), nullptr};
-    return {file.string(), size, fs::last_write_time(file, error).time_since_epoch().count()};
 }
 
 // Options that affect the result, besides the scenes, by name.
@@ -66,29 +57,12 @@ Json askedOf(const Options& options, const std::vector<Settings>& settings) {
 
 }  // namespace
 
-SceneItems itemsOf(const Options& options, const std::vector<Settings>& settings) {
-    SceneItems items;
-    const auto environment = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value ? std::optional<std::string>(value) : std::nullopt;
-    };
-    if (!options.shard.empty()) items.shard = shards::shardOf(options.shard, environment);
-    const std::map<std::string, double> timings =
-        options.timings.empty() ? std::map<std::string, double>() : shards::timingsOf(options.timings);
-    const std::vector<int> parts =
-        shards::partition(shards::weightsOf(options.scenes, timings), items.shard.count);
+shards::SceneItems itemsOf(const Options& options, const std::vector<Settings>& settings) {
     // One view of one scene needs no folder.
     const bool several = options.scenes.size() * options.cameras.size() * options.times.size() > 1 ||
-                         (!options.baseline_file.empty());
-    const std::vector<std::string> folders = sceneFolders(options.scenes);
-    Json scenes = Json::array();
-    for (std::size_t i = 0; i < options.scenes.size(); ++i) {
-        items.all.push_back({options.scenes[i], several ? folders[i] : "", parts[i]});
-        scenes.push_back({options.scenes[i], shards::bytesOf(options.scenes[i])});
-    }
-    for (const shards::Item& item : items.all)
-        if (item.shard == items.shard.index) items.mine.push_back(&item);
-    items.plan = {{"shards", items.shard.count}, {"scenes", scenes}, {"asked", askedOf(options, settings)}};
+                         !options.baseline_file.empty();
+    shards::SceneItems items = shards::itemsOf(options.scenes, several, options.shard, options.timings);
+    items.plan["asked"] = askedOf(options, settings);
     return items;
 }
 
@@ -106,12 +80,6 @@ Json resumeKey(const Options& options, const std::vector<Settings>& settings) {
             {"one", options.scenes.size() == 1},  // affects the folder of a scene
             {"single_file", options.single_file},
             {"files", files}};
-}
-
-Json stampOf(const std::string& scene) {
-    Json files = Json::array();
-    for (const fs::path& file : shards::filesOf(scene)) files.push_back(fileStamp(file));
-    return {{"scene", scene}, {"files", files}};
 }
 
 }  // namespace diptych::cli

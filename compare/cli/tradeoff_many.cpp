@@ -7,29 +7,21 @@
 #include "compare/files/listed_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
-#include "compare/output/writers.h"
-#include "compare/page/text.h"
-#include "compare/report/folders.h"
 #include "compare/report/titles.h"
 #include "compare/run/print.h"
 #include "compare/shards/merge.h"
+#include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/counted.h"
-#include "shared/text/fail.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
-#include "shared/text/json_at.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
-#include <tuple>
 #include <utility>
 
 namespace diptych::cli {
@@ -37,106 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One scene's row on the page of all scenes.
-struct Swept {
-    std::string scene, folder, device;
-    std::size_t rows = 0, front = 0;
-    double fastest_ms = 0, fastest_flip = 0, best_ms = 0, best_flip = 0;
-};
-
-using Place = JsonAt<nlohmann::json>;
-
-Swept sweptOf(const shards::Item& item, const Place& json) {
-    Swept swept{item.scene, item.folder, json.at("device").textOr("name", "")};
-    const std::vector<Place> rows = json.at("rows").each();
-    swept.rows = rows.size();
-    for (const Place& front : json.at("fronts").each())
-        if (front.at("error").text() == "flip" && front.at("path").json().is_null())
-            swept.front = front.at("rows").size();
-    bool first = true;
-    for (const Place& row : rows) {
-        const double ms = row.at("ms").at("median").number();
-        const Place error = row.at("errors").at("flip");
-        const double flip = error.json().is_number() ? error.number() : 1e300;
-        if (first || ms < swept.fastest_ms)
-            std::tie(swept.fastest_ms, swept.fastest_flip) = std::pair(ms, flip);
-        if (first || flip < swept.best_flip) std::tie(swept.best_ms, swept.best_flip) = std::pair(ms, flip);
-        first = false;
-    }
-    return swept;
-}
-
-// Reads a scene's tradeoff below `root`; throws if the file is not a tradeoff.
-Swept sweptIn(const fs::path& root, const shards::Item& item) {
-    const std::string name = item.folder + tradeoff::tradeoffManifest;
-    return named((root / name).string(), [&] {
-        const nlohmann::json json = parseJson(textBelow(root, name, json_bytes));
-        const Place top(json);
-        if (top.textOr("software", "") != softwareName) fail("is not a report of tradeoff");
-        return sweptOf(item, top);
-    });
-}
-
-std::string pageOf(const std::vector<Swept>& all, const std::vector<SceneError>& errors) {
-    using output::Column;
-    using output::numberCell;
-    std::vector<std::string> scenes;
-    for (const Swept& one : all) scenes.push_back(one.scene);
-    const std::string common = page::commonFolder(scenes);
-    output::Table table{.columns = {}, .sortable = true, .style = "", .box = "box scroll"};
-    const auto add = [&](Column column, const auto& cellOf) { addColumn(table, column, all, cellOf); };
-    const auto addNumber = [&](const char* title, const auto& of) {
-        add({title, Column::number}, [&](const Swept& one) { return numberCell(one.*of); });
-    };
-    const auto addCount = [&](const char* title, std::size_t Swept::*of) {
-        add({title, Column::number}, [&](const Swept& one) { return fmt::format("{}", one.*of); });
-    };
-    add({.title = "scene", .style = "wide"}, [&](const Swept& one) {
-        const output::Span link(page::inFolder(one.scene, common), output::Span::link,
-                                one.folder + "index.html");
-        return output::styled(link, "", one.scene);
-    });
-    addCount("rows", &Swept::rows);
-    addCount("on the front", &Swept::front);
-    addNumber("fastest, ms", &Swept::fastest_ms);
-    addNumber("its FLIP", &Swept::fastest_flip);
-    addNumber("most accurate, ms", &Swept::best_ms);
-    addNumber("FLIP", &Swept::best_flip);
-    add({.title = "device", .style = "wide soft"}, [](const Swept& one) { return one.device; });
-    const std::string of = counted(all.size(), "scene");
-    output::Document page{.title = "time against error of " + of,
-                          .heading = "Time against error of " + of,
-                          .about =
-                              "Times were measured on the device in the row; times of different devices "
-                              "do not compare.",
-                          .blocks = {}};
-    output::List failed;
-    for (const SceneError& error : errors) failed.items.emplace_back(errorText(error));
-    if (!errors.empty())
-        page.blocks.emplace_back(output::Box{"box failures", {output::Heading{4, "Failures"}, failed}});
-    page.blocks.emplace_back(output::Box{"index", {table}});
-    return inHtml(page);
-}
-
 // Writes the page and the manifest, and returns the manifest. Called first without scenes, which marks the
 // folder as ours, and again with all scenes.
 std::string writePage(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
                       const std::vector<const shards::Item*>& done) {
-    std::vector<Swept> swept;
-    for (const shards::Item* item : done) swept.push_back(sweptIn(folder, *item));
-    ListedFolder out(folder, tradeoffsManifest, options.force);
-    out.put("index.html", pageOf(swept, manifest.errors));
-    nlohmann::ordered_json json = parseOrderedJson(textOf(manifest));
-    json["scenes"] = nlohmann::ordered_json::array();
-    for (const Swept& one : swept)
-        json["scenes"].push_back({{"scene", one.scene},
-                                  {"folder", one.folder},
-                                  {"device", one.device},
-                                  {"rows", one.rows},
-                                  {"front", one.front},
-                                  {"fastest", {{"ms", one.fastest_ms}, {"flip", one.fastest_flip}}},
-                                  {"most_accurate", {{"ms", one.best_ms}, {"flip", one.best_flip}}}});
-    return out.finish(std::move(json));
+    std::vector<tradeoff::SweptScene> scenes;
+    for (const shards::Item* item : done) scenes.push_back({item->scene, item->folder});
+    std::vector<std::string> failures;
+    for (const SceneError& error : manifest.errors) failures.push_back(errorText(error));
+    return tradeoff::writeAllScenes(folder, parseOrderedJson(textOf(manifest)), scenes, failures,
+                                    options.force);
 }
 
 void showMany(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
@@ -159,16 +61,14 @@ int finish(const Options& options, const fs::path& folder, const shards::Manifes
 
 int tradeoffMany(const Options& options, const fs::path& folder,
                  const std::function<void(const Options&)>& sweep) {
-    const SceneItems items = itemsOf(options, {options.settings});
+    const shards::SceneItems items = itemsOf(options, {options.settings});
     CheckpointFolder kept(folder, "scenes", resumeKey(options, {options.settings}));
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
-    if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
+    if (!isOurManifest(folder / tradeoff::tradeoffsManifest)) writePage(options, folder, manifest, {});
     for (const shards::Item* item : items.mine) {
-        const std::string folder_name =
-            item->folder.empty() ? sceneFolders({item->scene}).front() : item->folder;
-        const std::string name = folder_name.substr(0, folder_name.size() - 1) + "-scene";
-        if (kept.find(name) == stampOf(item->scene) &&
+        const std::string name = shards::partOf(*item);
+        if (kept.find(name) == shards::stampOf(item->scene) &&
             isOurManifest(folder / item->folder / tradeoff::tradeoffManifest)) {
             done.push_back(item);
             continue;
@@ -178,16 +78,14 @@ int tradeoffMany(const Options& options, const fs::path& folder,
         one.out = folder / (item->folder.empty() ? "." : item->folder);
         one.json = false;
         one.quiet = options.quiet || options.json;
-        try {
+        const auto error = shards::attempt(item->scene, [&] {
             sweep(one);
-            kept.keep(name, stampOf(item->scene));
+            kept.keep(name, shards::stampOf(item->scene));
             done.push_back(item);
-        } catch (const std::system_error&) {
-            throw;  // errors of this machine, such as a full disk, end the command
-        } catch (const std::runtime_error& error) {
-            manifest.errors.push_back({item->scene, error.what()});
-            say(options, fmt::format("{}; continuing with the other scenes", error.what()));
-        }
+        });
+        if (!error) continue;
+        manifest.errors.push_back(*error);
+        say(options, fmt::format("{}; continuing with the other scenes", error->message));
     }
     if (done.empty() && !manifest.errors.empty() && options.shard.empty())
         throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
@@ -199,8 +97,10 @@ int tradeoffMany(const Options& options, const fs::path& folder,
 }
 
 int mergeTradeoffs(const Options& options) {
-    const fs::path folder = outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest);
-    shards::Chosen chosen = shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoffsManifest);
+    const fs::path folder =
+        outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoff::tradeoffsManifest);
+    shards::Chosen chosen =
+        shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoff::tradeoffsManifest);
     std::vector<const shards::Item*> done;
     writePage(options, folder, chosen.manifest, {});
     for (const shards::Item& item : chosen.manifest.items) {
@@ -213,7 +113,7 @@ int mergeTradeoffs(const Options& options) {
         std::vector<std::string> names = listedIn(from / manifest);
         std::erase(names, tradeoff::tradeoffManifest);
         try {
-            sweptIn(from, item);
+            tradeoff::checkSwept(from, {item.scene, item.folder});
             for (const std::string& name : names)
                 named((from / item.folder / name).string(), [&] { InputFile(from, item.folder + name); });
         } catch (const std::runtime_error& problem) {

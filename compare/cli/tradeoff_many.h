@@ -8,8 +8,6 @@
 
 namespace diptych::cli {
 
-inline constexpr const char* tradeoffsManifest = "tradeoffs.json";
-
 // tradeoff for many scenes, or for a shard of them. `sweep` writes one folder per scene in `folder`; a
 // page links them. An interrupted command resumes after its last scene. Scenes that cannot be read or
 // rendered are reported, and the others continue.

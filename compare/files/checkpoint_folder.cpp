@@ -81,4 +81,11 @@ void CheckpointFolder::remove() {
     ::rmdir(path().c_str());
 }
 
+Json fileStamp(const fs::path& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (error) return {file.string(), nullptr};
+    return {file.string(), size, fs::last_write_time(file, error).time_since_epoch().count()};
+}
+
 }  // namespace diptych

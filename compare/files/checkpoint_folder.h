@@ -35,4 +35,7 @@ private:
     bool renewed_ = false;
 };
 
+// Name, size and time of a file; null for a missing one's. In a key, detects a changed file.
+nlohmann::ordered_json fileStamp(const std::filesystem::path& file);
+
 }  // namespace diptych

@@ -140,4 +140,10 @@ FrameTime timeOf(std::vector<double> ms) {
     return time;
 }
 
+void checkValidation(const Device& device) {
+    if (const std::uint64_t count = device.validationMessages(); count > 0)
+        throw std::runtime_error(fmt::format("--validate: {}, the first: {}", counted(count, "message"),
+                                             device.firstValidationMessage()));
+}
+
 }  // namespace diptych

@@ -44,4 +44,7 @@ std::vector<std::string> repairedInWords(const Frame& frame);
 // Median, minimum and maximum, ms.
 FrameTime timeOf(std::vector<double> ms);
 
+// With --validate, throws if the validation layers reported messages: their count and the first one.
+void checkValidation(const Device& device);
+
 }  // namespace diptych

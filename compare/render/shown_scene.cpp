@@ -36,4 +36,10 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
     return scene;
 }
 
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
+    // In units of one rendered frame, roughly. File sizes vary widely; built-in scenes load at once.
+    const double load = scene.starts_with("builtin:") ? 0.1 : 4;
+    return load / (load + framesIn(render) * static_cast<double>(frames));
+}
+
 }  // namespace diptych

@@ -2,10 +2,12 @@
 // Loads a scene with the material variant and the environment that its Settings request.
 #pragma once
 
+#include "compare/render/render_options.h"
 #include "compare/run/progress.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
 
+#include <cstddef>
 #include <string>
 
 namespace diptych {
@@ -13,5 +15,8 @@ namespace diptych {
 // Loads the scene (shared/scene/load.h), the variant and the environment of the Settings; reports to
 // `progress`. Throws std::runtime_error, one line, naming the file.
 Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
+
+// Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
+double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
 
 }  // namespace diptych

@@ -2,13 +2,13 @@
 // Measurements of one row of a sweep: one Settings.
 #pragma once
 
+#include "compare/experiment/errors.h"
 #include "compare/tradeoff/sample_shares.h"
 #include "compare/tradeoff/shadow_errors.h"
 #include "shared/frame/frame.h"
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,16 +16,9 @@
 
 namespace diptych::tradeoff {
 
-// Error metrics of lit over pixels with a surface in the reference: the same pixels for every row.
-struct ErrorFigure {
-    std::string_view name, title, means;
-};
-inline constexpr std::array errorFigures{
-    ErrorFigure{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
-    ErrorFigure{"relative_rmse", "relative RMSE", "root mean square of the relative error"},
-    ErrorFigure{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
-};
-using Errors = std::array<double, errorFigures.size()>;
+using experiment::ErrorFigure;
+using experiment::errorFigures;
+using experiment::Errors;
 
 struct CameraRow {
     std::string camera;             // title: "default view"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/shadow_errors.h"
 
+#include "compare/experiment/errors.h"
 #include "compare/verdict/shadow_edges.h"
 #include "shared/contract/debug_mode.h"
 
@@ -17,15 +18,6 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 double share(std::size_t part, std::size_t all) {
     return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
-}
-
-// Nearest rank.
-double p99(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(values.size())));
-    const auto nth = values.begin() + rank - 1;
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
 }
 
 }  // namespace
@@ -59,7 +51,7 @@ std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& 
         return arrives > 0 ? energy / arrives : energy > 0 ? unbounded : 0;
     };
     return ShadowErrors{ofAll(wrong), share(lit, away), share(dark, away), ofAll(leaked),
-                        p99(std::move(gaps))};
+                        experiment::nearestRank(std::move(gaps), 0.99)};
 }
 
 }  // namespace diptych::tradeoff

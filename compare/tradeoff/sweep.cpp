@@ -1,225 +1,233 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep.h"
 
-#include "compare/verdict/baseline.h"
+#include "compare/experiment/kept.h"
+#include "compare/experiment/sensitivity.h"
+#include "compare/external/external_frame.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/shown_scene.h"
+#include "compare/tradeoff/measure.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/draw/depth_storage.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
-#include <tuple>
+#include <optional>
+#include <random>
+#include <span>
+#include <utility>
 
 namespace diptych::tradeoff {
+
 namespace {
 
-constexpr std::string_view each = "*";
+using SweepClock = std::chrono::steady_clock;
 
-std::vector<std::string> sweptOptions() {
-    std::vector<std::string> options;
-    for (const Field& field : settingFields())
-        if (!field.sweep.empty()) options.emplace_back(field.option);
-    return options;
+double msSince(SweepClock::time_point start) {
+    return std::chrono::duration<double, std::milli>(SweepClock::now() - start).count();
 }
 
-std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std::string_view option) {
-    return {std::string(option), sweptValues(given, option)};
+// Relative cost of a row, pixels, for the progress line.
+double weightOf(const Settings& settings) {
+    return static_cast<double>(settings.size.width) * settings.size.height;
 }
 
-// Adds a start for every combination of the Settings that sweepPairs() crosses with all others. The other
-// Settings are varied from every start.
-void addStarts(const Settings& given, std::vector<Settings>& starts) {
-    starts.push_back(given);
-    for (const SweepPair& pair : sweepPairs()) {
-        if (pair.b != each) continue;
-        const std::vector<Settings> before = starts;
-        for (const Settings& start : before)
-            for (const std::string& value : sweptValues(given, pair.a)) {
-                Settings other = start;
-                other.set(pair.a, value);
-                if (std::ranges::count(starts, other) == 0 && other.path != Path::reference &&
-                    !effectiveSettings(other).problem())
-                    starts.push_back(other);
-            }
-    }
+// Timed frames in each timing block of a row. The first block runs when the row is rendered, the others
+// after all rows.
+std::vector<int> blockSizes(int runs) {
+    constexpr int most = 5;  // each block allocates the row's images again
+    const int at_once = std::max(4, (runs + most - 1) / most);
+    std::vector<int> blocks{std::min((runs + 1) / 2, at_once)};
+    for (int left = runs - blocks.front(); left > 0; left -= blocks.back())
+        blocks.push_back(std::min(left, at_once));
+    return blocks;
 }
 
-bool isCrossedWithEach(std::string_view option) {
-    return std::ranges::any_of(sweepPairs(),
-                               [&](const SweepPair& pair) { return pair.b == each && pair.a == option; });
+// Without the rows that the device cannot draw.
+SweepQuestion drawable(SweepQuestion question, const Device& device) {
+    question.rows =
+        experiment::withoutRefused(std::move(question.rows), question.settings,
+                                   [&](const Settings& row) { return drawingProblem(device, row); });
+    return question;
 }
 
-// Inputs of specular anti-aliasing.
-auto filterOf(const Settings& s) {
-    return std::tuple(s.spec_aa, s.spec_aa_variance, s.spec_aa_limit, s.spec_aa_normals, s.spec_aa_kernel);
-}
-
-class SweepBuilder {
-public:
-    explicit SweepBuilder(const Settings& given) : given_(given) {}
-
-    void add(const std::vector<Choice>& choices) {
-        Settings requested = given_;
-        for (const auto& [option, value] : choices) requested.set(option, value);
-        const std::vector<Choice> tried = changed(requested);
-        if (requested.path == Path::reference)
-            return skip({{"path", "reference"}}, "is the reference that all rows are compared with");
-        for (const auto& [option, value] : tried)
-            if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
-                skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
-        // Without multiple scattering the reference uses another model.
-        if (given_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
-            return skip(tried, "needs a reference with multiple scattering: add --multiscatter energy");
-        // A reference with one sample per pixel cannot show a benefit of filtering.
-        if (given_.reference_mode == ReferenceMode::surface && filterOf(requested) != filterOf(given_))
-            return skip(tried,
-                        "needs a reference that samples the scene: add --reference-mode scene and --spp");
-        const Settings row = effectiveSettings(requested);
-        if (row.msaa > 1 && row.resolve != given_.resolve)
-            return skip(tried, fmt::format("needs a reference with the same resolve: add --resolve {}",
-                                           nameOf(row.resolve)));
-        if (const std::string why = samplesProblem(referenceSettings(given_), row); !why.empty())
-            return skip({{"path", std::string(nameOf(row.path))}, {"msaa", row.valueOf("msaa")}}, why);
-        if (const auto problem = row.problem()) return skip(tried, *problem);
-        if (std::ranges::count(sweep_.rows, row) == 0) sweep_.rows.push_back(row);
-    }
-    SweepRows done() { return std::move(sweep_); }
-
-private:
-    std::vector<Choice> changed(const Settings& requested) const {
-        std::vector<Choice> choices;
-        for (const Field& field : settingFields()) {
-            const std::string value = requested.valueOf(field.option);
-            if (field.option == "path" || value != given_.valueOf(field.option))
-                choices.emplace_back(field.option, value);
-        }
-        return choices;
-    }
-    // Omits skips whose combination extends one with the same reason.
-    void skip(const std::vector<Choice>& tried, const std::string& reason) {
-        const auto covers = [&](const SweepSkip& skip) {
-            return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Choice& choice) {
-                       return std::ranges::count(tried, choice) > 0;
-                   });
-        };
-        if (std::ranges::none_of(sweep_.skips, covers)) sweep_.skips.push_back({tried, reason});
-    }
-
-    const Settings& given_;
-    SweepRows sweep_;
-};
-
-// Adds the product of the grid; the last Setting varies fastest.
-void addProduct(const Grid& grid, SweepBuilder& builder) {
-    std::vector<std::size_t> at(grid.size(), 0);
-    for (std::size_t digit = 1; digit > 0;) {
-        std::vector<Choice> choices;
-        for (std::size_t i = 0; i < grid.size(); ++i)
-            choices.emplace_back(grid[i].first, grid[i].second[at[i]]);
-        builder.add(choices);
-        for (digit = grid.size(); digit > 0; at[--digit] = 0)
-            if (++at[digit - 1] < grid[digit - 1].second.size()) break;
-    }
+Tradeoff begun(const SweepQuestion& question, const Device& device) {
+    Tradeoff tradeoff;
+    tradeoff.scene = question.scene;
+    tradeoff.cameras = question.cameras;
+    tradeoff.given = experiment::referenceFor(question.settings, question.rows.rows);
+    tradeoff.reference = referenceSettings(tradeoff.given);
+    tradeoff.device = reportDevice(device);
+    tradeoff.runs = question.drawing.runs;
+    return tradeoff;
 }
 
 }  // namespace
 
-std::vector<Grid> defaultGrids(const Settings& given) {
-    std::vector<Settings> starts;
-    addStarts(given, starts);
-    // A grid with the start's values.
-    const auto from = [&](const Settings& start) {
-        Grid grid;
-        for (const SweepPair& pair : sweepPairs())
-            if (pair.b == each) grid.push_back({std::string(pair.a), {start.valueOf(pair.a)}});
-        return grid;
+Sweep::Sweep(SweepQuestion question, Device& device, const Stage& stage)
+    : question_(drawable(std::move(question), device)),
+      device_(device),
+      stage_(stage),
+      tradeoff_(begun(question_, device)),
+      loaded_(loadingShare(question_.scene, question_.drawing, rows().size() * question_.cameras.size())),
+      scene_(loadShown(question_.scene, question_.settings, stage.part(0, loaded_))),
+      views_(scene_),
+      renderer_(device, sensitiveViews()),
+      kept_references_(question_.folder, true),
+      references_(drawReferences()),
+      state_(question_.folder, key()) {}
+
+SceneViews& Sweep::sensitiveViews() {
+    tradeoff_.notes = scene_.notes;
+    stage_.at(loaded_, "upload");
+    if (question_.only_sensitive)
+        question_.rows = experiment::sensitiveRows(
+            question_.rows, views_.at(viewRequest(question_.settings)).lights, &views_.scene());
+    tradeoff_.skips = question_.rows.skips;
+    return views_;
+}
+
+double Sweep::referenced() const {
+    return loaded_ + (1 - loaded_) / static_cast<double>(rows().size() + 1);
+}
+
+experiment::ReferenceFrames Sweep::drawReferences() {
+    tradeoff_.cost.reading = msSince(question_.start);
+    const SweepClock::time_point uploaded = SweepClock::now();
+    RenderOptions drawing = question_.drawing;
+    drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
+    drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+        return kept_references_.open(key, floats);
     };
-    std::vector<Grid> grids;
-    for (const Settings& start : starts) grids.push_back(from(start));
-    for (const std::string& option : sweptOptions())
-        if (isCrossedWithEach(option)) grids.push_back({axis(given, option)});
-    for (const Settings& start : starts)
-        for (const std::string& option : sweptOptions()) {
-            if (isCrossedWithEach(option)) continue;
-            grids.push_back(from(start));
-            grids.back().push_back(axis(given, option));
+    experiment::ReferenceFrames references = experiment::drawReferenceFrames(
+        renderer_, tradeoff_.given, question_.cameras, question_.picture, drawing);
+    tradeoff_.cost.reference = msSince(uploaded);
+    experiment::addNotes(tradeoff_.notes, references, rows(),
+                         views_.at(viewRequest(question_.settings)).needs);
+    return references;
+}
+
+// Inputs of a row besides its Settings.
+nlohmann::ordered_json Sweep::key() const {
+    std::vector<const Frame*> frames;
+    for (const Frame& frame : references_.frames) frames.push_back(&frame);
+    nlohmann::ordered_json key = experiment::keyOf(tradeoff_.scene, experiment::fingerprint(frames),
+                                                   tradeoff_.reference, tradeoff_.device);
+    key["cameras"] = question_.cameras;
+    key["exposure"] = references_.exposure.factor;
+    key["tonemap"] = references_.exposure.tonemap;
+    key["runs"] = question_.drawing.runs;
+    return key;
+}
+
+void Sweep::draw(const std::function<void(std::size_t)>& shown) {
+    // The first block includes captures and errors.
+    const double drawn = referenced() + (0.98 - referenced()) * 0.7;
+    drawRows(stage_.part(referenced(), drawn), shown);
+    timeAgain(stage_.part(drawn, 0.98));
+}
+
+void Sweep::drawRows(const Stage& stage, const std::function<void(std::size_t)>& shown) {
+    const std::vector<int> blocks = blockSizes(tradeoff_.runs);
+    double all = 0, done = 0;
+    for (const Settings& row : rows()) all += weightOf(row);
+    for (const Settings& settings : rows()) {
+        const double from = done / all;
+        done += weightOf(settings);
+        if (std::optional<TradeoffRow> kept =
+                state_.find(settings, references_.frames.size(), blocks.size())) {
+            ++tradeoff_.kept;
+            tradeoff_.rows.push_back(std::move(*kept));
+        } else {
+            RenderOptions render = question_.drawing;
+            render.runs = blocks.front();
+            render.progress = stage.part(from, done / all);
+            MeasuredRow measured = measureRow(renderer_, settings, references_, render);
+            tradeoff_.cost.drawing += measured.row.drawing_ms;
+            state_.keep(measured);
+            tradeoff_.rows.push_back(std::move(measured.row));
         }
-    for (const Settings& start : starts)
-        for (const SweepPair& pair : sweepPairs()) {
-            if (pair.b == each || !ignoredBecause(start, pair.a).empty() ||
-                !ignoredBecause(start, pair.b).empty())
-                continue;
-            grids.push_back(from(start));
-            for (const std::string_view option : {pair.a, pair.b})
-                grids.back().push_back(axis(given, option));
+        shown(tradeoff_.rows.size() - 1);
+    }
+}
+
+// Times the remaining blocks in rounds over all rows, each round in a random order. A temporary disturbance
+// of the device then biases no row. The rows of one batch are interleaved.
+void Sweep::timeAgain(const Stage& stage) {
+    constexpr std::size_t atOnce = 6;  // rows with allocated images
+    const std::vector<int> blocks = blockSizes(tradeoff_.runs);
+    double all = 0, done = 0;
+    for (const TradeoffRow& row : tradeoff_.rows)
+        all +=
+            weightOf(row.settings) * static_cast<double>(blocks.size() - row.cameras.front().blocks.size());
+    std::mt19937 random(1);
+    for (std::size_t block = 1; block < blocks.size(); ++block) {
+        std::vector<TradeoffRow*> round;
+        for (TradeoffRow& row : tradeoff_.rows)
+            if (row.cameras.front().blocks.size() == block) round.push_back(&row);
+        std::ranges::shuffle(round, random);
+        for (std::size_t at = 0; at < round.size(); at += atOnce) {
+            const auto rows = std::span(round).subspan(at, std::min(atOnce, round.size() - at));
+            RenderOptions render = question_.drawing;
+            render.runs = blocks[block];
+            double before = 0;
+            const double from = done / all;
+            for (const TradeoffRow* row : rows) {
+                done += weightOf(row->settings);
+                before += row->drawing_ms;
+            }
+            render.progress = stage.part(from, done / all);
+            tradeoff::timeAgain(renderer_, rows, references_, render);
+            for (const TradeoffRow* row : rows) {
+                tradeoff_.cost.drawing += row->drawing_ms;
+                state_.renew(*row);
+            }
+            tradeoff_.cost.drawing -= before;
         }
-    return grids;
-}
-
-SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
-    double combinations = 0;
-    for (const Grid& grid : grids) {
-        double product = 1;
-        for (const auto& [option, values] : grid) product *= static_cast<double>(values.size());
-        combinations += product;
     }
-    if (combinations > static_cast<double>(mostCombinations))
-        throw std::runtime_error(fmt::format(
-            "--grid: {:.4g} combinations, more than the {} of one sweep; split it into several sweeps",
-            combinations, mostCombinations));
-    SweepBuilder builder(given);
-    for (const Grid& grid : grids) addProduct(grid, builder);
-    SweepRows sweep = builder.done();
-    if (sweep.rows.empty())
-        throw std::runtime_error(sweep.skips.empty() ? "--grid: holds no combination of settings"
-                                                     : fmt::format("nothing to sweep: {}: {}",
-                                                                   inWords(sweep.skips.front().tried),
-                                                                   sweep.skips.front().reason));
-    return sweep;
 }
 
-SweepRows withoutRefused(SweepRows sweep, const Settings& given,
-                         const std::function<std::optional<std::string>(const Settings&)>& problem) {
-    std::vector<Settings> drawn;
-    for (Settings& row : sweep.rows)
-        if (const auto why = problem(row))
-            sweep.skips.push_back({choicesOf(row, given), *why});
-        else
-            drawn.push_back(std::move(row));
-    sweep.rows = std::move(drawn);
-    if (sweep.rows.empty()) throw std::runtime_error("nothing to sweep: " + sweep.skips.back().reason);
-    return sweep;
-}
-
-std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
-    std::vector<Choice> choices{{"path", std::string(nameOf(row.path))}};
-    for (const Field& field : settingFields()) {
-        const std::string value = row.valueOf(field.option);
-        if (field.option != "path" && value != given.valueOf(field.option) &&
-            ignoredBecause(row, field.option).empty())
-            choices.emplace_back(field.option, value);
+std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer> renderers,
+                                              const std::function<void(std::size_t)>& shown) {
+    std::vector<SceneError> errors;
+    for (const external::Renderer& renderer : renderers) {
+        std::vector<Frame> frames;
+        std::string problem;
+        for (const Frame& reference : references_.frames) {
+            const Settings settings = experiment::seenFrom(reference, tradeoff_.given);
+            external::Attempt attempt =
+                external::drawExternally(renderer, scene_, views_.at(viewRequest(settings)), settings);
+            problem = attempt.problem;
+            if (attempt.frame && !attempt.frame->channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+                problem = "its picture has no R, G, B";
+            if (!problem.empty()) break;
+            for (const std::string& line : attempt.frame->notes)
+                if (std::ranges::count(tradeoff_.notes, line) == 0) tradeoff_.notes.push_back(line);
+            frames.push_back(std::move(*attempt.frame));
+        }
+        if (!problem.empty()) {
+            errors.push_back({tradeoff_.scene, fmt::format("{}: renderer {} ({}): {}", tradeoff_.scene,
+                                                           renderer.name, renderer.file.string(), problem)});
+            tradeoff_.notes.push_back("no row: " + errors.back().message);
+            continue;
+        }
+        MeasuredRow measured = measuredRow(std::move(frames), references_);
+        state_.keep(measured);
+        tradeoff_.rows.push_back(std::move(measured.row));
+        shown(tradeoff_.rows.size() - 1);
     }
-    return choices;
+    return errors;
 }
 
-std::string inWords(const std::vector<Choice>& choices) {
-    std::string words;
-    for (const auto& [option, value] : choices)
-        words += (words.empty() ? "" : ", ") + (option == "path" ? value : option + " " + value);
-    return words;
-}
-
-Settings referenceFor(const Settings& given, const std::vector<Settings>& rows) {
-    const auto shadowed = [](const Settings& row) { return row.shadows != Shadows::off; };
-    Settings truth = given;
-    if (const auto row = std::ranges::find_if(rows, shadowed); !shadowed(given) && row != rows.end())
-        truth.shadows = row->shadows;
-    if (std::ranges::any_of(rows, [](const Settings& row) { return row.multiscatter != Multiscatter::off; }))
-        truth.multiscatter = Multiscatter::walk;
-    // Ray marching has two scale heights and attenuates the sun; the closed form simplifies both.
-    const auto marched = [](const Settings& row) { return row.haze_march_steps > 0; };
-    if (const auto row = std::ranges::find_if(rows, marched); row != rows.end())
-        truth.haze_march_steps = row->haze_march_steps;
-    return truth;
+std::string Sweep::write(bool force) {
+    stage_.at(0.98, "write");
+    tradeoff_.cost.whole = msSince(question_.start);
+    std::string json = writeTradeoff(tradeoff_, question_.folder, state_ / "",
+                                     thumbnail(references_.frames.front(), references_.exposure), force);
+    kept_references_.remove();
+    state_.remove();
+    return json;
 }
 
 }  // namespace diptych::tradeoff

@@ -1,61 +1,79 @@
 // SPDX-License-Identifier: MIT
-// Settings that a sweep renders, and those it skips, with reasons.
+// A sweep of one scene: draws the reference and every row, times the rows in turn and keeps them.
 #pragma once
 
-#include "shared/frame/settings.h"
+#include "compare/experiment/references.h"
+#include "compare/experiment/sweep.h"
+#include "compare/external/renderer_file.h"
+#include "compare/render/reference_frame.h"
+#include "compare/tradeoff/sweep_state.h"
+#include "compare/tradeoff/tradeoff.h"
+#include "shared/scene/scene_view.h"
+#include "shared/vulkan/device.h"
 
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
 #include <functional>
-#include <optional>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace diptych::tradeoff {
 
-// An option, and a value in the words of Settings::set().
-using Choice = std::pair<std::string, std::string>;
-
-// The product of these values; an empty grid is the given Settings.
-using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
-
-struct SweepSkip {
-    std::vector<Choice> tried;
-    std::string reason;
+// What is asked.
+struct SweepQuestion {
+    std::string scene;
+    std::vector<std::string> cameras;
+    Settings settings;
+    experiment::SweepRows rows;
+    bool only_sensitive = true;  // leave out rows that differ in nothing the scene is sensitive to
+    RenderOptions drawing;       // `runs`: timed frames of each row
+    PictureChoice picture;
+    std::filesystem::path folder;                                                    // of the output
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  // of SweepCost
 };
 
-struct SweepRows {
-    std::vector<Settings> rows;  // distinct, in order of their first request
-    std::vector<SweepSkip> skips;
+class Sweep {
+public:
+    // Reads the scene, draws the reference and opens the kept rows. `device` and the progress of `stage`
+    // must outlive the object.
+    Sweep(SweepQuestion question, Device& device, const Stage& stage);
+
+    const Tradeoff& tradeoff() const { return tradeoff_; }
+    const std::vector<Settings>& rows() const { return question_.rows.rows; }
+    bool isRenewed() const { return state_.isRenewed(); }  // rows of another key were removed
+    const KeptReferences& keptReferences() const { return kept_references_; }
+
+    // Draws and times the rows. `shown`: called with a row's index after its first timing block.
+    void draw(const std::function<void(std::size_t)>& shown);
+
+    // Adds a row for each external renderer, over all cameras. Returns the errors of those that failed.
+    std::vector<SceneError> drawExternally(std::span<const external::Renderer> renderers,
+                                           const std::function<void(std::size_t)>& shown);
+
+    // Writes the folder, removes what was kept and returns tradeoff.json.
+    std::string write(bool force);
+
+private:
+    SceneViews& sensitiveViews();  // leaves out insensitive rows
+    experiment::ReferenceFrames drawReferences();
+    nlohmann::ordered_json key() const;
+    void drawRows(const Stage& stage, const std::function<void(std::size_t)>& shown);
+    void timeAgain(const Stage& stage);
+    double referenced() const;  // fraction of the progress at which the reference is drawn
+
+    SweepQuestion question_;
+    Device& device_;
+    const Stage stage_;
+    Tradeoff tradeoff_;
+    const double loaded_;  // fraction of the progress at which the scene is loaded
+    const Scene scene_;
+    SceneViews views_;
+    Renderer renderer_;
+    KeptReferences kept_references_;
+    const experiment::ReferenceFrames references_;
+    SweepState state_;
 };
-
-// Default grids without --grid. For each path, varies every Setting that it reads alone, and the pairs of
-// sweepPairs() together.
-std::vector<Grid> defaultGrids(const Settings& given);
-
-// Invalid and unsupported combinations become skips. So does a value that its path ignores; the row is
-// rendered without it. Throws std::runtime_error if no row is left or there are more than
-// mostCombinations.
-SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
-inline constexpr std::size_t mostCombinations = 10'000;
-
-// Moves rows for which `problem` returns a reason, such as an unsupported format, to the skips. Throws
-// std::runtime_error if no row is left.
-SweepRows withoutRefused(SweepRows sweep, const Settings& given,
-                         const std::function<std::optional<std::string>(const Settings&)>& problem);
-
-// Settings of the reference: the given ones, with features of the rows. Shadows are on if any row has
-// them. Multiple scattering is the random walk if any row has it. Haze is ray marched if any row does so.
-Settings referenceFor(const Settings& given, const std::vector<Settings>& rows);
-
-// Skips with one reason: values per option, or combinations, as text.
-struct SkipGroup {
-    std::string reason;
-    std::vector<std::string> tried;  // "msaa-edges all|similar"
-};
-std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
-
-// Settings of a row that differ from `given`. The path comes first and is always included.
-std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
-std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
 
 }  // namespace diptych::tradeoff

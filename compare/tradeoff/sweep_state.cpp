@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep_state.h"
 
+#include "compare/experiment/kept.h"
 #include "compare/files/output.h"
-#include "compare/reference/key.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
-#include <stdexcept>
 
 namespace diptych::tradeoff {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using experiment::fingerprint;
 
 constexpr const char* folderName = "sweep";
 
@@ -34,19 +31,6 @@ std::string errorsOf(const Settings& settings) {
 
 }  // namespace
 
-std::string fingerprint(std::string_view bytes) {
-    reference::Key key;
-    key.add(std::as_bytes(std::span(bytes)));
-    return fmt::format("{:016x}", key.value());
-}
-
-std::string fingerprint(const ReferenceFrames& references) {
-    reference::Key key;
-    for (const Frame& frame : references.frames)
-        for (const auto& [mode, image] : frame.channels) key.addAll(image.data);
-    return fmt::format("{:016x}", key.value());
-}
-
 fs::path SweepState::folderOf(const fs::path& out) {
     return besideOutput(out, folderName);
 }
@@ -55,9 +39,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : kept_(out, folder
 
 std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_t cameras,
                                             std::size_t blocks) const {
-    const Json json = kept_.find(nameOf(settings));
-    if (json.is_null()) return {};
-    try {
+    return experiment::findKept(kept_, nameOf(settings), [&](const Json& json) {
         TradeoffRow row = tradeoffRowFrom(json);
         const auto isVisited = [&](const CameraRow& camera) {
             const std::size_t times = camera.blocks.size();
@@ -68,9 +50,7 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
                            row.picture == pictureOf(settings) && row.errors_map == errorsOf(settings) &&
                            fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
-    } catch (const std::runtime_error&) {  // measure a damaged row again
-        return {};
-    }
+    });
 }
 
 void SweepState::keep(MeasuredRow& measured) {

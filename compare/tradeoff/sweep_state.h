@@ -34,9 +34,4 @@ private:
     CheckpointFolder kept_;
 };
 
-// FNV-1a, 64 bits (Fowler, Noll and Vo 1991), as 16 hexadecimal digits.
-std::string fingerprint(std::string_view bytes);
-// Hash of all channels.
-std::string fingerprint(const ReferenceFrames& references);
-
 }  // namespace diptych::tradeoff

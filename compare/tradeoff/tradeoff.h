@@ -2,10 +2,10 @@
 // A complete sweep and its outputs.
 #pragma once
 
+#include "compare/experiment/sweep.h"
 #include "compare/output/document.h"
 #include "compare/picture/picture.h"
 #include "compare/tradeoff/row.h"
-#include "compare/tradeoff/sweep.h"
 #include "compare/verdict/comparison.h"
 
 #include <filesystem>
@@ -13,6 +13,13 @@
 #include <vector>
 
 namespace diptych::tradeoff {
+
+using experiment::Choice;
+using experiment::choicesOf;
+using experiment::groupsOf;
+using experiment::inWords;
+using experiment::SkipGroup;
+using experiment::SweepSkip;
 
 // Wall-clock time of this run, ms; excludes rows of an earlier run.
 struct SweepCost {

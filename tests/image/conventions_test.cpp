@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conventions in which renderers differ, in both paths and the reference: how a coloured layer attenuates
 // the base, how a spot fades, how a light ends at its range.
-#include "compare/cli/explanations.h"
 #include "compare/explain/explain.h"
+#include "compare/explain/substitute.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 
@@ -173,7 +173,7 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
         Frame other = renderer.draw(theirs, light);
         other.origin.external = true;
         other.settings = settings;
-        const Frame substituted = cli::substituteChannels(other, ours, renderer, options);
+        const Frame substituted = substituteChannels(other, ours, renderer, options);
         EXPECT_EQ(substituted.settings.skin_normals, normals);
         const Explanation found = explain(device(), renderer, scene, ours, substituted);
         if (normals == SkinNormals::joints) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both paths on a device and on a second one with a fault in its textures, their curve, its lights or its
 // geometry. Each fault is attributed to its cause.
-#include "compare/explain/two_devices.h"
+#include "compare/experiment/two_devices.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
 #include "compare/render/frame_facts.h"
@@ -66,9 +66,10 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
     for (std::size_t path = 0; path < 2; ++path) {
         if (after) after(other[path]);
         other[path].name += "-there";
-        across.push_back(acrossDevices(here.uploaded.scene, here.views.at(viewRequest(frames[path].settings)),
-                                       here.precision, frames[1]));
-        across.back().relit = relit(device(), here.uploaded.renderer, other[path]);
+        across.push_back(experiment::acrossDevices(here.uploaded.scene,
+                                                   here.views.at(viewRequest(frames[path].settings)),
+                                                   here.precision, frames[1]));
+        across.back().relit = experiment::relit(device(), here.uploaded.renderer, other[path]);
         frames.push_back(std::move(other[path]));
     }
     const std::vector<Requirements> needs(2, here.views.at(viewRequest(drawnSettings()[0])).needs);
@@ -156,9 +157,10 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
     const Frame& own = here.frames[1];
     const Explanation explanation =
         explain(device(), here.uploaded.renderer, here.uploaded.scene, own, other);
-    const std::vector<DeviceShare> shares = deviceShares(
-        explanation, own, other,
-        acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)), here.precision, own));
+    const std::vector<DeviceShare> shares =
+        deviceShares(explanation, own, other,
+                     experiment::acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)),
+                                               here.precision, own));
     EXPECT_EQ(shares.front().name, "textures");
     double all = 0;
     std::string words;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Break-even points of times with a known law, under noise; and variations of a scene.
 #include "compare/choose/sensitivity.h"
-#include "compare/cli/scene_variations.h"
+#include "compare/choose/variations.h"
 #include "shared/scene/load.h"
 
 #include <gtest/gtest.h>
@@ -137,14 +137,6 @@ TEST(ChooseSensitivity, FewValuesAreToldAsMeasured) {
     EXPECT_FALSE(sensitivities.properties[1].isReversed());
 }
 
-}  // namespace
-
-}  // namespace diptych::choose
-
-namespace diptych::cli {
-
-namespace {
-
 std::size_t trianglesOf(const Scene& scene) {
     std::size_t count = 0;
     for (const Mesh& mesh : scene.meshes)
@@ -176,4 +168,4 @@ TEST(SceneVariations, ChangeOneThing) {
 
 }  // namespace
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

@@ -2,7 +2,6 @@
 // Errors of the sun's shadow, and the dominated rows of a sweep.
 #include "compare/output/writers.h"
 #include "compare/tradeoff/shadow_rows.h"
-#include "compare/tradeoff/sweep.h"
 #include "shared/contract/debug_mode.h"
 
 #include <gtest/gtest.h>
@@ -125,18 +124,6 @@ TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
     EXPECT_TRUE(shadowRowsOf(alike).empty());
     EXPECT_EQ(inText(shadowTable(alike)), "");
     EXPECT_TRUE(blocksOf(shadowTable(Tradeoff())).empty());
-}
-
-// A sweep over shadows is compared with the shadowed ground truth, whatever the given Settings.
-TEST(TradeoffShadow, TheTruthHasShadowsWhereAnyRowDoes) {
-    Settings given;
-    given.shadows = Shadows::off;
-    EXPECT_EQ(referenceFor(given, {given, given}), given);
-    Settings shadowed = given;
-    shadowed.shadows = Shadows::evsm;
-    EXPECT_NE(referenceFor(given, {given, shadowed}).shadows, Shadows::off);
-    EXPECT_EQ(referenceSettings(referenceFor(given, {given, shadowed})).shadows, Shadows::pcf);
-    EXPECT_EQ(referenceFor(shadowed, {given}), shadowed);
 }
 
 }  // namespace

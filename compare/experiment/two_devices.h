@@ -12,7 +12,7 @@
 #include <array>
 #include <map>
 
-namespace diptych {
+namespace diptych::experiment {
 
 // Without AcrossDevices::relit and texcoords. `here`: a forward+ Frame of `view` on the first device. The
 // scene must outlive the result.
@@ -24,4 +24,4 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
 // omits blended surfaces. Throws std::runtime_error, one line, if a channel is missing.
 std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there);
 
-}  // namespace diptych
+}  // namespace diptych::experiment

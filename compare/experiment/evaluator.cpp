@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_evaluator.h"
+#include "compare/experiment/evaluator.h"
 
+#include "compare/experiment/upsample.h"
 #include "compare/reference/key.h"
+#include "shared/contract/debug_mode.h"
 
 #include <algorithm>
 #include <array>
 
-namespace diptych::cli {
+namespace diptych::experiment {
 
 namespace {
 
-// Prepared candidates kept for timing. Each owns its images.
+// Prepared Settings kept for timing. Each owns its images.
 constexpr std::size_t mostKept = 4;
 
 // The Settings with each camera of the reference frames.
-std::vector<Settings> fromEachCamera(const Settings& settings, const tradeoff::ReferenceFrames& references) {
+std::vector<Settings> fromEachCamera(const Settings& settings, const ReferenceFrames& references) {
     std::vector<Settings> seen;
-    for (const Frame& reference : references.frames) {
-        seen.push_back(settings);
-        seen.back().camera = reference.settings.camera;
-    }
+    for (const Frame& reference : references.frames) seen.push_back(seenFrom(reference, settings));
     return seen;
 }
 
@@ -29,21 +28,21 @@ bool SceneEvaluator::isOfReferenceSize(const Settings& settings) const {
     return settings.size == references_.frames.front().settings.size;
 }
 
-tradeoff::FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
+FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
     const std::pair picture(camera, key.value());
     if (const auto known = judged_.find(picture); known != judged_.end()) return known->second;
-    tradeoff::FrameErrors errors = references_.errors[camera]->forFigure(figure_, lit);
+    FrameErrors errors = references_.errors[camera]->forFigure(figure_, lit);
     if (errors.pixels.empty()) judged_.emplace(picture, errors);
     return errors;
 }
 
-choose::Judged SceneEvaluator::judge(const Settings& settings) {
+Judged SceneEvaluator::judge(const Settings& settings) {
     // An image of another size is upsampled by its channels, which requires a capture.
     if (!isOfReferenceSize(settings)) return judgeCaptured(settings);
-    tradeoff::ErrorsOfCameras errors;
-    choose::Judged judged;
+    ErrorsOfCameras errors;
+    Judged judged;
     const std::vector<Settings> seen = fromEachCamera(settings, references_);
     prepare(seen);
     for (std::size_t camera = 0; camera < cameras(); ++camera) {
@@ -56,12 +55,24 @@ choose::Judged SceneEvaluator::judge(const Settings& settings) {
     return judged;
 }
 
-choose::Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
-    RenderOptions drawing = options_;
+Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
+    RenderOptions drawing = litOptions(options_, false);
     drawing.runs = 0;
     drawing.progress = {};
-    const tradeoff::TradeoffRow row = tradeoff::measureRow(renderer_, settings, references_, drawing).row;
-    return {row.errors.at(figure_), tradeoff::memoryOf(row)};
+    ErrorsOfCameras all;
+    Judged judged;
+    for (std::size_t camera = 0; camera < cameras(); ++camera) {
+        const Frame& reference = references_.frames[camera];
+        Frame frame = renderer_.draw(seenFrom(reference, settings), drawing);
+        judged.bytes = std::max(judged.bytes, frame.bytes.images + frame.bytes.buffers);
+        frame = upsampled(std::move(frame), reference.settings.size);
+        const FrameErrors errors =
+            (*references_.errors[camera])(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)));
+        all.add(errors);
+        judged.error = errors.errors.at(figure_);
+    }
+    if (cameras() > 1) judged.error = all.errors().at(figure_);
+    return judged;
 }
 
 void SceneEvaluator::prepare(std::span<const Settings> seen) {
@@ -127,4 +138,4 @@ std::vector<PassTime> SceneEvaluator::profile(const Settings& settings) {
     return of.profile(0);
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::experiment

@@ -3,7 +3,7 @@
 
 #include "shared/frame/frame.h"
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 
 // Resamples lit, before and after blending, and material_id at the pixel centres of another size.
 // lit: bilinear over the 2x2 nearest pixels, without background pixels. Background if the nearest pixel is
@@ -12,4 +12,4 @@ namespace diptych::tradeoff {
 // Returns the Frame unchanged if the size is equal. Throws std::runtime_error if a channel is missing.
 Frame upsampled(Frame frame, const Size& size);
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/grid.h"
+#include "compare/experiment/grid.h"
 
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -89,4 +89,4 @@ std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given
     }
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

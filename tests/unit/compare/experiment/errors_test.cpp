@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Upsampling, and a row's errors.
-#include "compare/tradeoff/measure.h"
-#include "compare/tradeoff/upsample.h"
+#include "compare/experiment/errors.h"
+#include "compare/experiment/upsample.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/frames.h"
 #include "tests/support/test_pictures.h"
@@ -11,10 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace diptych {
-
-using namespace tradeoff;
-
+namespace diptych::experiment {
 namespace {
 
 FrameErrors errorsBetween(const Frame& reference, const Frame& frame) {
@@ -37,7 +34,7 @@ std::vector<float> rowOf(const Image& image, int y) {
     return row;
 }
 
-TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
+TEST(ExperimentUpsample, IsBilinearBetweenPixelCentres) {
     // Two pixels to four: the new centres are at -0.25 (clamped), 0.25, 0.75 and 1.25 (clamped) of the
     // old.
     const Frame wide = upsampled(frameOf(2, 1, {0, 8}), {4, 1});
@@ -51,14 +48,14 @@ TEST(TradeoffUpsample, IsBilinearBetweenPixelCentres) {
     EXPECT_EQ(rowOf(tall.channels.at(litMode), 1), (std::vector<float>{4, 6, 10, 12}));
 }
 
-TEST(TradeoffUpsample, BackgroundNeitherDarkensNorGrows) {
+TEST(ExperimentUpsample, BackgroundNeitherDarkensNorGrows) {
     const Frame wide = upsampled(frameOf(3, 1, {8, -1, 4}), {6, 1});
     EXPECT_EQ(rowOf(wide.channels.at(litMode), 0), (std::vector<float>{8, 8, 0, 0, 4, 4}));
     EXPECT_EQ(rowOf(wide.channels.at(idMode), 0), (std::vector<float>{0, 0, -1, -1, 2, 2}));
 }
 
 // A blended surface in front of the background is visible and must be enlarged.
-TEST(TradeoffUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
+TEST(ExperimentUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
     Frame frame = frameOf(3, 1, {8, -1, -1});
     frame.unblended = frame.channels.at(litMode);
     for (int c = 0; c < 3; ++c) frame.channels.at(litMode).pixel(1)[c] = 4;
@@ -69,7 +66,7 @@ TEST(TradeoffUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
     EXPECT_EQ(coverage(wide, wide).count, 4u);
 }
 
-TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
+TEST(ExperimentUpsample, TheSameSizeIsTheSamePicture) {
     const Frame frame = frameOf(2, 2, {1, -1, 3, 0.1f});
     const Frame same = upsampled(frame, {2, 2});
     EXPECT_EQ(same.channels.at(litMode).data, frame.channels.at(litMode).data);
@@ -79,7 +76,7 @@ TEST(TradeoffUpsample, TheSameSizeIsTheSamePicture) {
 }
 
 // The same metrics as compare gives for the same images.
-TEST(TradeoffErrors, AreThoseOfTheReport) {
+TEST(ExperimentErrors, AreThoseOfTheReport) {
     const Image reference = noise(40, 30, 1), test = noise(40, 30, 2);
     Frame a = frameOf(40, 30, std::vector<float>(1200, 1)), b = a;
     a.channels[litMode] = reference;
@@ -105,7 +102,7 @@ TEST(TradeoffErrors, AreThoseOfTheReport) {
     EXPECT_EQ(none.errors, (Errors{0, 0, 0}));
 }
 
-TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
+TEST(ExperimentErrors, ArePixelsThatTheReferenceShows) {
     const Frame reference = frameOf(2, 1, {1, -1}), more = frameOf(2, 1, {1, 5}),
                 less = frameOf(2, 1, {-1, -1});
     EXPECT_EQ(errorsBetween(reference, more).errors[1], 0)
@@ -114,7 +111,7 @@ TEST(TradeoffErrors, ArePixelsThatTheReferenceShows) {
     EXPECT_EQ(errorsBetween(reference, less).errors[1], 1) << "a surface that is missing is all wrong";
 }
 
-TEST(TradeoffErrors, ANanIsInfinite) {
+TEST(ExperimentErrors, ANanIsInfinite) {
     const Frame reference = frameOf(2, 1, {1, 1});
     Frame broken = reference;
     broken.channels[litMode].data[0] = nan;
@@ -123,7 +120,7 @@ TEST(TradeoffErrors, ANanIsInfinite) {
     EXPECT_GT(errors.errors[0], 0);
 }
 
-TEST(TradeoffErrors, PercentilesAreTheNearestRank) {
+TEST(ExperimentErrors, PercentilesAreTheNearestRank) {
     std::vector<double> errors;
     for (int i = 1; i <= 200; ++i) errors.push_back(i);
     EXPECT_EQ(relativeErrors(errors).p99, 198);
@@ -132,4 +129,4 @@ TEST(TradeoffErrors, PercentilesAreTheNearestRank) {
 }
 
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::experiment

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/upsample.h"
+#include "compare/experiment/upsample.h"
 
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 namespace {
 
 // A new pixel centre between two old pixel centres, on one axis.
@@ -103,4 +103,4 @@ Frame upsampled(Frame frame, const Size& size) {
     return frame;
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

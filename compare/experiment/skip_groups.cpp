@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/sweep.h"
+#include "compare/experiment/sweep.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 namespace {
 
 // A skip's reason without the tried value and the suggestion, so that it is equal for all values.
@@ -53,4 +53,4 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips) {
     return groups;
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/grid.h"
+#include "compare/experiment/grid.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
 
@@ -8,17 +8,14 @@
 #include <random>
 #include <stdexcept>
 
-namespace diptych {
-
-using namespace tradeoff;
-
+namespace diptych::experiment {
 namespace {
 
 std::string gridFault(const std::string& text) {
     return faultOf([&] { readGrids(text, {}); });
 }
 
-TEST(TradeoffGrid, AProductAndAListOfThem) {
+TEST(ExperimentGrid, AProductAndAListOfThem) {
     const Grid grid =
         readGrids(R"({"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]],
                                     "transparency": "unsorted", "light_cutoff": [0.001, "1e-2"]}})",
@@ -32,13 +29,13 @@ TEST(TradeoffGrid, AProductAndAListOfThem) {
     EXPECT_EQ(readGrids(R"([{"settings": {}}, {"settings": {"path": "deferred"}}])", {}).size(), 2u);
 }
 
-TEST(TradeoffGrid, AFileSaysTheSame) {
+TEST(ExperimentGrid, AFileSaysTheSame) {
     const std::filesystem::path file = folder() / "grid.json";
     std::ofstream(file) << R"({"settings": {"prepass": ["on", "off"]}})";
     EXPECT_EQ(readGrids(file.string(), {}), readGrids(R"({"settings": {"prepass": ["on", "off"]}})", {}));
 }
 
-TEST(TradeoffGrid, EveryFaultIsNamed) {
+TEST(ExperimentGrid, EveryFaultIsNamed) {
     const std::pair<const char*, const char*> bad[] = {
         {R"({"settings": )", "is not JSON: parse error at line 1, column 14"},
         {R"([])", "--grid: is an empty list"},
@@ -69,7 +66,7 @@ TEST(TradeoffGrid, EveryFaultIsNamed) {
 }
 
 // Changes, removes and inserts bytes: the result is a plan, or one line with the reason.
-TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
+TEST(ExperimentGrid, WhateverItHoldsIsPlannedOrRefused) {
     const std::string sound =
         R"([{"settings": {"gbuffer": ["compact", "full"], "size": ["1/2", "8x4", [8, 4]], "msaa": [1, 4]}},
             {"settings": {"transparency": ["sorted", "triangles"], "light_cutoff": [0.001, "0e-2"]}}])";
@@ -98,4 +95,4 @@ TEST(TradeoffGrid, WhateverItHoldsIsPlannedOrRefused) {
 }
 
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::experiment

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/choose/sensitivity.h"
+#include "compare/experiment/references.h"
 #include "compare/render/renderer.h"
-#include "compare/tradeoff/measure.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/scene_view.h"
@@ -13,23 +13,23 @@
 #include <memory>
 #include <vector>
 
-namespace diptych::cli {
+namespace diptych::choose {
 
 struct VariedScene {
     Device& device;
     std::shared_ptr<PipelineSet> pipelines;
     SceneViews& views;  // of the original scene
     Renderer& renderer;
-    const tradeoff::ReferenceFrames& references;
+    const experiment::ReferenceFrames& references;
     std::array<Settings, 2> settings;  // chosen path, other path
 };
 
 // Renders both Settings of the original scene, from every camera of the references.
-choose::DrawInOrder drawAsIs(const VariedScene& of);
+DrawInOrder drawAsIs(const VariedScene& of);
 
 // Size, overdraw, lights per pixel, blended pixels, samples, materials and triangles. The references in
 // `of` must outlive the variations. Variations are created on demand, one at a time.
-std::vector<choose::Property> propertiesOf(const VariedScene& of);
+std::vector<Property> propertiesOf(const VariedScene& of);
 
 // Copies of a scene with one change. withLights(): `lights` have world transforms. `factor` n repeats each
 // light n times; 1/n keeps every n-th light.
@@ -44,4 +44,4 @@ Scene withOwnMaterials(const Scene& scene);
 // Makes every material blended, or none.
 Scene withBlends(const Scene& scene, bool all);
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

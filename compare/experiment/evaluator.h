@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Renders and times candidates on a device, for a choice.
+// Draws Settings of a scene, judges their images and times them in turn.
 #pragma once
 
-#include "compare/choose/search.h"
+#include "compare/experiment/references.h"
 #include "compare/render/renderer.h"
-#include "compare/tradeoff/measure.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,18 +13,39 @@
 #include <utility>
 #include <vector>
 
-namespace diptych::cli {
+namespace diptych::experiment {
+
+// Deterministic results of Settings.
+struct Judged {
+    double error = 0;
+    std::uint64_t bytes = 0;
+};
+
+// Draws, judges and times Settings of a scene: on a device, or from recorded times.
+class Evaluator {
+public:
+    Evaluator() = default;
+    Evaluator(const Evaluator&) = delete;
+    Evaluator& operator=(const Evaluator&) = delete;
+    virtual ~Evaluator() = default;
+    virtual Judged judge(const Settings& settings) = 0;
+    // Renders frames[order[i]] for each i; returns the times, ms.
+    virtual std::vector<double> time(std::span<const Settings> frames,
+                                     std::span<const std::size_t> order) = 0;
+    // Passes of one frame, each timed alone, ms.
+    virtual std::vector<PassTime> profile(const Settings& settings) = 0;
+};
 
 // Evaluates one scene over all cameras of the reference frames. Errors cover all pixels together, times
 // are the mean, memory is the maximum; passes are of the first camera.
-class SceneEvaluator final : public choose::Evaluator {
+class SceneEvaluator final : public Evaluator {
 public:
-    // `figure`: index in tradeoff::errorFigures. The renderer and the references must outlive the object.
-    SceneEvaluator(Renderer& renderer, const tradeoff::ReferenceFrames& references, std::size_t figure,
+    // `figure`: index in errorFigures. The renderer and the references must outlive the object.
+    SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, std::size_t figure,
                    const RenderOptions& options)
         : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
 
-    choose::Judged judge(const Settings& settings) override;
+    Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the prepared frames, which own images.
     void release() {
@@ -37,16 +57,16 @@ public:
 private:
     std::size_t cameras() const { return references_.frames.size(); }
     bool isOfReferenceSize(const Settings& settings) const;
-    choose::Judged judgeCaptured(const Settings& settings);
+    Judged judgeCaptured(const Settings& settings);
     // Errors of one camera's image. FLIP results are cached by the image's hash.
-    tradeoff::FrameErrors errorsOf(std::size_t camera, const Image& lit);
+    FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
     struct Drawn {
         Settings settings;
         PreparedFrames frames;
         bool made_pipelines, is_drawn = false;
     };
-    // Allocates frames of these Settings, cameras included, unless they exist. Evaluated candidates can
+    // Allocates frames of these Settings, cameras included, unless they exist. Judged Settings can
     // then be timed without a new allocation. Keeps the latest mostKept others per camera.
     void prepare(std::span<const Settings> seen);
     Drawn& prepared(const Settings& seen);
@@ -55,12 +75,12 @@ private:
     Drawn& readyForTimes(const Settings& seen);
 
     Renderer& renderer_;
-    const tradeoff::ReferenceFrames& references_;
+    const ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
     std::list<Drawn> drawn_;
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
-    std::map<std::pair<std::size_t, std::uint64_t>, tradeoff::FrameErrors> judged_;
+    std::map<std::pair<std::size_t, std::uint64_t>, FrameErrors> judged_;
 };
 
-}  // namespace diptych::cli
+}  // namespace diptych::experiment

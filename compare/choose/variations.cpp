@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_variations.h"
+#include "compare/choose/variations.h"
 
-#include "compare/cli/scene_evaluator.h"
+#include "compare/experiment/evaluator.h"
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
@@ -15,9 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace diptych::cli {
-
-using namespace choose;
+namespace diptych::choose {
 
 namespace {
 
@@ -25,8 +23,8 @@ constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
               materialId = static_cast<int>(gpu::DEBUG_material_id);
 
 // The references' cameras only. Automatic cameras become explicit, so that variations use the same view.
-tradeoff::ReferenceFrames viewpointsOf(const Scene& scene, const tradeoff::ReferenceFrames& references) {
-    tradeoff::ReferenceFrames viewpoints;
+experiment::ReferenceFrames viewpointsOf(const Scene& scene, const experiment::ReferenceFrames& references) {
+    experiment::ReferenceFrames viewpoints;
     for (const Frame& reference : references.frames) {
         Frame& frame = viewpoints.frames.emplace_back();
         frame.settings = reference.settings;
@@ -44,7 +42,7 @@ tradeoff::ReferenceFrames viewpointsOf(const Scene& scene, const tradeoff::Refer
 
 // A modified copy of a scene, uploaded.
 struct MadeScene {
-    MadeScene(Scene made, const VariedScene& of, tradeoff::ReferenceFrames from)
+    MadeScene(Scene made, const VariedScene& of, experiment::ReferenceFrames from)
         : scene(std::move(made)),
           views(scene),
           renderer(of.device, views, of.pipelines),
@@ -53,8 +51,8 @@ struct MadeScene {
     Scene scene;
     SceneViews views;
     Renderer renderer;
-    tradeoff::ReferenceFrames viewpoints;
-    SceneEvaluator evaluator;
+    experiment::ReferenceFrames viewpoints;
+    experiment::SceneEvaluator evaluator;
 };
 
 // Sums over all cameras.
@@ -71,7 +69,7 @@ Overdraw overdrawFrom(const VariedScene& of, SceneViews& views, const Settings& 
 }
 
 Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
-                  const tradeoff::ReferenceFrames& viewpoints, const std::array<Settings, 2>& settings) {
+                  const experiment::ReferenceFrames& viewpoints, const std::array<Settings, 2>& settings) {
     Figures figures;
     for (const Frame& from : viewpoints.frames) {
         Settings seen = settings[0].path == Path::forward_plus ? settings[0] : settings[1];
@@ -109,7 +107,7 @@ std::size_t materialsIn(const Scene& scene) {
 }
 
 // Fractions of the images: blended pixels, and pixels with any surface.
-std::pair<double, double> blendedShare(const tradeoff::ReferenceFrames& references, double surface) {
+std::pair<double, double> blendedShare(const experiment::ReferenceFrames& references, double surface) {
     double blended = 0, all = 0;
     for (const Frame& frame : references.frames) {
         all += static_cast<double>(frame.settings.size.width) * frame.settings.size.height;
@@ -134,8 +132,8 @@ private:
     // The same scene with other Settings on both paths.
     std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
         return [this_of = of_, value, settings] {
-            const auto evaluator =
-                std::make_shared<SceneEvaluator>(this_of.renderer, this_of.references, 0, RenderOptions());
+            const auto evaluator = std::make_shared<experiment::SceneEvaluator>(
+                this_of.renderer, this_of.references, 0, RenderOptions());
             return Variation{value, [evaluator, settings](std::span<const std::size_t> order) {
                                  return evaluator->time(settings, order);
                              }};
@@ -297,14 +295,15 @@ private:
 
     const VariedScene& of_;
     const Scene& scene_;
-    const tradeoff::ReferenceFrames viewpoints_;
+    const experiment::ReferenceFrames viewpoints_;
     const Figures here_;
 };
 
 }  // namespace
 
 DrawInOrder drawAsIs(const VariedScene& of) {
-    const auto evaluator = std::make_shared<SceneEvaluator>(of.renderer, of.references, 0, RenderOptions());
+    const auto evaluator =
+        std::make_shared<experiment::SceneEvaluator>(of.renderer, of.references, 0, RenderOptions());
     return [evaluator, settings = of.settings](std::span<const std::size_t> order) {
         return evaluator->time(settings, order);
     };
@@ -314,4 +313,4 @@ std::vector<Property> propertiesOf(const VariedScene& of) {
     return Properties(of).all();
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A sweep omits Settings without effect on the scene, and states why.
-#include "compare/tradeoff/sensitivity.h"
+#include "compare/experiment/sensitivity.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-namespace diptych {
-
-using namespace tradeoff;
-
+namespace diptych::experiment {
 namespace {
 
 Light lightOf(LightKind kind, float range = std::numeric_limits<float>::infinity(), float angle = 0) {
@@ -40,7 +37,7 @@ std::string reasonOf(const SweepRows& sweep, const std::string& option, const st
     return {};
 }
 
-TEST(TradeoffSensitivity, ASunAloneFeelsNoListsAndNoAreaLights) {
+TEST(ExperimentSensitivity, ASunAloneFeelsNoListsAndNoAreaLights) {
     const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});
     EXPECT_EQ(valuesOf(sweep, "assign"), (std::set<std::string>{"clustered", "per_object"}));
     EXPECT_EQ(valuesOf(sweep, "light-cutoff").size(), 1u);
@@ -52,12 +49,12 @@ TEST(TradeoffSensitivity, ASunAloneFeelsNoListsAndNoAreaLights) {
     EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angular size: pcss equals pcf");
 }
 
-TEST(TradeoffSensitivity, ASunWithADiscFeelsPcss) {
+TEST(ExperimentSensitivity, ASunWithADiscFeelsPcss) {
     EXPECT_TRUE(
         valuesOf(sensitiveTo({lightOf(LightKind::directional, 1, 0.01f)}), "shadows").contains("pcss"));
 }
 
-TEST(TradeoffSensitivity, TheCutoffIsFeltByALightWithoutARange) {
+TEST(ExperimentSensitivity, TheCutoffIsFeltByALightWithoutARange) {
     EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::point, 3)}), "light-cutoff").size(), 1u);
     EXPECT_EQ(reasonOf(sensitiveTo({lightOf(LightKind::point, 3)}), "light-cutoff"),
               "every light has its own range");
@@ -66,13 +63,13 @@ TEST(TradeoffSensitivity, TheCutoffIsFeltByALightWithoutARange) {
               1u);
 }
 
-TEST(TradeoffSensitivity, AreaLightsAreVariedWhereThereIsOne) {
+TEST(ExperimentSensitivity, AreaLightsAreVariedWhereThereIsOne) {
     EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::point)}), "area-lights").size(), 1u);
     EXPECT_EQ(valuesOf(sensitiveTo({lightOf(LightKind::tube)}), "area-lights").size(), 2u);
 }
 
 // Point lights cast shadows if --shadow-lights selects them.
-TEST(TradeoffSensitivity, ShadowsAreVariedWhereSomethingCasts) {
+TEST(ExperimentSensitivity, ShadowsAreVariedWhereSomethingCasts) {
     const SweepRows none = sensitiveTo({lightOf(LightKind::rect)});
     EXPECT_EQ(valuesOf(none, "shadows").size(), 1u);
     EXPECT_EQ(valuesOf(none, "shadow-size").size(), 1u);
@@ -97,7 +94,7 @@ SweepRows sensitiveUnder(const Material& material, bool even) {
     return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}, &scene);
 }
 
-TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
+TEST(ExperimentSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     Material mixed, metal, matte;
     mixed.metallic = 0.5f;
     metal.metallic = 1;
@@ -143,7 +140,7 @@ TEST(TradeoffSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
     EXPECT_EQ(valuesOf(sensitiveUnder(metal, false), "ibl-diffuse").size(), 3u) << "a sheen reflects it";
 }
 
-TEST(TradeoffSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
+TEST(ExperimentSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     Scene scene;
     scene.meshes.resize(1);
     scene.meshes[0].primitives.resize(1);
@@ -160,7 +157,7 @@ TEST(TradeoffSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
     EXPECT_EQ(valuesOf(sensitive(), "skinning").size(), 2u);
 }
 
-TEST(TradeoffSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
+TEST(ExperimentSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
     Scene scene;
     scene.meshes.resize(1);
     scene.meshes[0].primitives.resize(1);
@@ -181,7 +178,7 @@ TEST(TradeoffSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
     EXPECT_GT(valuesOf(sensitive(), "transparency").size(), 3u);
 }
 
-TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
+TEST(ExperimentSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
     Settings given;
     given.haze = true;
     const auto sensitive = [&] { return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}); };
@@ -197,7 +194,7 @@ TEST(TradeoffSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
 }
 
 // Every skip names its path, and no two rows have the same image.
-TEST(TradeoffSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
+TEST(ExperimentSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
     const SweepRows all = makeSweepRows({}, defaultGrids({}));
     const SweepRows sweep = sensitiveTo({lightOf(LightKind::directional)});
     EXPECT_LT(sweep.rows.size(), all.rows.size());
@@ -213,4 +210,4 @@ TEST(TradeoffSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
 }
 
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::experiment

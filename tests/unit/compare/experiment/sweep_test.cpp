@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Settings of a sweep's rows.
-#include "compare/tradeoff/sweep.h"
+#include "compare/experiment/sweep.h"
 #include "shared/frame/setting_rows.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace diptych {
-
-using namespace tradeoff;
-
+namespace diptych::experiment {
 namespace {
 
 SweepRows defaultSweep(const Settings& given = {}) {
@@ -38,7 +35,7 @@ std::vector<std::string> reasonsOf(const SweepRows& sweep, const std::string& op
     return reasons;
 }
 
-TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
+TEST(ExperimentSweep, TheDefaultStandsFirstAndNothingTwice) {
     const SweepRows sweep = defaultSweep();
     ASSERT_FALSE(sweep.rows.empty());
     EXPECT_EQ(sweep.rows.front(), Settings());
@@ -50,7 +47,7 @@ TEST(TradeoffSweep, TheDefaultStandsFirstAndNothingTwice) {
 }
 
 // For any base Settings, each swept value of each Setting is a row for each path, or a skip with a reason.
-TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
+TEST(ExperimentSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     const Settings given;
     const SweepRows sweep = defaultSweep(given);
     std::size_t tried = 0;
@@ -77,7 +74,7 @@ TEST(TradeoffSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
     EXPECT_GT(tried, 50u);
 }
 
-TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
+TEST(ExperimentSweep, OneAtATimeAndPairsButNotTheProduct) {
     const std::vector<std::string> rows = wordsOfRows(defaultSweep());
     for (const char* row :
          {"forward_plus", "deferred", "deferred, gbuffer full", "forward_plus, size 320x180",
@@ -86,7 +83,7 @@ TEST(TradeoffSweep, OneAtATimeAndPairsButNotTheProduct) {
     EXPECT_FALSE(holds(rows, "forward_plus, prepass off, size 320x180")) << "no declared pair";
 }
 
-TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
+TEST(ExperimentSweep, WhatAPathIgnoresIsSaidOnce) {
     Settings given;
     given.shadows = Shadows::off;
     const SweepRows sweep = defaultSweep(given);
@@ -99,13 +96,13 @@ TEST(TradeoffSweep, WhatAPathIgnoresIsSaidOnce) {
         << "with shadows it is read";
 }
 
-TEST(TradeoffSweep, TheReferenceIsNoRow) {
+TEST(ExperimentSweep, TheReferenceIsNoRow) {
     const SweepRows sweep = defaultSweep();
     EXPECT_EQ(reasonsOf(sweep, "path").front(), "is the reference that all rows are compared with");
     for (const Settings& row : sweep.rows) EXPECT_NE(row.path, Path::reference);
 }
 
-TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
+TEST(ExperimentSweep, ReferenceSamplesReachNoRow) {
     Settings given;
     given.spp = 64;
     given.reference_mode = ReferenceMode::scene;
@@ -114,7 +111,7 @@ TEST(TradeoffSweep, ReferenceSamplesReachNoRow) {
 
 // Against a ground truth with one sample per pixel, or with other weights, the mean of several samples
 // would count as an error.
-TEST(TradeoffSweep, SamplesAreTriedAgainstATruthOfSamples) {
+TEST(ExperimentSweep, SamplesAreTriedAgainstATruthOfSamples) {
     const Grid samples{{"msaa", {"1", "4"}}, {"resolve", {"linear", "tonemapped"}}};
     Settings given;
     EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples})), std::vector<std::string>{"forward_plus"});
@@ -136,7 +133,7 @@ TEST(TradeoffSweep, SamplesAreTriedAgainstATruthOfSamples) {
               (std::vector<std::string>{"forward_plus, msaa 1, resolve linear", "forward_plus"}));
 }
 
-TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
+TEST(ExperimentSweep, SizesArePartsOfTheGivenOne) {
     Settings given;
     given.size = {641, 3};
     const std::vector<std::string> expected{"160x1", "321x2", "481x2"};
@@ -148,7 +145,7 @@ TEST(TradeoffSweep, SizesArePartsOfTheGivenOne) {
     EXPECT_THROW(static_cast<void>(sweptValues(given, "gamma")), std::runtime_error);
 }
 
-TEST(TradeoffSweep, AGridIsItsProduct) {
+TEST(ExperimentSweep, AGridIsItsProduct) {
     const Settings given;
     const SweepRows sweep =
         makeSweepRows(given, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
@@ -159,7 +156,7 @@ TEST(TradeoffSweep, AGridIsItsProduct) {
     EXPECT_TRUE(sweep.skips.empty());
 }
 
-TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
+TEST(ExperimentSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
     Settings given;
     given.shadows = Shadows::off;
     const SweepRows sweep = makeSweepRows(given, {{{"gbuffer", {"compact", "full"}}}});
@@ -167,7 +164,7 @@ TEST(TradeoffSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
     EXPECT_EQ(sweep.skips.size(), 2u);
 }
 
-TEST(TradeoffSweep, WhatADeviceLacksIsLeftOutAndSaid) {
+TEST(ExperimentSweep, WhatADeviceLacksIsLeftOutAndSaid) {
     Settings given;
     const auto noSteps = [](const Settings& row) -> std::optional<std::string> {
         if (row.depth_format != DepthFormat::d24) return {};
@@ -185,7 +182,7 @@ TEST(TradeoffSweep, WhatADeviceLacksIsLeftOutAndSaid) {
     EXPECT_THROW(asked({"d24"}), std::runtime_error);
 }
 
-TEST(TradeoffSweep, NothingToDrawIsAnError) {
+TEST(ExperimentSweep, NothingToDrawIsAnError) {
     try {
         makeSweepRows({}, {{{"msaa-shading", {"sample"}}}});
         FAIL();
@@ -194,13 +191,13 @@ TEST(TradeoffSweep, NothingToDrawIsAnError) {
     }
 }
 
-TEST(TradeoffSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
+TEST(ExperimentSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {
     Grid grid;
     for (int i = 0; i < 12; ++i) grid.push_back({"size", std::vector<std::string>(10, "8x8")});
     EXPECT_THROW(makeSweepRows({}, {grid}), std::runtime_error);
 }
 
-TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
+TEST(ExperimentSweep, SkipsOfOneReasonAreOneLine) {
     const auto refused = [](const std::string& path, const std::string& option, const std::string& value) {
         Settings settings;
         settings.set("path", path);
@@ -223,7 +220,7 @@ TEST(TradeoffSweep, SkipsOfOneReasonAreOneLine) {
     EXPECT_EQ(groups[2].tried, std::vector<std::string>{"deferred, msaa 4, size 9x9"});
 }
 
-TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
+TEST(ExperimentSweep, DeclaredPairsAndIgnoredSettingsExist) {
     const Settings defaults;
     std::set<std::string> options{"*"};
     Settings::fields(defaults, [&](const Field& field, const auto&) {
@@ -244,7 +241,7 @@ TEST(TradeoffSweep, DeclaredPairsAndIgnoredSettingsExist) {
 }
 
 // Multiple scattering is swept if the command line requests it, and compared with the random walk.
-TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
+TEST(ExperimentMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<Multiscatter> values;
         for (const Settings& row : sweep.rows) values.insert(row.multiscatter);
@@ -263,7 +260,7 @@ TEST(TradeoffMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
 }
 
 // Haze march steps are swept if there is haze. All haze is compared with the integral between two heights.
-TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
+TEST(ExperimentHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<int> values;
         for (const Settings& row : sweep.rows) values.insert(row.haze_march_steps);
@@ -280,7 +277,7 @@ TEST(TradeoffHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
 }
 
 // Against one sample per pixel, filtered roughness would always count as an error.
-TEST(TradeoffSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
+TEST(ExperimentSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
     const auto tried = [](const SweepRows& sweep) {
         std::set<std::pair<bool, SpecularNormals>> values;
         for (const Settings& row : sweep.rows) values.emplace(row.spec_aa, row.spec_aa_normals);
@@ -297,5 +294,17 @@ TEST(TradeoffSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
               (std::set{std::pair(false, geometry), std::pair(true, geometry), std::pair(true, mapped)}));
 }
 
+// A sweep over shadows is compared with the shadowed ground truth, whatever the given Settings.
+TEST(ExperimentSweep, TheTruthHasShadowsWhereAnyRowDoes) {
+    Settings given;
+    given.shadows = Shadows::off;
+    EXPECT_EQ(referenceFor(given, {given, given}), given);
+    Settings shadowed = given;
+    shadowed.shadows = Shadows::evsm;
+    EXPECT_NE(referenceFor(given, {given, shadowed}).shadows, Shadows::off);
+    EXPECT_EQ(referenceSettings(referenceFor(given, {given, shadowed})).shadows, Shadows::pcf);
+    EXPECT_EQ(referenceFor(shadowed, {given}), shadowed);
+}
+
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::experiment

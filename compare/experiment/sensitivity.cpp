@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/sensitivity.h"
+#include "compare/experiment/sensitivity.h"
 
 #include "shared/environment/harmonics.h"
 #include "shared/scene/lights/casters.h"
@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 namespace {
 
 // Key: option; value: why the scene is not sensitive to it.
@@ -172,4 +172,4 @@ SweepRows sensitiveRows(const SweepRows& sweep, std::span<const Light> lights, c
     return result;
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/tradeoff/sweep.h"
+#include "compare/experiment/sweep.h"
 
 #include <string>
 #include <vector>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 
 // Reads --grid, a file or JSON text that begins with { or [. A grid is the product of its values:
 //   { "settings": { "gbuffer": ["compact", "full"], "size": ["1/2", "320x180"] } }
@@ -14,4 +14,4 @@ namespace diptych::tradeoff {
 // the file and the problem.
 std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

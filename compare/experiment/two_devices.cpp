@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/two_devices.h"
+#include "compare/experiment/two_devices.h"
 
-#include "compare/explain/channel_lighting.h"
-#include "compare/explain/frame_images.h"
+#include "compare/render/channel_shading.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/image/pixels.h"
 #include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace diptych {
+namespace diptych::experiment {
 namespace {
 
 // The distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
@@ -102,4 +102,4 @@ std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& ther
     return images;
 }
 
-}  // namespace diptych
+}  // namespace diptych::experiment

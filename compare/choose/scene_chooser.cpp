@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_chooser.h"
+#include "compare/choose/scene_chooser.h"
 
 #include "compare/choose/table.h"
-#include "compare/cli/commands.h"
-#include "compare/cli/scene_evaluator.h"
-#include "compare/cli/scene_variations.h"
+#include "compare/choose/variations.h"
+#include "compare/experiment/evaluator.h"
+#include "compare/experiment/grid.h"
+#include "compare/experiment/sensitivity.h"
+#include "compare/experiment/sweep.h"
 #include "compare/page/text.h"
 #include "compare/render/frame_facts.h"
+#include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
-#include "compare/tradeoff/grid.h"
-#include "compare/tradeoff/sensitivity.h"
-#include "compare/tradeoff/sweep.h"
 #include "shared/draw/depth_storage.h"
 
 #include <fmt/format.h>
@@ -22,9 +22,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace diptych::cli {
-
-using namespace choose;
+namespace diptych::choose {
 
 namespace {
 
@@ -34,40 +32,29 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::size_t figureOf(const std::string& name) {
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < tradeoff::errorFigures.size(); ++i) {
-        if (tradeoff::errorFigures[i].name == name) return i;
-        names.push_back(tradeoff::errorFigures[i].name);
-    }
-    throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
-}
-
 // Candidates: the rows of --grid, or default rows limited to settings that the scene is sensitive to.
-std::vector<Settings> candidatesFor(const Options& options, const Device& device, const SceneView& view,
-                                    const Scene& scene) {
-    const Settings& given = options.settings;
-    tradeoff::SweepRows sweep =
-        tradeoff::makeSweepRows(given, options.grid.empty() ? tradeoff::defaultGrids(given)
-                                                            : tradeoff::readGrids(options.grid, given));
-    if (options.grid.empty()) sweep = tradeoff::sensitiveRows(sweep, view.lights, &scene);
-    sweep = tradeoff::withoutRefused(std::move(sweep), given,
-                                     [&](const Settings& row) { return drawingProblem(device, row); });
+std::vector<Settings> candidatesFor(const std::string& grid, const Settings& given, const Device& device,
+                                    const SceneView& view, const Scene& scene) {
+    experiment::SweepRows sweep = experiment::makeSweepRows(
+        given, grid.empty() ? experiment::defaultGrids(given) : experiment::readGrids(grid, given));
+    if (grid.empty()) sweep = experiment::sensitiveRows(sweep, view.lights, &scene);
+    sweep = experiment::withoutRefused(std::move(sweep), given,
+                                       [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
     std::ranges::stable_sort(sweep.rows, {},
-                             [&](const Settings& row) { return tradeoff::choicesOf(row, given).size(); });
+                             [&](const Settings& row) { return experiment::choicesOf(row, given).size(); });
     return std::move(sweep.rows);
 }
 
 // Settings with further changes; empty if a sweep would not render them.
 std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
-    tradeoff::Grid grid;
-    for (const tradeoff::Choice& choice : tradeoff::choicesOf(of, given))
+    experiment::Grid grid;
+    for (const experiment::Choice& choice : experiment::choicesOf(of, given))
         if (std::ranges::count(changes, choice.first, &Change::option) == 0)
             grid.push_back({choice.first, {choice.second}});
     for (const Change& change : changes) grid.push_back({change.option, {change.value}});
     try {
-        const tradeoff::SweepRows sweep = tradeoff::makeSweepRows(given, {grid});
+        const experiment::SweepRows sweep = experiment::makeSweepRows(given, {grid});
         for (const Change& change : changes)
             if (sweep.rows.front().valueOf(change.option) != change.value) return {};
         return sweep.rows.front();
@@ -105,6 +92,15 @@ std::vector<Change> singleChanges(const std::vector<Settings>& candidates) {
 
 }  // namespace
 
+std::size_t figureNamed(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < experiment::errorFigures.size(); ++i) {
+        if (experiment::errorFigures[i].name == name) return i;
+        names.push_back(experiment::errorFigures[i].name);
+    }
+    throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
+}
+
 struct SceneChooser::LoadedScene {
     LoadedScene(std::string name, Scene read, Device& device, const std::shared_ptr<PipelineSet>& pipelines)
         : where(std::move(name)), scene(std::move(read)), views(scene), renderer(device, views, pipelines) {}
@@ -112,17 +108,11 @@ struct SceneChooser::LoadedScene {
     Scene scene;
     SceneViews views;
     Renderer renderer;
-    std::optional<SceneEvaluator> evaluator{};
+    std::optional<experiment::SceneEvaluator> evaluator{};
 };
 
-SceneChooser::SceneChooser(const Options& options)
-    : options_(options),
-      figure_(figureOf(options.choose.figure)),
-      progress_(progressOutput(options)),
-      device_(deviceOptions(options)),
-      pipelines_(makePipelineSet(device_)) {
-    say(options, "on " + device_.info().name);
-}
+SceneChooser::SceneChooser(const Question& question, Device& device, Progress& progress)
+    : question_(question), progress_(progress), device_(device), pipelines_(makePipelineSet(device_)) {}
 
 SceneChooser::~SceneChooser() = default;
 
@@ -132,10 +122,11 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
         if (const auto before = references_.find(loaded_->where); before != references_.end())
             for (const auto& errors : before->second.errors) errors->release();
     loaded_.reset();
-    loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, options_.settings, progress), device_,
+    loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, question_.settings, progress), device_,
                                             pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        loaded_->evaluator.emplace(loaded_->renderer, references->second, figure_, renderOptions(options_));
+        loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.figure,
+                                   question_.drawing);
     return *loaded_;
 }
 
@@ -144,42 +135,40 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     const Stage stage(progress_, where);
     LoadedScene& loaded = load(where, stage.part(0, 0.05));
     const std::vector<std::string> cameras =
-        options_.camera_given ? options_.cameras : allCameras(loaded.scene);
-    Settings given = options_.settings;
+        question_.cameras.empty() ? allCameras(loaded.scene) : question_.cameras;
+    Settings given = question_.settings;
     given.camera = cameras.front();
-    Options asked = options_;
-    asked.settings = given;
     const std::vector<Settings> candidates =
-        candidatesFor(asked, device_, loaded.views.at(viewRequest(given)), loaded.scene);
+        candidatesFor(question_.grid, given, device_, loaded.views.at(viewRequest(given)), loaded.scene);
 
     ChoiceReport report;
     report.scene = where;
     report.notes = loaded.scene.notes;
     report.given = given;
-    report.budget = {options_.choose.max_error, options_.choose.max_ms, options_.choose.max_bytes};
-    report.figure = tradeoff::errorFigures.at(figure_).title;
-    report.figure_name = tradeoff::errorFigures.at(figure_).name;
+    report.budget = question_.budget;
+    report.figure = experiment::errorFigures.at(question_.figure).title;
+    report.figure_name = experiment::errorFigures.at(question_.figure).name;
     report.device = reportDevice(device_);
 
-    const Settings truth = tradeoff::referenceFor(given, candidates);
-    RenderOptions drawing = renderOptions(options_);
+    const Settings truth = experiment::referenceFor(given, candidates);
+    RenderOptions drawing = question_.drawing;
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
-    const tradeoff::ReferenceFrames& references =
+    const experiment::ReferenceFrames& references =
         references_
-            .insert_or_assign(where, tradeoff::drawReferenceFrames(loaded.renderer, truth, cameras,
-                                                                   pictureChoice(options_), drawing, false))
+            .insert_or_assign(where, experiment::drawReferenceFrames(loaded.renderer, truth, cameras,
+                                                                     question_.picture, drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
-    tradeoff::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
-    loaded.evaluator.emplace(loaded.renderer, references, figure_, renderOptions(options_));
+    experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
+    loaded.evaluator.emplace(loaded.renderer, references, question_.figure, question_.drawing);
 
     SearchOptions search;
     search.budget = report.budget;
     search.changes = singleChanges(candidates);
     search.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
         std::optional<Settings> made = combined(given, of, changes);
-        const bool drawn = options_.grid.empty() ? made && !drawingProblem(device_, *made)
-                                                 : made && std::ranges::count(candidates, *made) > 0;
+        const bool drawn = question_.grid.empty() ? made && !drawingProblem(device_, *made)
+                                                  : made && std::ranges::count(candidates, *made) > 0;
         return drawn ? made : std::nullopt;
     };
     const Stage searching = stage.part(0.2, 0.95);
@@ -187,16 +176,16 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.choice = choose::search(tableOf(candidates), *loaded.evaluator, search);
 
     for (Candidate& candidate : report.choice.candidates) {
-        report.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
+        report.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
         // Printed commands apply to all cameras, and maybe to other scenes.
-        candidate.settings.camera = options_.settings.camera;
+        candidate.settings.camera = question_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
     loaded.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
         for (const std::string& camera : heldOutCameras(loaded.scene, cameras))
             report.held_out.push_back(atHeldOut(loaded, truth, report, camera));
-    if (options_.choose.explain && report.choice.chosen)
+    if (question_.explain && report.choice.chosen)
         report.sensitivities = sensitivityOf(loaded, report, stage.part(0.95, 1));
     checkValidation(device_);
     report.seconds = secondsSince(start);
@@ -206,7 +195,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 
 std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,
                                                              const Stage& progress) {
-    const choose::Choice& choice = report.choice;
+    const Choice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
     // The other path's best candidate, or its most accurate one if none fits the budget.
@@ -221,13 +210,13 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
     // Without blended pixels the candidates may differ in transparency settings. Equalize these, because
     // variations may add blending.
     std::array<Settings, 2> compared{chosen.settings, choice.candidates[*other].settings};
-    const tradeoff::ReferenceFrames& references = references_.at(report.scene);
+    const experiment::ReferenceFrames& references = references_.at(report.scene);
     if (std::ranges::all_of(references.frames,
                             [](const Frame& frame) { return frame.blended.pixels() == 0; }))
         for (const Field& field : settingFields())
             for (Settings& each : compared)
                 if (field.option.starts_with("transparency"))
-                    each.set(field.option, options_.settings.valueOf(field.option));
+                    each.set(field.option, question_.settings.valueOf(field.option));
     const VariedScene varied{device_, pipelines_, loaded.views, loaded.renderer, references, compared};
     constexpr int rounds = 5;
     return SensitivityReport{report.words[*choice.chosen],
@@ -243,11 +232,11 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
 
 HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
                                       const std::string& camera) {
-    RenderOptions drawing = renderOptions(options_);
+    RenderOptions drawing = question_.drawing;
     drawing.progress = {};
-    const tradeoff::ReferenceFrames references = tradeoff::drawReferenceFrames(
-        loaded.renderer, truth, {camera}, pictureChoice(options_), drawing, false);
-    SceneEvaluator evaluator(loaded.renderer, references, figure_, drawing);
+    const experiment::ReferenceFrames references =
+        experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.picture, drawing, false);
+    experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.figure, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = evaluator.judge(chosen.settings).error;
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
@@ -257,7 +246,7 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
 CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, fmt::format("all {} scenes", reports.size()));
-    std::vector<const choose::Choice*> own;
+    std::vector<const Choice*> own;
     CommonReport all;
     for (const ChoiceReport& report : reports) {
         own.push_back(&report.choice);
@@ -270,11 +259,11 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
         return *load(reports[scene].scene, Stage()).evaluator;
     };
     all.choice = choose::chooseForAll(own, evaluatorOf, common);
-    Settings given = options_.settings;
+    Settings given = question_.settings;
     given.camera.clear();
     for (CommonCandidate& candidate : all.choice.candidates) {
-        all.words.push_back(tradeoff::inWords(tradeoff::choicesOf(candidate.settings, given)));
-        candidate.settings.camera = options_.settings.camera;
+        all.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
+        candidate.settings.camera = question_.settings.camera;
         all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
     }
     checkValidation(device_);
@@ -283,4 +272,4 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     return all;
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

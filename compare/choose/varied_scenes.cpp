@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/scene_variations.h"
+#include "compare/choose/variations.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-namespace diptych::cli {
+namespace diptych::choose {
 
 namespace {
 
@@ -134,4 +134,4 @@ Scene withBlends(const Scene& scene, bool all) {
     return varied;
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::choose

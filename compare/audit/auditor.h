@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// An audit of one scene: measures every quantity, reduces its failures and keeps finished steps.
+#pragma once
+
+#include "compare/audit/audit.h"
+#include "compare/files/checkpoint_folder.h"
+#include "compare/run/progress.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace diptych::audit {
+
+// What is asked.
+struct AuditQuestion {
+    std::vector<std::string> quantities;                   // names; empty: all
+    std::vector<std::pair<std::string, double>> required;  // magnitudes that must pass, by quantity
+    std::filesystem::path folder;                          // of the output
+    bool force = false;                                    // replaces other files there
+    std::vector<std::string> words;                        // of a failure's command: the device
+    // Whether that command, whose files and output are in `folder`, exits with 1.
+    std::function<bool(const std::vector<std::string>& words, const std::filesystem::path& folder)> fails;
+};
+
+class Auditor {
+public:
+    // `question`, `device` and `subject` must outlive the object. Draws the original subject.
+    Auditor(const AuditQuestion& question, Audited audited, const Subject& subject, Device& device,
+            std::function<void(const std::string&)> onStep);
+
+    bool isRenewed() const { return kept_.isRenewed(); }  // steps of another key were removed
+    const Audit& audit() const { return audit_; }
+    // `told`: called with each finished quantity.
+    void measure(const Stage& stage, const std::function<void(const QuantityAudit&)>& told);
+    // Writes the folder, removes what was kept and returns audit.json.
+    std::string write();
+
+private:
+    nlohmann::ordered_json key();
+    void measure(const Quantity& quantity, const Stage& stage);
+    Step stepAt(const Quantity& quantity, std::span<const Series> series, double magnitude);
+    void reduceFailures();
+
+    const AuditQuestion& question_;
+    const Subject& subject_;
+    Audit audit_;
+    Measurer measurer_;
+    CheckpointFolder kept_;
+};
+
+}  // namespace diptych::audit

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Draws a scene by all paths from all cameras and compares the Frames.
+#pragma once
+
+#include "compare/checks/visual_checks.h"
+#include "compare/external/renderer_file.h"
+#include "compare/render/render_many.h"
+#include "compare/render/render_options.h"
+#include "compare/verdict/comparison.h"
+#include "compare/verdict/pair_reports.h"
+#include "shared/frame/frame.h"
+#include "shared/material/texture_probe.h"
+#include "shared/scene/model/scene.h"
+#include "shared/vulkan/device.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace diptych::experiment {
+
+// What is compared.
+struct Compared {
+    Path baseline = Path::deferred;  // the left panel
+    bool from_file = false;          // a file's Frame replaces it
+    std::vector<external::Renderer> renderers{};
+    std::vector<std::string> renderer_words{};  // words of the command line that name them
+
+    bool withReference() const { return baseline == Path::reference && !from_file; }
+    std::vector<Path> paths() const;
+    // Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
+    double ourShare() const { return renderers.empty() ? 1 : 0.5; }
+};
+
+// Fractions of a scene's time after which rendering and comparing end. Per Frame, comparing takes one
+// rendered frame, writing three (lavapipe, gallery, 1280x720: 4.8 s, 0.3 s and 0.9 s).
+struct Shares {
+    double drawn, compared;
+};
+Shares sharesOf(const RenderOptions& render);
+
+// The rendered Frames of a scene.
+struct DrawnScene {
+    std::vector<Frame> frames;  // in pairs; in triples if the reference comes first
+    std::vector<Requirements> needs;
+    // Per camera and time: visual inspections, and material names by ID.
+    std::vector<std::vector<FeatureChecks>> visual_checks;
+    std::vector<std::vector<std::string>> materials;
+    std::optional<TextureSampling> texels{};  // for textured scenes with a reference in mode scene
+    std::vector<ExternalPicture> external{};  // --renderer
+    std::vector<SceneError> errors{};         // failed external renderers
+    // With --against-device: one per view and path; frames are then in groups of four.
+    std::vector<AcrossDevices> across{};
+};
+
+// The other device of --against-device, and data that scenes share: its pipelines and both devices'
+// precision. Texture precision is measured at the first textured scene.
+struct AgainstDevice {
+    Device& device;
+    std::shared_ptr<PipelineSet> pipelines;
+    std::array<DevicePrecision, 2> precision;
+};
+
+// The device's texture sampling, measured at the first use.
+using TextureProbe = std::optional<TextureSampling>;
+// `outside`: progress of external renderers. `pipelines`: shared with other scenes; nullptr: its own.
+// `against`: renders every Frame there too.
+DrawnScene drawScene(const Scene& scene, const Compared& compared, const std::vector<Settings>& settings,
+                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
+                     const std::shared_ptr<PipelineSet>& pipelines = nullptr,
+                     AgainstDevice* against = nullptr);
+
+// The scene's comparisons and errors. Commands in the report write to `again`.
+Report reportOf(const Compared& compared, CompareOptions compare, DrawnScene drawn,
+                std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
+                const std::string& again, const Stage& progress);
+
+}  // namespace diptych::experiment

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "compare/experiment/references.h"
+
+#include "compare/render/left_out.h"
+#include "shared/contract/debug_mode.h"
+
+#include <algorithm>
+
+namespace diptych::experiment {
+namespace {
+
+constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gpu::DEBUG_material_id);
+// Channels that evaluate shadows.
+constexpr auto SEEN = static_cast<int>(gpu::DEBUG_shadow_visibility),
+               DEPTH = static_cast<int>(gpu::DEBUG_depth), LEVEL = static_cast<int>(gpu::DEBUG_cascade),
+               COARSER = static_cast<int>(gpu::DEBUG_page_residency);
+
+}  // namespace
+
+RenderOptions litOptions(const RenderOptions& options, bool shadows) {
+    RenderOptions drawing = options;
+    drawing.channels = {LIT, IDS};
+    if (shadows) drawing.channels.insert(drawing.channels.end(), {SEEN, DEPTH, LEVEL, COARSER});
+    drawing.requested = drawing.channels;
+    drawing.twice = Twice::none;
+    drawing.through_gbuffer = false;
+    return drawing;
+}
+
+Settings seenFrom(const Frame& reference, Settings settings) {
+    settings.camera = reference.settings.camera;
+    return settings;
+}
+
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const RenderOptions& options, bool shadows) {
+    RenderOptions drawing = litOptions(options, shadows && given.shadows != Shadows::off);
+    drawing.runs = 0;
+    drawing.shadow_edges = shadows;
+    ReferenceFrames references;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
+        drawing.progress = options.progress.part(from / all, (from + 1) / all);
+        Settings settings = referenceSettings(given);
+        settings.camera = cameras[i];
+        references.frames.push_back(renderer.draw(settings, drawing));
+        references.errors.push_back(std::make_shared<ErrorsAgainst>(references.frames.back()));
+    }
+    const Frame& first = references.frames.front();
+    references.exposure = exposureFor(choice, &first.channels.at(LIT), coverage(first, first));
+    return references;
+}
+
+void addNotes(std::vector<std::string>& notes, const ReferenceFrames& references,
+              std::span<const Settings> rows, const Requirements& needs) {
+    const auto add = [&](const std::vector<std::string>& lines) {
+        for (const std::string& line : lines)
+            if (std::ranges::count(notes, line) == 0) notes.push_back(line);
+    };
+    for (const Frame& frame : references.frames) add(frame.notes);
+    for (const Path path : drawn_paths)
+        if (std::ranges::count(rows, path, &Settings::path) > 0) add(leftOutLight(path, needs));
+}
+
+}  // namespace diptych::experiment

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "compare/explain/explanations.h"
+
+#include "compare/explain/explain.h"
+#include "compare/explain/explained.h"
+#include "compare/explain/substitute.h"
+#include "compare/explain/write.h"
+#include "compare/render/frame_facts.h"
+#include "compare/render/reference_frame.h"
+#include "compare/render/shown_scene.h"
+#include "compare/run/command_text.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace diptych {
+
+namespace {
+
+bool isWanted(bool all, const Comparison& comparison) {
+    return all || std::ranges::any_of(comparison.channels, [](const ChannelDiff& channel) {
+               return channel.mode->number == static_cast<int>(gpu::DEBUG_lit) &&
+                      channel.verdict == Verdict::fail;
+           });
+}
+
+// A scene uploaded to the device.
+struct ShownScene {
+    ShownScene(const Settings& settings, Device& device, const Frame& frame, const Stage& progress)
+        : name(frame.scene),
+          scene(loadShown(name, settings, progress)),
+          views(scene),
+          renderer(device, views) {}
+
+    const std::string name;
+    const Scene scene;
+    SceneViews views;
+    Renderer renderer;
+};
+
+// `layers`: those of the scene (Requirements::layers); the channels of others are not needed.
+bool hasAll(const Frame& frame, const std::vector<int>& channels, std::uint32_t layers) {
+    return std::ranges::all_of(channels, [&](int mode) {
+        return frame.channels.contains(mode) || (layerOf(mode) != 0 && (layers & layerOf(mode)) == 0);
+    });
+}
+
+// Another renderer's file declares no lighting Settings: assume ours.
+Frame asOurs(const Frame& file, const Frame& drawn) {
+    Frame frame = file;
+    frame.settings = drawn.settings;
+    return frame;
+}
+
+Explained explained(const ExplanationQuestion& question, Device& device, ShownScene& drawing,
+                    const Frame& left, const Frame& right, const Stage& progress) {
+    const std::vector<int> channels = explainedChannels();
+    const bool file = !left.origin.file.empty(), external = right.origin.external;
+    if (file && external)
+        throw std::runtime_error("Diptych rendered neither image, so it cannot explain their lighting");
+    // Render again if --channels omitted channels.
+    std::optional<Frame> again[2];
+    RenderOptions render = question.drawing;
+    render.channels = channels;
+    render.runs = 0;
+    const std::uint32_t layers = drawing.views.at(viewRequest((file ? right : left).settings)).needs.layers;
+    if ((!external && !hasAll(right, channels, layers)) || (!file && !hasAll(left, channels, layers))) {
+        if (!file) again[0] = drawing.renderer.draw(left.settings, render);
+        if (!external) again[1] = drawing.renderer.draw(right.settings, render);
+    }
+    if (external) again[1] = substituteChannels(right, again[0] ? *again[0] : left, drawing.renderer, render);
+    if (file && left.scene.empty()) again[0] = asOurs(left, right);
+    const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
+    ExplainedPictures of{right.scene, left.name, right.name};
+    if (!file) {
+        std::vector<std::string> words =
+            explainWords(right.scene, external ? left.settings : right.settings, left.settings.path, {});
+        if (!external) words = withWords(std::move(words), wordsOf(question.sides));
+        if (external)
+            words = withOption(std::move(words), "--renderer",
+                               fmt::format("{}={}", right.name, right.origin.file));
+        of.commands = {{"With a map of each cause",
+                        shellLine(withOption(std::move(words), "-o", "diptych-explanation"))}};
+    }
+    const Explanation explanation = explain(device, drawing.renderer, drawing.scene, a, b, progress);
+    return explainedOf(explanation, of, litPicture(b, a, question.picture));
+}
+
+}  // namespace
+
+bool isExplained(bool all, const Report& report) {
+    return std::ranges::any_of(report.comparisons, [&](const Comparison& one) { return isWanted(all, one); });
+}
+
+void addExplanations(const ExplanationQuestion& question, Device& device, Report& report,
+                     const Stage& progress) {
+    const auto all = static_cast<double>(report.comparisons.size());
+    std::optional<ShownScene> drawing;
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
+        Comparison& comparison = report.comparisons[i];
+        if (!isWanted(question.all, comparison)) continue;
+        const Frame &left = report.baseline(comparison), &right = report.test(comparison);
+        if (isReferenceFrame(left)) {
+            comparison.explained = notExplained(
+                "the reference does not light from the channels that explain replaces; the comparison of "
+                "both paths is explained");
+            continue;
+        }
+        const auto done = static_cast<double>(i);
+        const Stage stage = progress.part(done / all, (done + 1) / all).about(right.scene);
+        try {
+            if (!drawing || drawing->name != right.scene) {
+                drawing.reset();
+                drawing.emplace(question.settings, device, right, stage.part(0, 0.2));
+            }
+            comparison.explained = explained(question, device, *drawing, left, right, stage.part(0.2, 1));
+        } catch (const std::runtime_error& error) {
+            comparison.explained = notExplained(error.what());
+        }
+        letGo(left);
+        letGo(right);
+    }
+    checkValidation(device);
+}
+
+std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
+                                      const std::vector<std::pair<std::string, std::string>>& test) {
+    Settings given = settings;
+    given.path = Settings().path;
+    std::vector<std::string> words = commandWords("explain", scene, given);
+    if (baseline != Path::deferred)
+        words = withOption(std::move(words), "--baseline", std::string(nameOf(baseline)));
+    for (const auto& [option, value] : test)
+        words = withOption(std::move(words), "--test", fmt::format("{}={}", option, value));
+    return words;
+}
+
+}  // namespace diptych

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "compare/shards/collection.h"
+
+#include "compare/render/frame_facts.h"
+#include "compare/render/reference_frame.h"
+#include "compare/render/shown_scene.h"
+#include "shared/scene/load.h"
+
+#include <fmt/format.h>
+
+#include <future>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace diptych::shards {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The report's commands write beside the report instead of replacing it.
+std::string againBeside(const fs::path& folder) {
+    constexpr const char* name = "diptych-again";
+    return folder.filename() == name ? std::string(name) + "-again" : name;
+}
+
+}  // namespace
+
+Collection::Collection(const CollectionQuestion& question, const SceneItems& items, Device& device,
+                       Device* other, Progress& progress)
+    : question_(question),
+      items_(items),
+      device_(device),
+      other_(other),
+      progress_(progress),
+      kept_(question.folder, "scenes", question.key),
+      pipelines_(makePipelineSet(device)),
+      against_{other ? *other : device, other ? makePipelineSet(*other) : nullptr,
+               precisionsOf(device, other ? *other : device)} {
+    checkDevice();
+    findKept();
+    checkHeaders();
+}
+
+// All parts of a report come from the same device, or the same two devices.
+void Collection::checkDevice() {
+    Json device = Json::array();
+    for (const Device* of : {&device_, other_})
+        if (of)
+            for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
+                device.push_back(word);
+    const Json there = kept_.find("device");
+    if (there.is_object() && there.value("device", Json()) != device)
+        throw std::runtime_error(
+            fmt::format("{}: holds scenes rendered on another device ({}); remove it, or use that --device",
+                        kept_.path().string(), there["device"].dump()));
+    kept_.keep("device", {{"device", device}});
+}
+
+void Collection::findKept() {
+    for (const Item* item : items_.mine) {
+        if (kept_.find(partOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
+            continue;
+        try {
+            parts_.emplace(item, readPart(kept_.path(), item->folder));
+        } catch (const std::runtime_error& problem) {
+            question_.note(fmt::format("{}; comparing the scene again", problem.what()));
+        }
+    }
+    if (!parts_.empty())
+        question_.note(fmt::format("{} of {} scenes are kept from an interrupted run", parts_.size(),
+                                   items_.mine.size()));
+}
+
+// A scene that fails becomes an error of the report.
+void Collection::attempt(const Item* item, const std::function<void()>& work) {
+    if (const std::optional<SceneError> error = shards::attempt(item->scene, work)) {
+        errors_.emplace(item, *error);
+        question_.say(fmt::format("{}; continuing with the other scenes", error->message));
+    }
+}
+
+// Detects unreadable scenes before the long rendering starts.
+void Collection::checkHeaders() {
+    for (const Item* item : items_.mine)
+        if (!parts_.contains(item))
+            attempt(item, [&] { checkScene(item->scene, question_.explanation.settings.variant); });
+}
+
+void Collection::compareAll() {
+    std::vector<const Item*> left;
+    for (const Item* item : items_.mine)
+        if (!parts_.contains(item) && !errors_.contains(item)) left.push_back(item);
+    const auto all = static_cast<double>(items_.mine.size());
+    auto done = all - static_cast<double>(left.size());
+    // Loads the next scene while one is rendered.
+    const auto load = [&](std::size_t i) {
+        return std::async(std::launch::async, [this, name = left[i]->scene] {
+            return loadShown(name, question_.explanation.settings, {});
+        });
+    };
+    std::future<Scene> next;
+    if (!left.empty()) next = load(0);
+    for (std::size_t i = 0; i < left.size(); ++i, ++done) {
+        const Item* item = left[i];
+        question_.say(item->scene);
+        const Stage stage = Stage(progress_, item->scene).part(0.99 * done / all, 0.99 * (done + 1) / all);
+        stage.at(0, "load");
+        attempt(item, [&] {
+            std::future<Scene> loading = std::move(next);
+            loading.wait();
+            if (i + 1 < left.size()) next = load(i + 1);
+            const Scene scene = loading.get();
+            parts_.emplace(item, compareOne(*item, scene, stage));
+        });
+    }
+}
+
+ReportPart Collection::compareOne(const Item& item, const Scene& scene, const Stage& stage) {
+    KeptReferences references(question_.folder, true);
+    RenderOptions render = question_.drawing;
+    render.keep = [&](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+        return references.open(key, floats);
+    };
+    const auto [drawing, comparing] = experiment::sharesOf(render);
+    const double ours = question_.compared.ourShare() * drawing;
+    render.progress = stage.part(0, ours);
+    experiment::DrawnScene drawn =
+        experiment::drawScene(scene, question_.compared, question_.settings, device_, render, probe_,
+                              stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
+    checkValidation(device_);
+    if (other_) checkValidation(*other_);
+    Report report =
+        experiment::reportOf(question_.compared, question_.compare, std::move(drawn), {},
+                             reportDevice(device_), other_ ? reportDevice(*other_) : ReportDevice(),
+                             againBeside(question_.folder), stage.part(drawing, comparing));
+    double explained = comparing;
+    if (isExplained(question_.explanation.all, report)) {
+        explained = 0.5 * (1 + comparing);
+        addExplanations(question_.explanation, device_, report, stage.part(comparing, explained));
+    }
+    ReportOptions written = question_.report;
+    written.progress = stage.part(explained, 1);
+    written.scene_folder = item.folder;
+    ReportPart part = writePart(report, kept_.path(), written);
+    // If an external renderer failed, the next run tries the scene again.
+    if (report.errors.empty()) kept_.keep(partOf(item), stampOf(item.scene));
+    for (const SceneError& error : report.errors) errors_.emplace(&item, error);
+    references.remove();
+    return part;
+}
+
+WholeReport Collection::whole() {
+    WholeReport whole;
+    for (const Item* item : items_.mine) {
+        const auto [first, last] = errors_.equal_range(item);
+        for (auto error = first; error != last; ++error) whole.errors.push_back(error->second);
+        if (const auto part = parts_.find(item); part != parts_.end())
+            whole.parts.push_back({std::move(part->second), kept_.path(), true});
+    }
+    return whole;
+}
+
+}  // namespace diptych::shards
