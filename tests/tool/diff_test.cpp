@@ -46,6 +46,7 @@ TEST(DiffCommand, FlipDecidesByItsMean) {
         const Json json = jsonOf(runTool(folder, "diff a.png b.png --json"));
         EXPECT_NEAR(json["metrics"]["flip"].get<double>(), mean, 1e-4) << step;
         EXPECT_EQ(json["verdict"], step == 0 ? "pass" : "fail");
+        EXPECT_EQ(json["schema"], 1);
         EXPECT_EQ(runTool(folder, "diff a.png b.png -q").code, step == 0 ? 0 : 1);
         EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance " + std::to_string(mean + 1e-4)).code, 0);
     }

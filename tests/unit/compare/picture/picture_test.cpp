@@ -21,6 +21,7 @@ TEST(Picture, HighlightsHoldTheAutomaticExposure) {
     Coverage all;
     all.covered.assign(20, true);
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
+    EXPECT_TRUE(exposureFor({}, &lit, all).tonemap);
 }
 
 // Three pixels of a hundred do not set the exposure: they are above the 95th percentile.
