@@ -34,6 +34,8 @@ PixelUse floatUse(const float* read, const float* own, int components, double sh
 
 PixelUse useOf(const StoredField& field, const float* read, const float* own, int components, double slack) {
     switch (field.code) {
+        case StoredField::Code::exact:
+            break;
         case StoredField::Code::unorm:
             return componentsUse(read, own, components, [&](double, bool end) {
                 return (end ? 0 : unormBound(field.bits)) + slack;

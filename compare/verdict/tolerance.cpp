@@ -17,6 +17,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 namespace diptych {
 namespace {
@@ -49,6 +51,8 @@ Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& 
 Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
     const unsigned bits = field.bits, codes = (1u << bits) - 1;
     switch (field.code) {
+        case StoredField::Code::exact:
+            break;
         case StoredField::Code::unorm:
             return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
         case StoredField::Code::root:
@@ -120,59 +124,63 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
                         pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
+// Why a part of materials that no packed field stores has no error; empty: not for this reason.
+std::string_view unpackedBecause(const DebugMode& mode, const Requirements& needs) {
+    switch (sourceOf(mode.number).part) {
+        case MaterialPart::none:
+            return {};
+        case MaterialPart::emission:
+            return needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
+                                  : "nothing in the scene emits";
+        case MaterialPart::lightmap:
+            return needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
+                                  : "nothing in the scene has a lightmap";
+        case MaterialPart::dielectric:
+            return mode.number == static_cast<int>(gpu::DEBUG_dielectric_f90)
+                       ? "every dielectric has F90 = 1: nothing is stored"
+                       : "every dielectric has F0 = 0.04: nothing is stored";
+        case MaterialPart::clearcoat:
+            return "nothing in the scene has a clear coat";
+        case MaterialPart::anisotropy:
+            return "nothing in the scene is anisotropic";
+        case MaterialPart::sheen:
+            return "nothing in the scene has a sheen";
+        case MaterialPart::iridescence:
+            return "nothing in the scene has a thin film";
+    }
+    return {};
+}
+
+// Why both paths have equal values of a channel that no field stores.
+std::string_view equalBecause(const DebugMode& mode) {
+    switch (sourceOf(mode.number).stage) {
+        case ChannelStage::id:
+            return "the index is stored exactly";
+        case ChannelStage::list:
+            return mode.maker == MadeBy::deferred_only
+                       ? "the same samples of one G-buffer are shaded"
+                       : "both paths use one list, chosen by the same function of pixel and depth";
+        case ChannelStage::place:
+        case ChannelStage::haze:
+            return "the same function of pixel and depth in both paths";
+        case ChannelStage::map:
+        case ChannelStage::visibility:
+            return "the same maps, read at the same positions along the same normals";
+        default:
+            return mode.number == static_cast<int>(gpu::DEBUG_lightmapped)
+                       ? "it is stored exactly"
+                       : "no loss of precision is known here";
+    }
+}
+
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (encoding == GBufferEncoding::full) return {0, "the full G-buffer stores float32 exactly"};
     if (isLit(mode.number)) return litTolerance(mode, pair);
     if (const auto field = storedField(mode.number, encoding, pair.needs))
         return storedTolerance(*field, mode, pair);
-    switch (mode.number) {
-        case gpu::DEBUG_specular:
-            return specularTolerance(pair, encoding);
-        case gpu::DEBUG_emission:
-            return {0, pair.needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
-                                           : "nothing in the scene emits"};
-        case gpu::DEBUG_lightmap:
-            return {0, pair.needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
-                                           : "nothing in the scene has a lightmap"};
-        case gpu::DEBUG_dielectric_f90:
-            return {0, "every dielectric has F90 = 1: nothing is stored"};
-        case gpu::DEBUG_dielectric_f0:
-            return {0, "every dielectric has F0 = 0.04: nothing is stored"};
-        case gpu::DEBUG_clearcoat:
-        case gpu::DEBUG_clearcoat_roughness:
-        case gpu::DEBUG_clearcoat_normal:
-            return {0, "nothing in the scene has a clear coat"};
-        case gpu::DEBUG_anisotropy:
-        case gpu::DEBUG_anisotropy_direction:
-            return {0, "nothing in the scene is anisotropic"};
-        case gpu::DEBUG_sheen_color:
-        case gpu::DEBUG_sheen_roughness:
-            return {0, "nothing in the scene has a sheen"};
-        case gpu::DEBUG_iridescence:
-        case gpu::DEBUG_iridescence_ior:
-        case gpu::DEBUG_iridescence_thickness:
-            return {0, "nothing in the scene has a thin film"};
-        case gpu::DEBUG_material_id:
-            return {0, "the index is stored exactly"};
-        case gpu::DEBUG_lightmapped:
-            return {0, "it is stored exactly"};
-        case gpu::DEBUG_light_count:
-        case gpu::DEBUG_list_overflow:
-            return {0, "both paths use one list, chosen by the same function of pixel and depth"};
-        case gpu::DEBUG_shaded_samples:
-            return {0, "the same samples of one G-buffer are shaded"};
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
-        case gpu::DEBUG_lit_haze:
-        case gpu::DEBUG_transmittance:
-            return {0, "the same function of pixel and depth in both paths"};
-        case gpu::DEBUG_shadow_visibility:
-        case gpu::DEBUG_cascade:
-        case gpu::DEBUG_page_residency:
-        case gpu::DEBUG_local_visibility:
-            return {0, "the same maps, read at the same positions along the same normals"};
-    }
-    return {0, "no loss of precision is known here"};
+    if (mode.number == static_cast<int>(gpu::DEBUG_specular)) return specularTolerance(pair, encoding);
+    const std::string_view unpacked = unpackedBecause(mode, pair.needs);
+    return {0, std::string(unpacked.empty() ? equalBecause(mode) : unpacked)};
 }
 
 // Times the number of steps, as a fraction of the light that haze scatters: the measured error of ray
