@@ -36,7 +36,7 @@ std::vector<std::string> materialNames(const Scene& scene) {
 std::optional<TextureSampling> texelsFor(const Options& options, const std::vector<Settings>& settings,
                                          Device& device, bool textures, TextureProbe& probe) {
     const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
-        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+        return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
     });
     if (!textures || !againstReference(options) || !scenes) return {};
     if (!probe) probe = probeTextures(device, settings.front().textures);  // the same for all Settings
@@ -71,7 +71,7 @@ void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, Again
     };
     std::vector<Frame> frames;
     for (std::size_t i = 0; i + 1 < there.size(); i += 2) {
-        const std::size_t forward = drawn.frames[i].settings.path == Path::forward_plus ? i : i + 1;
+        const std::size_t forward = shadesFragments(drawn.frames[i].settings.path) ? i : i + 1;
         AcrossDevices across = acrossDevices(scene, views.at(viewRequest(drawn.frames[forward].settings)),
                                              against.precision, drawn.frames[forward]);
         for (const std::size_t k : {i, i + 1}) {
@@ -113,7 +113,7 @@ void drawExternals(const Scene& scene, const SceneView& view, const Settings& se
 }  // namespace
 
 bool againstReference(const Options& options) {
-    return options.baseline == Path::reference && options.baseline_file.empty();
+    return isReference(options.baseline) && options.baseline_file.empty();
 }
 
 std::vector<Path> comparedPaths(const Options& options) {
@@ -124,7 +124,7 @@ std::vector<Path> comparedPaths(const Options& options) {
 
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
     const auto traced = [](const Settings& s) {
-        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+        return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
     };
     return std::ranges::any_of(settings, traced) ||
            (baseline && isReferenceFrame(*baseline) && traced(baseline->settings));
@@ -137,7 +137,7 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
     if (baseline && isReferenceFrame(*baseline)) reference = baseline->settings;
     if (!reference) return;
     for (const Settings& s : settings) {
-        if (s.path == Path::reference || s.msaa == 1) continue;
+        if (isReference(s.path) || s.msaa == 1) continue;
         if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
             throw std::runtime_error(problem);
         if (!options.channels.empty() &&

@@ -76,7 +76,7 @@ bool isLightingField(int mode) {
 }  // namespace
 
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward) return {};
     const auto mine = deferred->channels.find(mode.number), theirs = forward->channels.find(mode.number);
     if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};

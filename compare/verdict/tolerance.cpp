@@ -38,7 +38,7 @@ Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tol
 // Tolerance of an index of refraction: the bound of the largest one. Deferred's own indices, which are
 // decoded, do not widen it.
 Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& pair) {
-    const Frame& own = pair.baseline.settings.path == Path::deferred ? pair.test : pair.baseline;
+    const Frame& own = hasGBuffer(pair.baseline.settings.path) ? pair.test : pair.baseline;
     const Image& image = own.channels.at(mode.number);
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -101,7 +101,7 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
 
 // The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
     const auto found = forward->through_gbuffer.find(mode.number);
     return found == forward->through_gbuffer.end() ? nullptr : &found->second;
@@ -112,15 +112,15 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!through)
         return {0,
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
-    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
-    const bool first = pair.baseline.settings.path == Path::forward_plus;
+    const Image& own = pair.of(shadesFragments)->channels.at(mode.number);
+    const bool first = shadesFragments(pair.baseline.settings.path);
     const ChannelStats moved =
         channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
     return {moved.max,
             fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
                         "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
                         "surface channel must be within its bits",
-                        moved.max, moved.mean, nameOf(pair.of(Path::forward_plus)->settings.gbuffer),
+                        moved.max, moved.mean, nameOf(pair.of(shadesFragments)->settings.gbuffer),
                         pair.cpu ? "bit for bit" : "within 16 ULP")};
 }
 
@@ -207,8 +207,7 @@ double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pi
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    const bool packed =
-        path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
+    const bool packed = hasGBuffer(path.settings.path) && path.settings.gbuffer != GBufferEncoding::full;
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
@@ -260,8 +259,7 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full)
-        return nullptr;
+    if (!hasGBuffer(path.settings.path) || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
     if (reference.through_gbuffer.contains(mode.number)) return &reference;
     const Frame* const forward = pair.explaining;
     return forward && forward->settings.gbuffer == path.settings.gbuffer &&
@@ -291,11 +289,11 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
 }
 
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
-    const Frame* deferred = pair.of(Path::deferred);
+    const Frame* deferred = pair.of(hasGBuffer);
     if (pair.baseline.origin.external || pair.test.origin.external)
         return {0, "an external renderer's image has no derived tolerance: give rules (--tolerances)"};
     Tolerance result{0, "one path twice: the same function of the same inputs"};
-    if (deferred && pair.of(Path::forward_plus))
+    if (deferred && pair.of(shadesFragments))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
     else if (isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test))
         result = referenceTolerance(mode, pair);
@@ -304,7 +302,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!pair.cpu && mode.metric != Metric::exact) {
         result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
         result.because += fmt::format("; plus {} ULP of the pixel's largest component on a GPU", gpuUlps);
-        const Frame* const forward = pair.of(Path::forward_plus);
+        const Frame* const forward = pair.of(shadesFragments);
         if (deferred && forward && forward->settings.prepass != Switch::on &&
             (isLit(mode.number) || mode.number == static_cast<int>(gpu::DEBUG_depth) ||
              mode.number == static_cast<int>(gpu::DEBUG_position)))
@@ -318,8 +316,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 double encodingBound(const DebugMode& mode, const FramePair& pair) {
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     if (isLit(mode.number) || path.settings.gbuffer == GBufferEncoding::full) return 0;
-    return path.settings.path == Path::deferred ? encodingTolerance(mode, pair, path.settings.gbuffer).max
-                                                : 0;
+    return hasGBuffer(path.settings.path) ? encodingTolerance(mode, pair, path.settings.gbuffer).max : 0;
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
@@ -384,13 +381,13 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
     const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
+    return unequalPixels(pair.of(hasGBuffer)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
 }
 
 std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
     const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    const Image& read = pair.of(Path::deferred)->channels.at(mode.number);
+    const Image& read = pair.of(hasGBuffer)->channels.at(mode.number);
     return unequalPixels(onePixel(read, pixel), onePixel(*through, pixel), pair.cpu ? 0 : gpuUlps) == 0;
 }
 
