@@ -4,7 +4,7 @@
 namespace diptych::audit {
 
 bool isPrecise(const Settings& settings) {
-    const bool packs = settings.path == Path::deferred && settings.gbuffer != GBufferEncoding::full;
+    const bool packs = hasGBuffer(settings.path) && settings.gbuffer != GBufferEncoding::full;
     return !packs && settings.depth_format == DepthFormat::d32f && settings.lit_format == LitFormat::fp32 &&
            settings.shading_precision == ShadingPrecision::fp32;
 }

@@ -65,7 +65,7 @@ bool anyBlends(const Scene& scene) {
 // Error bound of a channel's component decoded from the G-buffer; emission and a film's thickness: relative
 // to the largest component.
 std::map<int, double> packedBounds(const Settings& settings) {
-    if (settings.path != Path::deferred) return {};
+    if (!hasGBuffer(settings.path)) return {};
     Requirements needs;
     needs.emission = true;
     needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
@@ -78,7 +78,7 @@ std::map<int, double> packedBounds(const Settings& settings) {
 }
 
 bool isReferenceSeries(const Series& series) {
-    return series.path == Path::reference;
+    return isReference(series.path);
 }
 
 // Pixels per radian of the image; an orthographic one as seen from the distance at which it is rendered.
@@ -118,7 +118,7 @@ Blame RelationResult::blame(bool cpu) const {
 
 ChosenSeries relatedSeries(const Subject& subject) {
     ChosenSeries all;
-    for (Series series : {Series{Path::deferred, {}}, Series{Path::forward_plus, {}},
+    for (Series series : {Series{drawn_paths[0], {}}, Series{drawn_paths[1], {}},
                           Series{Path::deferred, {{"gbuffer", "full"}}},
                           Series{Path::reference, {{"reference-mode", "scene"}}}}) {
         const Settings settings = settingsOfSeries(series, subject.given.settings);
@@ -169,7 +169,7 @@ void RelationMeasurer::addReference(Drawn& drawn, const Case& of, std::span<cons
 
 Frame RelationMeasurer::packedLight(const Case& of) {
     Settings settings = of.settings;
-    settings.path = Path::forward_plus;
+    settings.path = unencoded_path;
     SceneViews views(of.scene);
     Renderer renderer(device_, views, pipelines_);
     Frame frame = renderer.draw(withoutReference(settings), drawingRelated(true));
@@ -209,7 +209,7 @@ RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const 
     tolerance.relative = 2 * (terms + roundingsOfATerm) * roundoff;
     for (const Material& material : related.base.scene.materials)
         tolerance.textured.push_back(hasTexture(material));
-    if (settings.path == Path::reference) return tolerance;
+    if (isReference(settings.path)) return tolerance;
     tolerance.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
     // One step across, one down, and one between two levels.
     tolerance.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
@@ -229,7 +229,7 @@ std::uint64_t RelationMeasurer::tied() {
         if (!order->lacks(subject_).empty()) continue;
         Related related{subject_.given, subject_.given};
         order->change(related, subject_);
-        const std::array settings{settingsOfSeries({Path::forward_plus, {}}, subject_.given.settings)};
+        const std::array settings{settingsOfSeries({unencoded_path, {}}, subject_.given.settings)};
         const Drawn given = draw(related.base, settings), changed = draw(related.changed, settings);
         if (!given.frames[0] || !changed.frames[0]) continue;
         RelationTolerance tolerance;
@@ -283,7 +283,7 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
         }
         of.tolerance = toleranceOf(relation, related, after[i]);
         Image packed;
-        if (series_[i].path == Path::deferred && !of.tolerance.packed.empty()) {
+        if (hasGBuffer(series_[i].path) && !of.tolerance.packed.empty()) {
             packed = packedLight(related);
             of.tolerance.packed_light = &packed;
         }

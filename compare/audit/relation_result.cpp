@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace diptych::audit {
 
@@ -37,22 +38,6 @@ constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any
 // Largest relative change per radian of a thin film's colours, two terms cos(2.24e6 p) exp(-4.5e9 p^2) with p
 // = 2 pi OPD: as p changes by its own size at most, each changes by at most 14.
 constexpr double filmSlope = 30;
-// No texture changes a film's index, so it follows from material_id.
-constexpr std::array compared{lightMode,
-                              static_cast<int>(gpu::DEBUG_albedo),
-                              normalMode,
-                              static_cast<int>(gpu::DEBUG_metallic),
-                              roughnessMode,
-                              static_cast<int>(gpu::DEBUG_emission),
-                              idMode,
-                              viewDepth,
-                              facet,
-                              coatNormalMode,
-                              coatRoughnessMode,
-                              sheenMode,
-                              sheenRoughnessMode,
-                              filmMode,
-                              static_cast<int>(gpu::DEBUG_iridescence_thickness)};
 
 // Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
 // steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
@@ -119,7 +104,7 @@ public:
         if (tolerance_.reorders) setTiesAside(result);
         if (tolerance_.equality == Equality::rounding) findFiltered(result);
         double most = -1;
-        for (const int mode : compared) {
+        for (const int mode : relatedChannels()) {
             if (!isKnown(mode)) continue;
             Image used;
             result.channels.push_back(channel(mode, used));
@@ -273,7 +258,7 @@ private:
     void setTiesAside(FrameResult& result) {
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (given(viewDepth).data[i] != changed(viewDepth).data[i]) continue;
-            aside_[i] = std::ranges::any_of(compared, [&](int mode) {
+            aside_[i] = std::ranges::any_of(relatedChannels(), [&](int mode) {
                 return mode != lightMode && isKnown(mode) &&
                        apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
             });
@@ -287,7 +272,7 @@ private:
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
             ++textured;
-            filtered_[i] = std::ranges::any_of(compared, [&](int mode) {
+            filtered_[i] = std::ranges::any_of(relatedChannels(), [&](int mode) {
                 return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
                        isKnown(mode) && !isFilteredAlike(mode, i);
             });
@@ -383,7 +368,14 @@ Image cut(const Image& image, const PictureMap& map) {
 }  // namespace
 
 std::span<const int> relatedChannels() {
-    return compared;
+    static const std::vector<int> related = [] {
+        std::vector<int> modes;
+        for (const DebugMode& mode : debugModes())
+            if (mode.related != 0) modes.push_back(mode.number);
+        std::ranges::sort(modes, {}, [](int mode) { return debugMode(mode).related; });
+        return modes;
+    }();
+    return related;
 }
 
 std::string RelationTolerance::inWords() const {
@@ -416,7 +408,7 @@ Frame mappedBack(const Frame& changed, const PictureMap& map) {
     back.settings.size.width -= 2 * map.border;
     back.settings.size.height -= 2 * map.border;
     back.background = changed.background;
-    for (const int mode : compared) {
+    for (const int mode : relatedChannels()) {
         const auto found = changed.channels.find(mode);
         if (found == changed.channels.end()) continue;
         Image image = cut(found->second, map);

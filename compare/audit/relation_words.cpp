@@ -94,7 +94,7 @@ std::string blameInWords(const RelationResult& result, const ReportDevice& devic
 }
 
 std::string seriesInWords(const SeriesResult& result) {
-    return result.series.path == Path::reference ? "reference, double precision" : result.series.words();
+    return isReference(result.series.path) ? "reference, double precision" : result.series.words();
 }
 
 std::string worstInWords(const SeriesResult& result) {
@@ -116,7 +116,7 @@ std::string inWords(const RelationResult& result, const ReportDevice& device) {
         const SeriesResult* worst = nullptr;
         double used = -1;
         for (const SeriesResult& of : result.series) {
-            if (!of.lacks.empty() || of.series.path == Path::reference) continue;
+            if (!of.lacks.empty() || isReference(of.series.path)) continue;
             const ChannelResult* const channel = of.comparison.worst();
             if (const double its = channel ? channel->used : 0; its > used) {
                 used = its;

@@ -236,8 +236,7 @@ std::vector<Transparency> transparenciesOf(const Settings& given, const BenchOpt
 
 // Only deferred has several lighting modes.
 std::vector<Lighting> lightingsOf(Path path, const Settings& given, const BenchOptions& options) {
-    return path == Path::deferred && !options.lightings.empty() ? options.lightings
-                                                                : std::vector{given.lighting};
+    return hasGBuffer(path) && !options.lightings.empty() ? options.lightings : std::vector{given.lighting};
 }
 
 std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& options) {
@@ -347,7 +346,7 @@ ModeParts partsOf(const BenchOptions& options, const Settings& settings) {
     ModeParts parts;
     if (by_samples || options.transparencies.size() > 1) parts.transparency = settings.transparency;
     if (by_samples) parts.samples = settings.msaa;
-    if (options.lightings.size() > 1 && settings.path == Path::deferred) parts.lighting = settings.lighting;
+    if (options.lightings.size() > 1 && hasGBuffer(settings.path)) parts.lighting = settings.lighting;
     return parts;
 }
 

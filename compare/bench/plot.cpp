@@ -91,7 +91,7 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
 
 std::string markAt(Path path, double x, double y) {
     constexpr double r = 4;
-    return path == Path::deferred
+    return hasGBuffer(path)
                ? fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
                              svgNumber(y), r)
                : fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",

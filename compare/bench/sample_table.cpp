@@ -121,15 +121,14 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
             theirs.push_back(fmt::format("{:.0f}", mebibytes(paperBytes * count * paperPixels)));
         }
         const std::string paper =
-            line.path == Path::deferred
+            hasGBuffer(line.path)
                 ? fmt::format("; Billeter, Olsson and Assarsson store {} B per sample: {} MiB", paperBytes,
                               fmt::join(theirs, ", "))
                 : "";
-        lines.push_back(
-            fmt::format("{} stores {} B of {} per sample with {} samples per pixel: {} MiB at 1920x1080{}",
-                        nameOf(line.path), fmt::join(bytes, ", "),
-                        line.path == Path::deferred ? "G-buffer and depth" : "depth",
-                        fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
+        lines.push_back(fmt::format(
+            "{} stores {} B of {} per sample with {} samples per pixel: {} MiB at 1920x1080{}",
+            nameOf(line.path), fmt::join(bytes, ", "), hasGBuffer(line.path) ? "G-buffer and depth" : "depth",
+            fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
     }
     return lines;
 }

@@ -72,7 +72,7 @@ Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
                   const experiment::ReferenceFrames& viewpoints, const std::array<Settings, 2>& settings) {
     Figures figures;
     for (const Frame& from : viewpoints.frames) {
-        Settings seen = settings[0].path == Path::forward_plus ? settings[0] : settings[1];
+        Settings seen = shadesFragments(settings[0].path) ? settings[0] : settings[1];
         seen.camera = from.settings.camera;
         const Overdraw overdraw = overdrawFrom(of, views, seen);
         figures.fragments += static_cast<double>(overdraw.fragments);

@@ -24,7 +24,7 @@ void checkBenchOptions(const Options& options) {
     if (options.cameras.size() != 1)
         throw std::runtime_error("--camera: bench takes one camera; run it once for each");
     if (options.runs < 1) throw std::runtime_error("--runs 0: bench measures times; use 1 or more");
-    if (options.settings.path == Path::reference)
+    if (isReference(options.settings.path))
         throw std::runtime_error(
             "--path reference: bench does not time the reference; use deferred or forward_plus");
 }

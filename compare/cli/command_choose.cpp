@@ -46,7 +46,7 @@ void checkChooseOptions(const Options& options) {
         checkSettingsFile(options.out, options.force);
     else if (!options.out.empty())
         outputFolder(options, "", "choice (X.json: only its Settings)", choiceManifest);
-    if (options.settings.path == Path::reference)
+    if (isReference(options.settings.path))
         throw std::runtime_error(
             "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())

@@ -32,9 +32,8 @@ void checkOnePicture(const Options& options, const std::vector<Settings>& settin
 
 // The Frame that becomes the new baseline: of --path, else of the old baseline's path.
 const Frame& renewing(const Options& options, const Frame* old, const std::vector<Frame>& frames) {
-    const Path path = old && !options.path_given && old->settings.path != Path::reference
-                          ? old->settings.path
-                          : options.settings.path;
+    const Path path = old && !options.path_given && !isReference(old->settings.path) ? old->settings.path
+                                                                                     : options.settings.path;
     for (const Frame& frame : frames)
         if (frame.settings.path == path) return frame;
     throw std::runtime_error(

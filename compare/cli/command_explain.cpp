@@ -34,7 +34,7 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
     if (!options.test.empty() && options.sides.any())
         throw std::runtime_error(
             "--test: --deferred and --forward-plus already define both images; leave out --test");
-    const Path other = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
+    const Path other = otherPath(options.baseline);
     Settings test = options.sides.of(options.settings, options.test.empty() ? other : options.baseline);
     for (const SettingDifference& of : settingDifferences(baseline, test))
         name += fmt::format(" --{} {}", of.option, of.test);
@@ -47,7 +47,7 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
         if (option != "path") name += fmt::format(" --{} {}", option, value);
     }
     name = fmt::format("{}{}", nameOf(test.path), name);
-    if (test.path == Path::reference)
+    if (isReference(test.path))
         throw std::runtime_error(
             "--test path=reference: explain works with the two rendered paths; use deferred or forward_plus");
     if (test == baseline)
@@ -193,8 +193,7 @@ Frame readPicture(const Options& options, const std::string& file) {
             fmt::format("{}: is an image of the reference, which does not light from the channels that "
                         "explain replaces; give images of deferred or forward_plus",
                         file));
-    if (frame.settings.path == Path::reference)
-        frame.settings.path = Path::forward_plus;  // from another renderer
+    if (isReference(frame.settings.path)) frame.settings.path = unencoded_path;  // from another renderer
     const Image& any = frame.channels.begin()->second;
     frame.settings.size = {any.width, any.height};
     return frame;
@@ -249,10 +248,10 @@ int runExplain(const Options& options) {
     if (options.cameras.size() != 1)
         throw std::runtime_error(
             fmt::format("--camera {}: explain takes one view; run it once for each", options.cameras[1]));
-    if (options.baseline == Path::reference || !options.baseline_file.empty())
+    if (isReference(options.baseline) || !options.baseline_file.empty())
         throw std::runtime_error(
-            "--baseline reference or FILE.exr: explain works with the two rendered paths; use deferred or "
-            "forward_plus");
+            "--baseline reference or FILE.exr: explain works with the two rendered paths; "
+            "use deferred or forward_plus");
     if (std::ranges::none_of(options.scenes, isExr)) return explainScene(options);
     if (options.scenes.size() != 2 || !std::ranges::all_of(options.scenes, isExr))
         throw std::runtime_error(

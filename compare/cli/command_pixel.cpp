@@ -25,7 +25,7 @@ void checkOnePixel(const Options& options) {
     if (options.cameras.size() != 1 || options.times.size() != 1)
         throw std::runtime_error(fmt::format(
             "{}: takes one view; give one --camera and one --time, or run it once for each", pixel));
-    if (options.baseline == Path::reference || !options.baseline_file.empty())
+    if (isReference(options.baseline) || !options.baseline_file.empty())
         throw std::runtime_error(
             fmt::format("--baseline {}: {} compares the two paths and shows the reference beside them; use "
                         "deferred or forward_plus",
@@ -45,7 +45,7 @@ void checkOnePixel(const Options& options) {
 
 int runPixel(const Options& options) {
     checkOnePixel(options);
-    const Path test = options.baseline == Path::deferred ? Path::forward_plus : Path::deferred;
+    const Path test = otherPath(options.baseline);
     const std::vector<Settings> settings = settingsOf(options, {Path::reference, options.baseline, test});
     const CompareOptions compare = compareOptions(options);
     if (options.selection.any())

@@ -181,7 +181,7 @@ int runPlan(const Options& options) {
     refuseOut(options);
     std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
     if (options.path_given) paths = {options.settings.path};
-    if (paths.front() == Path::reference)
+    if (isReference(paths.front()))
         throw std::runtime_error("--path reference: has no passes to plan; use deferred or forward_plus");
     const std::vector<Settings> settings = settingsOf(options, paths);
     std::optional<DeviceCompiler> compiler;

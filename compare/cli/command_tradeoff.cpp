@@ -23,7 +23,7 @@ namespace {
 
 void checkTradeoffOptions(const Options& options) {
     if (options.runs < 1) throw std::runtime_error("--runs 0: tradeoff measures times; use 1 or more");
-    if (options.settings.path == Path::reference)
+    if (isReference(options.settings.path))
         throw std::runtime_error(
             "--path reference: errors are measured against it; use deferred or forward_plus");
     if (const auto problem = referenceSettings(options.settings).problem())

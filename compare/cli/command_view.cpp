@@ -147,7 +147,7 @@ int runView(const Options& given) {
         options.size_given || options.pixel || options.selection.any() || !options.baseline_file.empty();
     view.look.mode = options.shown;
     if (isReport) view.look.difference = viewer::Difference::absolute;
-    if (options.baseline == Path::reference) view.look.against = viewer::Against::reference;
+    if (isReference(options.baseline)) view.look.against = viewer::Against::reference;
     if (!options.baseline_file.empty()) {
         view.look.against = viewer::Against::file;
         view.look.file = options.baseline_file;

@@ -71,10 +71,10 @@ std::vector<Settings> settingsOf(const Options& options, const std::vector<Path>
                 settings.time = time;
                 settings = options.sides.of(settings, path);
                 // Drop Settings that only the reference reads from the paths beside it.
-                if (path != Path::reference && std::ranges::count(paths, Path::reference) > 0)
+                if (!isReference(path) && std::ranges::count(paths, Path::reference) > 0)
                     settings = withoutReference(settings);
                 if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
-                all.push_back(path == Path::reference ? referenceSettings(settings) : settings);
+                all.push_back(isReference(path) ? referenceSettings(settings) : settings);
             }
     return all;
 }

@@ -26,7 +26,7 @@ experiment::Compared comparedOf(const Options& options) {
 
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
     const auto traced = [](const Settings& s) {
-        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+        return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
     };
     return std::ranges::any_of(settings, traced) ||
            (baseline && isReferenceFrame(*baseline) && traced(baseline->settings));
@@ -39,7 +39,7 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
     if (baseline && isReferenceFrame(*baseline)) reference = baseline->settings;
     if (!reference) return;
     for (const Settings& s : settings) {
-        if (s.path == Path::reference || s.msaa == 1) continue;
+        if (isReference(s.path) || s.msaa == 1) continue;
         if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
             throw std::runtime_error(problem);
         if (!options.channels.empty() &&

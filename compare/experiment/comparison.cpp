@@ -31,7 +31,7 @@ std::vector<std::string> materialNames(const Scene& scene) {
 std::optional<TextureSampling> texelsFor(const Compared& compared, const std::vector<Settings>& settings,
                                          Device& device, bool textures, TextureProbe& probe) {
     const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
-        return s.path == Path::reference && s.reference_mode == ReferenceMode::scene;
+        return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
     });
     if (!textures || !compared.withReference() || !scenes) return {};
     if (!probe) probe = probeTextures(device, settings.front().textures);  // the same for all Settings
@@ -66,7 +66,7 @@ void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, Again
     };
     std::vector<Frame> frames;
     for (std::size_t i = 0; i + 1 < there.size(); i += 2) {
-        const std::size_t forward = drawn.frames[i].settings.path == Path::forward_plus ? i : i + 1;
+        const std::size_t forward = shadesFragments(drawn.frames[i].settings.path) ? i : i + 1;
         AcrossDevices across = acrossDevices(scene, views.at(viewRequest(drawn.frames[forward].settings)),
                                              against.precision, drawn.frames[forward]);
         for (const std::size_t k : {i, i + 1}) {

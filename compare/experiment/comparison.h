@@ -28,7 +28,7 @@ struct Compared {
     std::vector<external::Renderer> renderers{};
     std::vector<std::string> renderer_words{};  // words of the command line that name them
 
-    bool withReference() const { return baseline == Path::reference && !from_file; }
+    bool withReference() const { return isReference(baseline) && !from_file; }
     std::vector<Path> paths() const;
     // Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
     double ourShare() const { return renderers.empty() ? 1 : 0.5; }

@@ -36,7 +36,7 @@ void addStarts(const Settings& given, std::vector<Settings>& starts) {
             for (const std::string& value : sweptValues(given, pair.a)) {
                 Settings other = start;
                 other.set(pair.a, value);
-                if (std::ranges::count(starts, other) == 0 && other.path != Path::reference &&
+                if (std::ranges::count(starts, other) == 0 && !isReference(other.path) &&
                     !effectiveSettings(other).problem())
                     starts.push_back(other);
             }
@@ -61,7 +61,7 @@ public:
         Settings requested = given_;
         for (const auto& [option, value] : choices) requested.set(option, value);
         const std::vector<Choice> tried = changed(requested);
-        if (requested.path == Path::reference)
+        if (isReference(requested.path))
             return skip({{"path", "reference"}}, "is the reference that all rows are compared with");
         for (const auto& [option, value] : tried)
             if (const std::string_view why = ignoredBecause(requested, option); !why.empty())

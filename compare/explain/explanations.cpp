@@ -132,7 +132,7 @@ std::vector<std::string> explainWords(const std::string& scene, const Settings& 
     Settings given = settings;
     given.path = Settings().path;
     std::vector<std::string> words = commandWords("explain", scene, given);
-    if (baseline != Path::deferred)
+    if (!hasGBuffer(baseline))
         words = withOption(std::move(words), "--baseline", std::string(nameOf(baseline)));
     for (const auto& [option, value] : test)
         words = withOption(std::move(words), "--test", fmt::format("{}={}", option, value));

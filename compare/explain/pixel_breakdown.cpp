@@ -32,53 +32,6 @@ constexpr int numberOf(gpu::uint mode) {
     return static_cast<int>(mode);
 }
 
-// Order: the surface's position, its material, the light that reaches it, the light that it sends.
-constexpr std::array stepOrder{numberOf(gpu::DEBUG_material_id),
-                               numberOf(gpu::DEBUG_depth),
-                               numberOf(gpu::DEBUG_position),
-                               numberOf(gpu::DEBUG_geometric_normal),
-                               numberOf(gpu::DEBUG_texcoords),
-                               numberOf(gpu::DEBUG_tangent),
-                               numberOf(gpu::DEBUG_handedness),
-                               numberOf(gpu::DEBUG_tangent_normal),
-                               numberOf(gpu::DEBUG_normals),
-                               numberOf(gpu::DEBUG_albedo),
-                               numberOf(gpu::DEBUG_metallic),
-                               numberOf(gpu::DEBUG_roughness),
-                               numberOf(gpu::DEBUG_dielectric_f0),
-                               numberOf(gpu::DEBUG_dielectric_f90),
-                               numberOf(gpu::DEBUG_specular),
-                               numberOf(gpu::DEBUG_anisotropy),
-                               numberOf(gpu::DEBUG_anisotropy_direction),
-                               numberOf(gpu::DEBUG_iridescence),
-                               numberOf(gpu::DEBUG_iridescence_ior),
-                               numberOf(gpu::DEBUG_iridescence_thickness),
-                               numberOf(gpu::DEBUG_sheen_color),
-                               numberOf(gpu::DEBUG_sheen_roughness),
-                               numberOf(gpu::DEBUG_clearcoat),
-                               numberOf(gpu::DEBUG_clearcoat_roughness),
-                               numberOf(gpu::DEBUG_clearcoat_normal),
-                               numberOf(gpu::DEBUG_occlusion),
-                               numberOf(gpu::DEBUG_emission),
-                               numberOf(gpu::DEBUG_lightmap),
-                               numberOf(gpu::DEBUG_lightmapped),
-                               numberOf(gpu::DEBUG_shadow_visibility),
-                               numberOf(gpu::DEBUG_cascade),
-                               numberOf(gpu::DEBUG_page_residency),
-                               numberOf(gpu::DEBUG_local_visibility),
-                               numberOf(gpu::DEBUG_list_overflow),
-                               numberOf(gpu::DEBUG_light_count),
-                               numberOf(gpu::DEBUG_shaded_samples),
-                               numberOf(gpu::DEBUG_lit_diffuse),
-                               numberOf(gpu::DEBUG_lit_specular),
-                               numberOf(gpu::DEBUG_lit_ambient),
-                               numberOf(gpu::DEBUG_lit_environment),
-                               numberOf(gpu::DEBUG_lit_sheen),
-                               numberOf(gpu::DEBUG_lit_clearcoat),
-                               numberOf(gpu::DEBUG_transmittance),
-                               numberOf(gpu::DEBUG_lit_haze),
-                               numberOf(gpu::DEBUG_lit)};
-
 constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 11> kindNames{
     {{PixelTerm::Kind::light, "light"},
      {PixelTerm::Kind::other_lights, "other_lights"},
@@ -161,7 +114,7 @@ public:
         findSurface();
         const std::array<Rgb3, 3> blended = blendedOver();
         breakdown_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
-        for (const int mode : stepOrder) takeStep(debugMode(mode));
+        for (const int mode : pixelSteps()) takeStep(debugMode(mode));
         takeFacts();
         if (breakdown_.shown) takeTerms();
         return std::move(breakdown_);
@@ -489,7 +442,13 @@ bool isAfterTerms(int mode) {
 }
 
 std::span<const int> pixelSteps() {
-    return stepOrder;
+    static const std::vector<int> steps = [] {
+        std::vector<int> modes;
+        for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+        std::ranges::sort(modes, {}, [](int mode) { return debugMode(mode).step; });
+        return modes;
+    }();
+    return steps;
 }
 
 PixelBreakdown::First PixelBreakdown::first() const {

@@ -60,7 +60,7 @@ std::string ErrorOverTime::front(std::span<const std::pair<double, double>> poin
 }
 
 std::string pathMark(Path path, double x, double y, double r) {
-    if (path == Path::deferred)
+    if (hasGBuffer(path))
         return fmt::format("<circle class=\"mark\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>", svgNumber(x),
                            svgNumber(y), svgNumber(r));
     return fmt::format("<rect class=\"mark\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",

@@ -49,7 +49,7 @@ const Image& channelOf(const Frame& frame, gpu::uint mode) {
 // Bits per coordinate to which lighting quantises the path's geometric normals. 0: none, or the channel
 // already shows quantised normals.
 float quantisedTo(const Frame& frame) {
-    return frame.settings.path == Path::forward_plus
+    return shadesFragments(frame.settings.path)
                ? static_cast<float>(geometricNormalBits(frame.settings.gbuffer))
                : 0;
 }

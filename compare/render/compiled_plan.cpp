@@ -25,7 +25,7 @@ CaptureRequest everyChannel(const Settings& settings, gpu::uint layers) {
     for (const DebugMode& mode : debugModes()) {
         if (!notMadeBecause(settings, mode).empty() || (layerOf(mode.number) & ~layers) != 0) continue;
         request.modes.push_back(mode.number);
-        if (settings.path == Path::forward_plus && isLit(mode.number))
+        if (shadesFragments(settings.path) && isLit(mode.number))
             request.through_gbuffer.push_back(mode.number);
     }
     return request;

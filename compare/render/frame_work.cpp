@@ -17,7 +17,7 @@ PassWork workOf(Path path, const PassCounts& counts, double textures, double lig
     PassWork work{counts};
     const auto fragments = static_cast<double>(counts.fragments);
     const bool shades = counts.name.starts_with("shade");
-    const bool geometry = counts.triangles > screenTriangles && !(shades && path == Path::deferred);
+    const bool geometry = counts.triangles > screenTriangles && !(shades && hasGBuffer(path));
     if (geometry) {
         work.texels = fragments * textures;
         work.vertex_bytes = static_cast<double>(counts.vertices) *

@@ -21,7 +21,7 @@ double sampleBytes(const Settings& settings) {
     const double lit = settings.lit_format == LitFormat::fp32   ? 16
                        : settings.lit_format == LitFormat::fp16 ? 8
                                                                 : 4;
-    const double surface = settings.path != Path::deferred                 ? 0
+    const double surface = !hasGBuffer(settings.path)                      ? 0
                            : settings.gbuffer == GBufferEncoding::compact  ? 12
                            : settings.gbuffer == GBufferEncoding::standard ? 20
                                                                            : 48;
@@ -90,7 +90,7 @@ std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions
     std::set<Path> paths;
     for (const Settings& of : settings) {
         paths.insert(of.path);
-        if (of.path == Path::reference) {
+        if (isReference(of.path)) {
             largest = std::max(largest, pixelsOf(of) * referenceBytes(of, options));
             held += pixelsOf(of) * keptReference;
             continue;

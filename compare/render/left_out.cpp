@@ -22,7 +22,7 @@ std::string nameOf(const Light& light, std::size_t index) {
 
 std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     std::vector<std::string> notes;
-    if (path == Path::reference) return notes;
+    if (isReference(path)) return notes;
     const auto note = [&](const std::string& what, bool one) {
         notes.push_back(fmt::format("{}: not rendered by {} yet; the reference has {}", what, nameOf(path),
                                     one ? "it" : "them"));

@@ -128,7 +128,7 @@ void checkAttachments(const Device& device, const GBufferLayout& gbuffer, const 
     const auto needed =
         std::ranges::count_if(gbuffer.formats, [](VkFormat f) { return f != VK_FORMAT_UNDEFINED; });
     const std::uint32_t most = std::min(device.limits().maxColorAttachments, gpu::CAPTURE_ATTACHMENTS);
-    if (settings.path == Path::deferred && needed > most)
+    if (hasGBuffer(settings.path) && needed > most)
         throw std::runtime_error(
             fmt::format("the G-buffer of this scene needs {} attachments, and {} draws to {} at once; use "
                         "--gbuffer standard or --layers forward",
@@ -145,7 +145,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       materials(posed_materials ? *posed_materials : materials_at_rest),
       lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency,
-                         settings.path == Path::deferred && settings.layers == Layers::forward)),
+                         hasGBuffer(settings.path) && settings.layers == Layers::forward)),
       culling(device, shared.pipelines, shared.layouts, shared.geometry, scene.pose, scene.view,
               settings.msaa, settings.cull, draws),
       posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),

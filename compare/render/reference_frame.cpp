@@ -201,7 +201,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
 }
 
 bool needsDevice(const Settings& settings) {
-    return settings.path != Path::reference || settings.reference_mode != ReferenceMode::scene;
+    return !isReference(settings.path) || settings.reference_mode != ReferenceMode::scene;
 }
 
 std::vector<Frame> drawWithoutDevice(SceneViews& views, const std::vector<Settings>& settings,

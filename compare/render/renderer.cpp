@@ -113,7 +113,7 @@ private:
                 !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
-        if (options_.through_gbuffer && settings_.path == Path::forward_plus)
+        if (options_.through_gbuffer && shadesFragments(settings_.path))
             for (const int mode : litModes)
                 if (isRequested(mode) && !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                     request.through_gbuffer.push_back(mode);
@@ -240,9 +240,9 @@ private:
 // For a reference that lights captured surfaces: the Settings of a deferred image of the same view with a
 // lossy G-buffer.
 std::optional<Settings> decodedBeside(const Settings& reference, const std::vector<Settings>& all) {
-    if (reference.path != Path::reference || reference.reference_mode != ReferenceMode::surface) return {};
+    if (!isReference(reference.path) || reference.reference_mode != ReferenceMode::surface) return {};
     for (const Settings& s : all)
-        if (s.path == Path::deferred && s.gbuffer != GBufferEncoding::full && s.msaa == 1 &&
+        if (hasGBuffer(s.path) && s.gbuffer != GBufferEncoding::full && s.msaa == 1 &&
             viewRequest(s) == viewRequest(reference))
             return s;
     return {};
@@ -290,7 +290,7 @@ void Renderer::checkMemory(std::span<const Settings> settings, const RenderOptio
 Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     checkSize(state_->device, settings.size);
     checkMemory(std::span(&settings, 1), options);
-    if (settings.path == Path::reference) return drawReference(settings, options);
+    if (isReference(settings.path)) return drawReference(settings, options);
     RenderOptions drawing = options;
     drawing.runs = 0;
     const double timing = 1 - framesIn(drawing) / framesIn(options);
@@ -363,7 +363,7 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
     std::vector<Settings> drawn;
     std::vector<std::size_t> places;  // index of each `drawn` in `settings`
     for (std::size_t i = 0; i < settings.size(); ++i) {
-        if (settings[i].path == Path::reference || options.runs == 0) continue;
+        if (isReference(settings[i].path) || options.runs == 0) continue;
         drawn.push_back(settings[i]);
         places.push_back(i);
     }
@@ -426,7 +426,7 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
         if (pipelines) continue;
         // Destroys the pipelines of a path that is not needed again: lavapipe takes some 1.5 MB for each
         // of the gallery's.
-        if (settings[i].path != Path::reference &&
+        if (!isReference(settings[i].path) &&
             std::none_of(settings.begin() + static_cast<std::ptrdiff_t>(i) + 1, settings.end(),
                          [&](const Settings& later) { return later.path == settings[i].path; }))
             renderer.clearPipelines(settings[i].path);

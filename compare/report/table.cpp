@@ -30,7 +30,7 @@ std::string explainedLine(const ChannelDiff& channel) {
 
 std::string frameLine(const Frame& frame) {
     if (!frame.origin.file.empty()) return fmt::format("  {}: {}\n", frame.name, frame.origin.file);
-    if (frame.settings.path == Path::reference)
+    if (isReference(frame.settings.path))
         return fmt::format("  {}: double precision, mode {}, rendered in {:.3g} s\n", frame.name,
                            nameOf(frame.settings.reference_mode), frame.made_in_ms / 1000);
     std::string line = "  " + frame.name;
@@ -43,7 +43,7 @@ std::string frameLine(const Frame& frame) {
     if (!frame.origin.device.empty())
         line += fmt::format(", on {}, {}", frame.origin.device, frame.origin.driver);
     return line + fmt::format(", {} bytes per pixel of {}\n", frame.bytes.gbuffer_per_pixel,
-                              frame.settings.path == Path::deferred ? "G-buffer and depth" : "depth");
+                              hasGBuffer(frame.settings.path) ? "G-buffer and depth" : "depth");
 }
 
 // Notes below all tables, each once with its scenes.

@@ -8,7 +8,7 @@
 namespace diptych::tradeoff {
 
 std::optional<Settings> exactEdges(const Settings& settings) {
-    if (settings.path != Path::deferred || settings.msaa == 1) return {};
+    if (!hasGBuffer(settings.path) || settings.msaa == 1) return {};
     Settings exact = settings;
     exact.msaa_edges = MsaaEdges::exact;
     return exact;

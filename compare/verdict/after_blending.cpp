@@ -34,7 +34,7 @@ Blending blendingOf(const Frame& frame) {
 // the encoding does not explain count.
 Blending encodedBlendingOf(const Frame& forward, const Frame& other) {
     const auto lit = forward.through_gbuffer.find(litNumber);
-    if (forward.settings.path != Path::forward_plus || other.settings.path != Path::deferred ||
+    if (!shadesFragments(forward.settings.path) || !hasGBuffer(other.settings.path) ||
         other.settings.gbuffer == GBufferEncoding::full ||
         forward.settings.gbuffer != other.settings.gbuffer || lit == forward.through_gbuffer.end() ||
         forward.unblended_through_gbuffer.empty())

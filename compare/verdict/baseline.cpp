@@ -66,7 +66,7 @@ std::vector<std::string> baselineMismatches(const Frame& baseline, const Frame& 
             lines.push_back(
                 fmt::format("baseline: {} {} (now {})", what, then.empty() ? "unknown" : then, now));
     };
-    if (baseline.settings.path == Path::reference && !isReferenceFrame(baseline)) {
+    if (isReference(baseline.settings.path) && !isReferenceFrame(baseline)) {
         lines.push_back("baseline: not written by diptych: scene, camera and Settings are unknown");
         return lines;
     }

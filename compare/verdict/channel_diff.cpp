@@ -225,8 +225,8 @@ std::string_view nameOf(Verdict verdict) {
 }
 
 bool isInformative(const DebugMode& mode, const FramePair& pair) {
-    // Blocks 20 to 40: light lists, shadows, terms of lit.
-    return !pair.light_differs.empty() && (isLit(mode.number) || (mode.number >= 20 && mode.number < 50));
+    // Light lists, shadows, terms of lit, haze.
+    return !pair.light_differs.empty() && sourceOf(mode.number).stage >= ChannelStage::list;
 }
 
 Tolerance informativeTolerance(const FramePair& pair) {

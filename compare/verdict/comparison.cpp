@@ -126,11 +126,11 @@ void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
 const Frame* explaining(const Report& report, const Frame& left, const Frame& right) {
     if (!isReferenceFrame(left) && !isReferenceFrame(right)) return nullptr;
     Settings wanted = right.settings;
-    wanted.path = Path::forward_plus;
+    wanted.path = unencoded_path;
     for (const Frame& frame : report.frames) {
         // Deferred ignores prepass.
         wanted.prepass = frame.settings.prepass;
-        if (frame.settings.path == Path::forward_plus && !frame.through_gbuffer.empty() &&
+        if (shadesFragments(frame.settings.path) && !frame.through_gbuffer.empty() &&
             frame.scene == right.scene && effectiveSettings(frame.settings) == effectiveSettings(wanted))
             return &frame;
     }
@@ -141,7 +141,7 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
 // decodes them within their bounds, lit differs by no more than the bits allow.
 std::vector<int> provingChannels(const Comparison& comparison, const FramePair& pair,
                                  std::span<const Rule> rules) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || deferred->settings.gbuffer == GBufferEncoding::full) return {};
     const bool judgesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
         const DebugMode& mode = *channel.mode;
@@ -249,8 +249,8 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
                   const ChannelDemands& demands, Comparison& comparison) {
     const Rule* rule = ruleFor(demands.rules, mode.name);
     const Path path = lacking.settings.path;
-    const bool forward_only = mode.maker == MadeBy::forward_only && path == Path::deferred,
-               deferred_only = mode.maker == MadeBy::deferred_only && path == Path::forward_plus;
+    const bool forward_only = mode.maker == MadeBy::forward_only && hasGBuffer(path),
+               deferred_only = mode.maker == MadeBy::deferred_only && shadesFragments(path);
     if ((!forward_only && !deferred_only) || (rule && namesChannels(*rule)))
         return judgeOneSided({std::string(mode.name), having.name}, demands, comparison.failures,
                              comparison.notes);

@@ -63,17 +63,14 @@ double roundedFloors(const Requirements& needs) {
 
 // Change of a channel per unit of a linear texel, in the channel's unit: directions have components 2 t - 1.
 double perTexel(const DebugMode& mode, const Requirements& needs) {
-    switch (static_cast<gpu::uint>(mode.number)) {
-        case gpu::DEBUG_normals:
-        case gpu::DEBUG_clearcoat_normal:
-            return 2 * std::sqrt(3.0) * degreesPerRadian;
-        case gpu::DEBUG_anisotropy_direction:  // two components, in the plane of a normal with three
+    switch (mode.texels) {
+        case TexelUse::direction:
+            return 2 * std::sqrt(3.0) * (isAngle(mode.metric) ? degreesPerRadian : 1);
+        case TexelUse::line:  // two components, in the plane of a normal with three
             return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
-        case gpu::DEBUG_tangent_normal:
-            return 2 * std::sqrt(3.0);
-        case gpu::DEBUG_iridescence_thickness:
+        case TexelUse::thickness:
             return double{needs.film_thickness_range};
-        case gpu::DEBUG_iridescence_ior:  // no texture scales it
+        case TexelUse::none:  // texels at most remove its layer
             return 0;
         default:
             return 1;
@@ -144,33 +141,26 @@ bool Shadowed::isBesideEdge(std::size_t i) const {
 }
 
 DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
-    switch (static_cast<gpu::uint>(mode.number)) {
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
-        case gpu::DEBUG_texcoords:
-        case gpu::DEBUG_tangent:
-        case gpu::DEBUG_lit_haze:
-        case gpu::DEBUG_transmittance:
+    switch (sourceOf(mode.number).stage) {
+        case ChannelStage::place:
+        case ChannelStage::haze:
             return Kind::place;
-        case gpu::DEBUG_geometric_normal:
+        case ChannelStage::facet:
             return Kind::facet;
-        case gpu::DEBUG_lit_clearcoat:
-        case gpu::DEBUG_lit_sheen:
-            return Kind::part;
-        case gpu::DEBUG_shadow_visibility:
-        case gpu::DEBUG_local_visibility:
+        case ChannelStage::light:
+        case ChannelStage::unshadowed:
+            return layerOf(mode.number) != 0 ? Kind::part : Kind::light;
+        case ChannelStage::visibility:
             return Kind::seen;
-        case gpu::DEBUG_light_count:
-        case gpu::DEBUG_list_overflow:
-        case gpu::DEBUG_shaded_samples:
+        case ChannelStage::list:
             return Kind::list;
-        case gpu::DEBUG_material_id:
+        case ChannelStage::id:
             return Kind::id;
-        default:
-            return isLit(mode.number)             ? Kind::light
-                   : mode.metric == Metric::exact ? Kind::step
-                                                  : Kind::surface;
+        case ChannelStage::surface:
+        case ChannelStage::map:
+            return mode.metric == Metric::exact ? Kind::step : Kind::surface;
     }
+    return Kind::surface;
 }
 
 DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
@@ -311,17 +301,7 @@ bool DeviceBounds::isBeside(std::size_t i) const {
 }
 
 bool DeviceBounds::isColor() const {
-    switch (static_cast<gpu::uint>(mode_.number)) {
-        case gpu::DEBUG_albedo:
-        case gpu::DEBUG_dielectric_f0:
-        case gpu::DEBUG_specular:
-        case gpu::DEBUG_emission:
-        case gpu::DEBUG_lightmap:
-        case gpu::DEBUG_sheen_color:
-            return true;
-        default:
-            return false;
-    }
+    return mode_.texels == TexelUse::color || mode_.texels == TexelUse::scaled_color;
 }
 
 double DeviceBounds::decoded(double value) const {
@@ -348,8 +328,7 @@ double DeviceBounds::textures(std::size_t i) const {
         most += filterRounding(across_, true) + darkened(i);
     }
     // Linear texels; they mix F0.
-    if (!isColor() || mode_.number == static_cast<int>(gpu::DEBUG_specular) ||
-        mode_.number == static_cast<int>(gpu::DEBUG_dielectric_f0))
+    if (!isColor() || mode_.texels == TexelUse::scaled_color)
         most += filterRounding(across_, false) * per_texel_;
     return most;
 }

@@ -3,13 +3,14 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
-#include "shared/frame/debug_modes.h"
+#include "shared/contract/surface_channels.h"
 #include "shared/material/gbuffer_layout.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -30,36 +31,24 @@ constexpr double lineSlack = 0x1p-18;
 static_assert(gpu::IRIDESCENCE_THICKNESS_BITS == 15,
               "halfBound is that of 5 bits of exponent and 10 of mantissa");
 
-unsigned normalBits(GBufferEncoding packed) {
-    return packed == GBufferEncoding::compact ? gpu::COMPACT_NORMAL_BITS : gpu::STANDARD_NORMAL_BITS;
+unsigned bitsOf(const ChannelCode& stored, GBufferEncoding packed) {
+    return packed == GBufferEncoding::compact ? stored.compact : stored.standard;
 }
 
-// Bits of a layer's channel, if the scene has the layer.
-std::optional<StoredField> layerField(int mode, GBufferEncoding packed) {
-    using enum StoredField::Code;
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_clearcoat:
-            return StoredField{unorm, gpu::CLEARCOAT_BITS};
-        case gpu::DEBUG_clearcoat_roughness:
-            return StoredField{unorm, gpu::CLEARCOAT_ROUGHNESS_BITS};
-        case gpu::DEBUG_clearcoat_normal:
-            return StoredField{octahedral, gpu::CLEARCOAT_NORMAL_BITS};
-        case gpu::DEBUG_anisotropy:
-            return StoredField{unorm, gpu::ANISOTROPY_BITS};
-        case gpu::DEBUG_anisotropy_direction:
-            return StoredField{line, gpu::ANISOTROPY_ANGLE_BITS, normalBits(packed)};
-        case gpu::DEBUG_sheen_color:
-            return StoredField{root, gpu::SHEEN_BITS};
-        case gpu::DEBUG_sheen_roughness:
-            return StoredField{unorm, gpu::SHEEN_BITS};
-        case gpu::DEBUG_iridescence:
-            return StoredField{unorm, gpu::IRIDESCENCE_BITS};
-        case gpu::DEBUG_iridescence_ior:
-            return StoredField{index, gpu::IRIDESCENCE_IOR_BITS};
-        case gpu::DEBUG_iridescence_thickness:
-            return StoredField{half, gpu::IRIDESCENCE_THICKNESS_BITS};
+// Whether a packed G-buffer of the scene has the channel in fewer bits than float32.
+bool isQuantised(int mode, GBufferEncoding encoding, const Requirements& needs) {
+    const GBufferLayout layout = gbufferLayout(encoding, needs);
+    switch (sourceOf(mode).part) {
+        case MaterialPart::none:
+            return true;
+        case MaterialPart::emission:
+            return needs.emission && !layout.wide_emission;
+        case MaterialPart::lightmap:
+            return needs.lightmap && !layout.wide_lightmap;
+        case MaterialPart::dielectric:
+            return needs.dielectric_specular;
         default:
-            return {};
+            return (needs.layers & layerOf(mode)) != 0;
     }
 }
 
@@ -117,6 +106,8 @@ double lineBound(unsigned bits, unsigned normal_bits) {
 
 double StoredField::largestBound() const {
     switch (code) {
+        case Code::exact:
+            return 0;
         case Code::unorm:
             return unormBound(bits);
         case Code::root:
@@ -136,66 +127,25 @@ double StoredField::largestBound() const {
 }
 
 std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs) {
-    using enum StoredField::Code;
     if (encoding == GBufferEncoding::full) return {};
-    if (layerOf(mode) != 0)
-        return (needs.layers & layerOf(mode)) != 0 ? layerField(mode, encoding) : std::nullopt;
-    const bool compact = encoding == GBufferEncoding::compact;
-    const GBufferLayout layout = gbufferLayout(encoding, needs);
-    constexpr unsigned mantissa = gpu::EMISSION_MANTISSA_BITS;
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_albedo:
-            return StoredField{root, gpu::ALBEDO_BITS};
-        case gpu::DEBUG_normals:
-            return StoredField{octahedral, normalBits(encoding)};
-        case gpu::DEBUG_geometric_normal:
-            return StoredField{octahedral, geometricNormalBits(encoding)};
-        case gpu::DEBUG_metallic:
-            return StoredField{unorm, compact ? gpu::COMPACT_METALLIC_BITS : gpu::STANDARD_METALLIC_BITS};
-        case gpu::DEBUG_roughness:
-            return StoredField{unorm, compact ? gpu::COMPACT_ROUGHNESS_BITS : gpu::STANDARD_ROUGHNESS_BITS};
-        case gpu::DEBUG_occlusion:
-            return StoredField{unorm, gpu::OCCLUSION_BITS};
-        case gpu::DEBUG_emission:
-            if (!needs.emission || layout.wide_emission) return {};
-            return StoredField{radiance, mantissa};
-        case gpu::DEBUG_lightmap:
-            if (!needs.lightmap || layout.wide_lightmap) return {};
-            return StoredField{radiance, mantissa};
-        case gpu::DEBUG_dielectric_f0:
-            if (!needs.dielectric_specular) return {};
-            return StoredField{root, gpu::SPECULAR_BITS};
-        case gpu::DEBUG_dielectric_f90:
-            if (!needs.dielectric_specular) return {};
-            return StoredField{unorm, gpu::SPECULAR_BITS};
-        default:
-            return {};
-    }
+    const ChannelCode& stored = debugMode(mode).stored;
+    if (stored.code == FieldCode::exact || !isQuantised(mode, encoding, needs)) return {};
+    StoredField field{stored.code, bitsOf(stored, encoding)};
+    if (field.code == FieldCode::line)
+        field.normal_bits = bitsOf(debugMode(gpu::DEBUG_normals).stored, encoding);
+    return field;
 }
 
 std::span<const int> lightingFields() {
-    static constexpr std::array fields{static_cast<int>(gpu::DEBUG_albedo),
-                                       static_cast<int>(gpu::DEBUG_normals),
-                                       static_cast<int>(gpu::DEBUG_metallic),
-                                       static_cast<int>(gpu::DEBUG_roughness),
-                                       static_cast<int>(gpu::DEBUG_emission),
-                                       static_cast<int>(gpu::DEBUG_occlusion),
-                                       static_cast<int>(gpu::DEBUG_position),
-                                       static_cast<int>(gpu::DEBUG_geometric_normal),
-                                       static_cast<int>(gpu::DEBUG_dielectric_f90),
-                                       static_cast<int>(gpu::DEBUG_lightmap),
-                                       static_cast<int>(gpu::DEBUG_dielectric_f0),
-                                       static_cast<int>(gpu::DEBUG_lightmapped),
-                                       static_cast<int>(gpu::DEBUG_clearcoat),
-                                       static_cast<int>(gpu::DEBUG_clearcoat_roughness),
-                                       static_cast<int>(gpu::DEBUG_clearcoat_normal),
-                                       static_cast<int>(gpu::DEBUG_anisotropy),
-                                       static_cast<int>(gpu::DEBUG_anisotropy_direction),
-                                       static_cast<int>(gpu::DEBUG_sheen_color),
-                                       static_cast<int>(gpu::DEBUG_sheen_roughness),
-                                       static_cast<int>(gpu::DEBUG_iridescence),
-                                       static_cast<int>(gpu::DEBUG_iridescence_ior),
-                                       static_cast<int>(gpu::DEBUG_iridescence_thickness)};
+    static const std::vector<int> fields = [] {
+        // The fourth component of the lightmap's image.
+        std::vector<int> found{static_cast<int>(gpu::DEBUG_lightmapped)};
+#define DIPTYCH_LIGHTING_FIELD(binding, name) found.push_back(static_cast<int>(gpu::DEBUG_##name));
+        SURFACE_CHANNELS(DIPTYCH_LIGHTING_FIELD)
+#undef DIPTYCH_LIGHTING_FIELD
+        std::ranges::sort(found);
+        return found;
+    }();
     return fields;
 }
 

@@ -2,6 +2,7 @@
 // Quantization error bounds of G-buffer fields by number of bits, including float32 rounding.
 #pragma once
 
+#include "shared/frame/debug_modes.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/requirements.h"
 
@@ -42,8 +43,8 @@ inline constexpr double lengthBound = 10 * 0x1p-24;
 // How a field of Surface is stored in fewer bits than float32.
 struct StoredField {
     // root: the square root of each component; line: an angle, as for lineBound(); index: of refraction, as
-    // for indexBound(); half: without its sign.
-    enum class Code { unorm, root, octahedral, line, radiance, index, half };
+    // for indexBound(); half: without its sign. Never exact.
+    using Code = FieldCode;
     Code code;
     unsigned bits = 0;         // of each component or coordinate; radiance: of the mantissas
     unsigned normal_bits = 0;  // line: of each coordinate of the normal

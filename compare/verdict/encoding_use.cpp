@@ -34,6 +34,8 @@ PixelUse floatUse(const float* read, const float* own, int components, double sh
 
 PixelUse useOf(const StoredField& field, const float* read, const float* own, int components, double slack) {
     switch (field.code) {
+        case StoredField::Code::exact:
+            break;
         case StoredField::Code::unorm:
             return componentsUse(read, own, components, [&](double, bool end) {
                 return (end ? 0 : unormBound(field.bits)) + slack;
@@ -74,7 +76,7 @@ bool isLightingField(int mode) {
 }  // namespace
 
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward) return {};
     const auto mine = deferred->channels.find(mode.number), theirs = forward->channels.find(mode.number);
     if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};

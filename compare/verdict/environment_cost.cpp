@@ -14,14 +14,14 @@ namespace {
 // The costs are sums over the lobes of the base, the sheen and the clear coat, so they bound the parts too.
 bool isSpecular(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_specular) ||
-           mode.number == static_cast<int>(gpu::DEBUG_lit_clearcoat) ||
-           mode.number == static_cast<int>(gpu::DEBUG_lit_sheen);
+           (isLit(mode.number) && layerOf(mode.number) != 0);
 }
 bool isDiffuse(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);
 }
 bool isAll(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit) || isOfEnvironment(mode.number);
+    return mode.number == static_cast<int>(gpu::DEBUG_lit) ||
+           mode.number == static_cast<int>(gpu::DEBUG_lit_environment);
 }
 
 // Widening of the lobe by sampling, as a fraction of its solid angle, because each sample represents a

@@ -34,15 +34,7 @@ constexpr double sameSurface = 1e-5;
 
 // Channels of a surface's position, which are not filtered.
 bool isGeometry(const DebugMode& mode) {
-    switch (static_cast<gpu::uint>(mode.number)) {
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
-        case gpu::DEBUG_texcoords:
-        case gpu::DEBUG_tangent:
-            return true;
-        default:
-            return false;
-    }
+    return sourceOf(mode.number).stage == ChannelStage::place;
 }
 
 // Channels of a surface's material; where they differ, its light may.
@@ -165,45 +157,30 @@ private:
     double texels(const DebugMode& mode, const float* value) const {
         if (!pair_.texels) return 0;
         const double code = pair_.texels->linear_filter.rounding + mipCode;
-        switch (static_cast<gpu::uint>(mode.number)) {
-            case gpu::DEBUG_metallic:
-            case gpu::DEBUG_roughness:
-            case gpu::DEBUG_occlusion:
-            case gpu::DEBUG_dielectric_f90:
-            case gpu::DEBUG_clearcoat:
-            case gpu::DEBUG_clearcoat_roughness:
-            case gpu::DEBUG_anisotropy:
-            case gpu::DEBUG_sheen_roughness:
-            case gpu::DEBUG_iridescence:
+        switch (mode.texels) {
+            case TexelUse::none:
+                return 0;
+            case TexelUse::number:
                 return code;
-            case gpu::DEBUG_iridescence_thickness:
+            case TexelUse::thickness:
                 return code * double{pair_.needs.film_thickness_range};
-            case gpu::DEBUG_normals:
-            case gpu::DEBUG_clearcoat_normal:
+            case TexelUse::direction:
                 // Three components of 2 t - 1.
-                return 2 * std::sqrt(3.0) * code * degreesPerRadian;
-            case gpu::DEBUG_anisotropy_direction:
+                return 2 * std::sqrt(3.0) * code * (isAngle(mode.metric) ? degreesPerRadian : 1);
+            case TexelUse::line:
                 // Two components of 2 t - 1, in the plane of a normal with three.
                 return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * code * degreesPerRadian;
-            case gpu::DEBUG_tangent_normal:
-                return 2 * std::sqrt(3.0) * code;
-            case gpu::DEBUG_albedo:
-            case gpu::DEBUG_sheen_color:
-            case gpu::DEBUG_dielectric_f0:
-            case gpu::DEBUG_specular: {
+            case TexelUse::color:
+            case TexelUse::scaled_color: {
+                if (mode.metric == Metric::relative)
+                    return srgbShare(1) * metrics::largestFinite(value, mode.width);
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
                 // The specular texture scales F0, and metallic mixes it with albedo.
-                const bool scaled = mode.number == static_cast<int>(gpu::DEBUG_dielectric_f0) ||
-                                    mode.number == static_cast<int>(gpu::DEBUG_specular);
-                return most + (scaled ? code : 0);
+                return most + (mode.texels == TexelUse::scaled_color ? code : 0);
             }
-            case gpu::DEBUG_emission:
-            case gpu::DEBUG_lightmap:
-                return srgbShare(1) * metrics::largestFinite(value, mode.width);
-            default:
-                return 0;
         }
+        return 0;
     }
 
     // Permitted effect on albedo of the texels of F0, which darkens the base of specular-glossiness: albedo
@@ -222,10 +199,9 @@ private:
     double colours(std::size_t i, double size) const {
         if (!isLit(mode_.number) || !pair_.texels) return 0;
         double share = 0;
-        for (const gpu::uint number :
-             {gpu::DEBUG_albedo, gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_sheen_color}) {
-            const DebugMode& mode = debugMode(static_cast<int>(number));
-            const Image* const image = findChannel(pair_.baseline, number);
+        for (const DebugMode& mode : debugModes()) {
+            if (mode.texels != TexelUse::color) continue;
+            const Image* const image = findChannel(pair_.baseline, static_cast<gpu::uint>(mode.number));
             const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
             if (value > 0) share = std::max(share, texels(mode, image->pixel(i)) / value);
         }

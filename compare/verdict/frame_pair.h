@@ -35,7 +35,8 @@ struct FramePair {
     // As CompareOptions::light_differs; empty: equal lighting.
     std::string_view light_differs = {};
 
-    const Frame* of(Path path) const;  // nullptr: neither, or both
+    // The side whose path can do it (hasGBuffer, shadesFragments); nullptr: neither, or both.
+    const Frame* of(bool (*can)(Path)) const;
 };
 
 // Whether one side is the reference and the other a path.

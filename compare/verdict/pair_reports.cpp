@@ -43,7 +43,7 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
             helpers.push_back(static_cast<int>(mode));
     // Light is compared by the fields from which it is computed (lightingFields()).
     const auto packed = [](const Settings& of) {
-        return of.path == Path::deferred && of.gbuffer != GBufferEncoding::full;
+        return hasGBuffer(of.path) && of.gbuffer != GBufferEncoding::full;
     };
     const bool shadows =
         std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; });
@@ -75,7 +75,7 @@ Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& ne
         const Frame& left = report.baseline(report.comparisons.back());
         std::vector<std::string> command =
             withWords(commandWords("compare", left.scene, left.settings), options.words);
-        if (options.baseline != Path::deferred)
+        if (!hasGBuffer(options.baseline))
             command = withOption(command, "--baseline", std::string(nameOf(options.baseline)));
         report.comparisons.back().command = std::move(command);
         if (!checks.empty()) report.comparisons.back().visual_checks = std::move(checks.at(i / 2));
@@ -129,7 +129,7 @@ Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirement
     double done = 0;
     for (std::size_t i = 0; i + 3 < report.frames.size(); i += 4) {
         const std::size_t view = i / 4;
-        const std::size_t left = options.baseline == Path::forward_plus ? 1 : 0;
+        const std::size_t left = shadesFragments(options.baseline) ? 1 : 0;
         for (std::size_t path = 0; path < 2; ++path)
             across.at(2 * view + path).texcoords = {findChannel(report.frames[i + 1], gpu::DEBUG_texcoords),
                                                     findChannel(report.frames[i + 3], gpu::DEBUG_texcoords)};
@@ -150,7 +150,7 @@ Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirement
             const Frame& of = report.frames[i];
             report.comparisons.back().command =
                 withWords(commandWords("compare", of.scene, of.settings), options.words);
-            if (options.baseline != Path::deferred)
+            if (!hasGBuffer(options.baseline))
                 report.comparisons.back().command = withOption(
                     report.comparisons.back().command, "--baseline", std::string(nameOf(options.baseline)));
         }
@@ -168,7 +168,7 @@ namespace {
 // them, but only in channels where forward+ still renders the same image. In other channels no difference
 // is explained.
 void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
-    if (baseline.settings.path != Path::forward_plus) return;
+    if (!shadesFragments(baseline.settings.path)) return;
     for (const Frame& frame : frames)
         for (const auto& [mode, through] : frame.through_gbuffer) {
             const auto then = std::as_const(baseline).channels.find(mode), now = frame.channels.find(mode);
@@ -258,7 +258,7 @@ void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
             options.words);
         if (!left.origin.file.empty())
             comparison.command = withOption(comparison.command, "--baseline", left.origin.file);
-        else if (left.settings.path != Path::deferred)
+        else if (!hasGBuffer(left.settings.path))
             comparison.command =
                 withOption(comparison.command, "--baseline", std::string(nameOf(left.settings.path)));
     }

@@ -45,7 +45,7 @@ double ShadowEdges::allowed(const DebugMode& mode, std::size_t pixel) const {
     const bool sun = isNear(pixel), local = isNearLocal(pixel);
     if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility)) return sun ? 1 : 0;
     if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility)) return local ? 1 : 0;
-    if (!isLit(mode.number) || isAmbient(mode.number) || isOfEnvironment(mode.number)) return 0;
+    if (sourceOf(mode.number).stage != ChannelStage::light) return 0;
     return (sun ? double{reference_->shadow_edge.pixel(pixel)[1]} : 0) +
            (local ? double{local_->pixel(pixel)[1]} : 0);
 }

@@ -3,6 +3,8 @@
 
 #include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/material.h"
+#include "shared/frame/debug_modes.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/image/mipmap.h"
 #include "shared/scene/model/material_slots.h"
@@ -38,80 +40,118 @@ struct Use {
     bool removes = false;
 };
 
-// Degrees per unit of a unit vector 2 t - 1 of three components, and of two.
-constexpr double turned = 2 * 1.7320508 * degreesPerRadian, turnedInPlane = 2 * 1.4142136 * degreesPerRadian;
+using Factors = std::array<double, 4>;  // of a texel's components
 
-std::vector<Use> usesOf(const Material& m, std::size_t slot) {
-    const auto color = [](gpu::uint mode, double f) { return Use{mode, {f, f, f, 0}}; };
-    const auto one = [](gpu::uint mode, int component, double f) {
-        Use use{mode, {}};
-        use.factor[static_cast<std::size_t>(component)] = f;
-        return use;
-    };
-    const auto most = [](const auto& v) { return double{std::max({v.x, v.y, v.z})}; };
+double largestComponent(const auto& v) {
+    return double{std::max({v.x, v.y, v.z})};
+}
+
+// The material's factor of each component of a slot's texels.
+Factors factorsOf(const Material& m, std::size_t slot) {
+    const auto color = [](double f) { return Factors{f, f, f, 0}; };
+    const auto bumps = [&](float scale) { return color(std::max(1.0, std::abs(double{scale}))); };
     switch (slot) {
         case gpu::SLOT_base_color:
-            if (m.unlit) return {color(gpu::DEBUG_emission, most(m.base_color))};
-            return {color(gpu::DEBUG_albedo, most(m.base_color)),
-                    color(gpu::DEBUG_specular, most(m.base_color))};
+            return color(largestComponent(m.base_color));
         case gpu::SLOT_metallic_roughness:
-            return {one(gpu::DEBUG_roughness, 1, m.roughness), one(gpu::DEBUG_metallic, 2, m.metallic),
-                    one(gpu::DEBUG_specular, 2, m.metallic)};
-        case gpu::SLOT_normal: {
-            const double scale = std::max(1.0, std::abs(double{m.normal_scale}));
-            std::vector<Use> uses{color(gpu::DEBUG_normals, turned * scale),
-                                  color(gpu::DEBUG_tangent_normal, turned / degreesPerRadian * scale)};
-            // The direction stays perpendicular to the normal.
-            if (m.anisotropy != 0) uses.push_back(color(gpu::DEBUG_anisotropy_direction, turned * scale));
-            return uses;
-        }
+            return {0, m.roughness, m.metallic, 0};
+        case gpu::SLOT_normal:
+            return bumps(m.normal_scale);
         case gpu::SLOT_occlusion:
-            return {one(gpu::DEBUG_occlusion, 0, m.occlusion_strength)};
+            return {m.occlusion_strength, 0, 0, 0};
         case gpu::SLOT_emissive:
-            return {color(gpu::DEBUG_emission, most(m.emissive))};
+            return color(largestComponent(m.emissive));
         case gpu::SLOT_specular:
-            return {one(gpu::DEBUG_dielectric_f90, 3, m.specular),
-                    one(gpu::DEBUG_dielectric_f0, 3, m.specular), one(gpu::DEBUG_specular, 3, m.specular)};
-        case gpu::SLOT_specular_color: {
-            const double f0 = most(m.specular_color);
-            std::vector<Use> uses{color(gpu::DEBUG_dielectric_f0, f0), color(gpu::DEBUG_specular, f0)};
-            if (m.specular_glossiness) {  // F0 darkens the base, alpha is glossiness
-                uses.push_back(color(gpu::DEBUG_albedo, f0 * most(m.base_color)));
-                uses.push_back(one(gpu::DEBUG_roughness, 3, 1 - double{m.roughness}));
-            }
-            return uses;
-        }
+            return {0, 0, 0, m.specular};
+        case gpu::SLOT_specular_color:
+            return color(largestComponent(m.specular_color));
         case gpu::SLOT_lightmap:
-            return {color(gpu::DEBUG_lightmap, m.lightmap_intensity)};
+            return color(m.lightmap_intensity);
         case gpu::SLOT_clearcoat:
-            return {one(gpu::DEBUG_clearcoat, 0, m.clearcoat)};
+            return {m.clearcoat, 0, 0, 0};
         case gpu::SLOT_clearcoat_roughness:
-            return {one(gpu::DEBUG_clearcoat_roughness, 1, m.clearcoat_roughness)};
+            return {0, m.clearcoat_roughness, 0, 0};
         case gpu::SLOT_clearcoat_normal:
-            return {color(gpu::DEBUG_clearcoat_normal,
-                          turned * std::max(1.0, std::abs(double{m.clearcoat_normal_scale})))};
+            return bumps(m.clearcoat_normal_scale);
         case gpu::SLOT_anisotropy:
-            return {one(gpu::DEBUG_anisotropy, 2, m.anisotropy),
-                    Use{gpu::DEBUG_anisotropy_direction, {turnedInPlane, turnedInPlane, 0, 0}}};
-        case gpu::SLOT_sheen_color: {
-            const double rough = m.sheen_roughness;
-            return {color(gpu::DEBUG_sheen_color, most(m.sheen_color)),
-                    Use{gpu::DEBUG_sheen_roughness, {rough, rough, rough, 0}, true}};
-        }
+            return {1, 1, m.anisotropy, 0};
+        case gpu::SLOT_sheen_color:
+            return color(largestComponent(m.sheen_color));
         case gpu::SLOT_sheen_roughness:
-            return {one(gpu::DEBUG_sheen_roughness, 3, m.sheen_roughness)};
-        case gpu::SLOT_iridescence: {
-            const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
-            return {one(gpu::DEBUG_iridescence, 0, m.iridescence),
-                    Use{gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true},
-                    Use{gpu::DEBUG_iridescence_thickness, {thickest, 0, 0, 0}, true}};
-        }
+            return {0, 0, 0, m.sheen_roughness};
+        case gpu::SLOT_iridescence:
+            return {m.iridescence, 0, 0, 0};
         case gpu::SLOT_iridescence_thickness:
-            return {one(gpu::DEBUG_iridescence_thickness, 1,
-                        std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least))};
+            return {0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least), 0, 0};
         default:
             return {};
     }
+}
+
+// Units of the channel per unit of the components 2 t - 1 of a direction; 1 for other texels.
+double unitsPer(gpu::uint mode) {
+    const DebugMode& of = debugMode(static_cast<int>(mode));
+    constexpr double three = 2 * 1.7320508 * degreesPerRadian, two = 2 * 1.4142136 * degreesPerRadian;
+    if (of.texels == TexelUse::line) return two;
+    if (of.texels != TexelUse::direction) return 1;
+    return isAngle(of.metric) ? three : three / degreesPerRadian;
+}
+
+// Components of a row of CHANNEL_TEXELS.
+enum class Components : unsigned { r = 1, g = 2, b = 4, a = 8, rg = r | g, rgb = r | g | b };
+
+struct Reading {
+    gpu::uint mode;
+    std::size_t slot;
+    Components components;
+};
+constexpr Reading readings[] = {
+#define DIPTYCH_READING(channel, slot, components) \
+    {gpu::DEBUG_##channel, gpu::SLOT_##slot, Components::components},
+    CHANNEL_TEXELS(DIPTYCH_READING)
+#undef DIPTYCH_READING
+};
+
+Use scaledUse(gpu::uint mode, Components components, const Factors& factors, double times = 1) {
+    Use use{mode, {}};
+    for (std::size_t c = 0; c < 4; ++c)
+        if ((static_cast<unsigned>(components) >> c & 1u) != 0) use.factor.at(c) = times * factors.at(c);
+    return use;
+}
+
+// Uses that depend on more than one texture, or on the kind of material.
+void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, const Factors& factors) {
+    // The direction stays perpendicular to the normal.
+    if (slot == gpu::SLOT_normal && m.anisotropy != 0)
+        uses.push_back(scaledUse(gpu::DEBUG_anisotropy_direction, Components::rgb, factors,
+                                 unitsPer(gpu::DEBUG_normals)));
+    if (slot == gpu::SLOT_specular_color && m.specular_glossiness) {
+        // F0 darkens the base, alpha is glossiness.
+        uses.push_back(
+            scaledUse(gpu::DEBUG_albedo, Components::rgb, factors, largestComponent(m.base_color)));
+        uses.push_back(scaledUse(gpu::DEBUG_roughness, Components::a, {0, 0, 0, 1 - double{m.roughness}}));
+    }
+    if (slot == gpu::SLOT_sheen_color) {
+        const double rough = m.sheen_roughness;
+        uses.push_back({gpu::DEBUG_sheen_roughness, {rough, rough, rough, 0}, true});
+    }
+    if (slot == gpu::SLOT_iridescence) {
+        const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
+        uses.push_back({gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});
+        uses.push_back({gpu::DEBUG_iridescence_thickness, {thickest, 0, 0, 0}, true});
+    }
+}
+
+std::vector<Use> usesOf(const Material& m, std::size_t slot) {
+    const Factors factors = factorsOf(m, slot);
+    if (m.unlit && slot == gpu::SLOT_base_color)
+        return {scaledUse(gpu::DEBUG_emission, Components::rgb, factors)};
+    std::vector<Use> uses;
+    for (const Reading& reading : readings)
+        if (reading.slot == slot)
+            uses.push_back(scaledUse(reading.mode, reading.components, factors, unitsPer(reading.mode)));
+    addCombined(uses, m, slot, factors);
+    return uses;
 }
 
 // Range of texels' components.

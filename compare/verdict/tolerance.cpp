@@ -17,6 +17,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 namespace diptych {
 namespace {
@@ -36,7 +38,7 @@ Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tol
 // Tolerance of an index of refraction: the bound of the largest one. Deferred's own indices, which are
 // decoded, do not widen it.
 Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& pair) {
-    const Frame& own = pair.baseline.settings.path == Path::deferred ? pair.test : pair.baseline;
+    const Frame& own = hasGBuffer(pair.baseline.settings.path) ? pair.test : pair.baseline;
     const Image& image = own.channels.at(mode.number);
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -49,6 +51,8 @@ Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& 
 Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
     const unsigned bits = field.bits, codes = (1u << bits) - 1;
     switch (field.code) {
+        case StoredField::Code::exact:
+            break;
         case StoredField::Code::unorm:
             return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
         case StoredField::Code::root:
@@ -97,7 +101,7 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
 
 // The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
-    const Frame *deferred = pair.of(Path::deferred), *forward = pair.of(Path::forward_plus);
+    const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
     const auto found = forward->through_gbuffer.find(mode.number);
     return found == forward->through_gbuffer.end() ? nullptr : &found->second;
@@ -108,16 +112,65 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!through)
         return {0,
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
-    const Image& own = pair.of(Path::forward_plus)->channels.at(mode.number);
-    const bool first = pair.baseline.settings.path == Path::forward_plus;
+    const Image& own = pair.of(shadesFragments)->channels.at(mode.number);
+    const bool first = shadesFragments(pair.baseline.settings.path);
     const ChannelStats moved =
         channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
     return {moved.max,
             fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
                         "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
                         "surface channel must be within its bits",
-                        moved.max, moved.mean, nameOf(pair.of(Path::forward_plus)->settings.gbuffer),
+                        moved.max, moved.mean, nameOf(pair.of(shadesFragments)->settings.gbuffer),
                         pair.cpu ? "bit for bit" : "within 16 ULP")};
+}
+
+// Why a part of materials that no packed field stores has no error; empty: not for this reason.
+std::string_view unpackedBecause(const DebugMode& mode, const Requirements& needs) {
+    switch (sourceOf(mode.number).part) {
+        case MaterialPart::none:
+            return {};
+        case MaterialPart::emission:
+            return needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
+                                  : "nothing in the scene emits";
+        case MaterialPart::lightmap:
+            return needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
+                                  : "nothing in the scene has a lightmap";
+        case MaterialPart::dielectric:
+            return mode.number == static_cast<int>(gpu::DEBUG_dielectric_f90)
+                       ? "every dielectric has F90 = 1: nothing is stored"
+                       : "every dielectric has F0 = 0.04: nothing is stored";
+        case MaterialPart::clearcoat:
+            return "nothing in the scene has a clear coat";
+        case MaterialPart::anisotropy:
+            return "nothing in the scene is anisotropic";
+        case MaterialPart::sheen:
+            return "nothing in the scene has a sheen";
+        case MaterialPart::iridescence:
+            return "nothing in the scene has a thin film";
+    }
+    return {};
+}
+
+// Why both paths have equal values of a channel that no field stores.
+std::string_view equalBecause(const DebugMode& mode) {
+    switch (sourceOf(mode.number).stage) {
+        case ChannelStage::id:
+            return "the index is stored exactly";
+        case ChannelStage::list:
+            return mode.maker == MadeBy::deferred_only
+                       ? "the same samples of one G-buffer are shaded"
+                       : "both paths use one list, chosen by the same function of pixel and depth";
+        case ChannelStage::place:
+        case ChannelStage::haze:
+            return "the same function of pixel and depth in both paths";
+        case ChannelStage::map:
+        case ChannelStage::visibility:
+            return "the same maps, read at the same positions along the same normals";
+        default:
+            return mode.number == static_cast<int>(gpu::DEBUG_lightmapped)
+                       ? "it is stored exactly"
+                       : "no loss of precision is known here";
+    }
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
@@ -125,54 +178,9 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
     if (isLit(mode.number)) return litTolerance(mode, pair);
     if (const auto field = storedField(mode.number, encoding, pair.needs))
         return storedTolerance(*field, mode, pair);
-    switch (mode.number) {
-        case gpu::DEBUG_specular:
-            return specularTolerance(pair, encoding);
-        case gpu::DEBUG_emission:
-            return {0, pair.needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
-                                           : "nothing in the scene emits"};
-        case gpu::DEBUG_lightmap:
-            return {0, pair.needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
-                                           : "nothing in the scene has a lightmap"};
-        case gpu::DEBUG_dielectric_f90:
-            return {0, "every dielectric has F90 = 1: nothing is stored"};
-        case gpu::DEBUG_dielectric_f0:
-            return {0, "every dielectric has F0 = 0.04: nothing is stored"};
-        case gpu::DEBUG_clearcoat:
-        case gpu::DEBUG_clearcoat_roughness:
-        case gpu::DEBUG_clearcoat_normal:
-            return {0, "nothing in the scene has a clear coat"};
-        case gpu::DEBUG_anisotropy:
-        case gpu::DEBUG_anisotropy_direction:
-            return {0, "nothing in the scene is anisotropic"};
-        case gpu::DEBUG_sheen_color:
-        case gpu::DEBUG_sheen_roughness:
-            return {0, "nothing in the scene has a sheen"};
-        case gpu::DEBUG_iridescence:
-        case gpu::DEBUG_iridescence_ior:
-        case gpu::DEBUG_iridescence_thickness:
-            return {0, "nothing in the scene has a thin film"};
-        case gpu::DEBUG_material_id:
-            return {0, "the index is stored exactly"};
-        case gpu::DEBUG_lightmapped:
-            return {0, "it is stored exactly"};
-        case gpu::DEBUG_light_count:
-        case gpu::DEBUG_list_overflow:
-            return {0, "both paths use one list, chosen by the same function of pixel and depth"};
-        case gpu::DEBUG_shaded_samples:
-            return {0, "the same samples of one G-buffer are shaded"};
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
-        case gpu::DEBUG_lit_haze:
-        case gpu::DEBUG_transmittance:
-            return {0, "the same function of pixel and depth in both paths"};
-        case gpu::DEBUG_shadow_visibility:
-        case gpu::DEBUG_cascade:
-        case gpu::DEBUG_page_residency:
-        case gpu::DEBUG_local_visibility:
-            return {0, "the same maps, read at the same positions along the same normals"};
-    }
-    return {0, "no loss of precision is known here"};
+    if (mode.number == static_cast<int>(gpu::DEBUG_specular)) return specularTolerance(pair, encoding);
+    const std::string_view unpacked = unpackedBecause(mode, pair.needs);
+    return {0, std::string(unpacked.empty() ? equalBecause(mode) : unpacked)};
 }
 
 // Times the number of steps, as a fraction of the light that haze scatters: the measured error of ray
@@ -199,8 +207,7 @@ double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pi
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    const bool packed =
-        path.settings.path == Path::deferred && path.settings.gbuffer != GBufferEncoding::full;
+    const bool packed = hasGBuffer(path.settings.path) && path.settings.gbuffer != GBufferEncoding::full;
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
@@ -252,8 +259,7 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    if (path.settings.path != Path::deferred || path.settings.gbuffer == GBufferEncoding::full)
-        return nullptr;
+    if (!hasGBuffer(path.settings.path) || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
     if (reference.through_gbuffer.contains(mode.number)) return &reference;
     const Frame* const forward = pair.explaining;
     return forward && forward->settings.gbuffer == path.settings.gbuffer &&
@@ -283,11 +289,11 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
 }
 
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
-    const Frame* deferred = pair.of(Path::deferred);
+    const Frame* deferred = pair.of(hasGBuffer);
     if (pair.baseline.origin.external || pair.test.origin.external)
         return {0, "an external renderer's image has no derived tolerance: give rules (--tolerances)"};
     Tolerance result{0, "one path twice: the same function of the same inputs"};
-    if (deferred && pair.of(Path::forward_plus))
+    if (deferred && pair.of(shadesFragments))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
     else if (isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test))
         result = referenceTolerance(mode, pair);
@@ -296,7 +302,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!pair.cpu && mode.metric != Metric::exact) {
         result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
         result.because += fmt::format("; plus {} ULP of the pixel's largest component on a GPU", gpuUlps);
-        const Frame* const forward = pair.of(Path::forward_plus);
+        const Frame* const forward = pair.of(shadesFragments);
         if (deferred && forward && forward->settings.prepass != Switch::on &&
             (isLit(mode.number) || mode.number == static_cast<int>(gpu::DEBUG_depth) ||
              mode.number == static_cast<int>(gpu::DEBUG_position)))
@@ -310,8 +316,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 double encodingBound(const DebugMode& mode, const FramePair& pair) {
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     if (isLit(mode.number) || path.settings.gbuffer == GBufferEncoding::full) return 0;
-    return path.settings.path == Path::deferred ? encodingTolerance(mode, pair, path.settings.gbuffer).max
-                                                : 0;
+    return hasGBuffer(path.settings.path) ? encodingTolerance(mode, pair, path.settings.gbuffer).max : 0;
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
@@ -376,13 +381,13 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
     const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    return unequalPixels(pair.of(Path::deferred)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
+    return unequalPixels(pair.of(hasGBuffer)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
 }
 
 std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
     const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    const Image& read = pair.of(Path::deferred)->channels.at(mode.number);
+    const Image& read = pair.of(hasGBuffer)->channels.at(mode.number);
     return unequalPixels(onePixel(read, pixel), onePixel(*through, pixel), pair.cpu ? 0 : gpuUlps) == 0;
 }
 

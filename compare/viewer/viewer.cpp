@@ -52,7 +52,7 @@ public:
           screen_(window_, options.device.validate, [this](const std::string& line) { say(line); }),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
-        if (state_.subject.settings.path == Path::reference) state_.subject.settings.path = drawn_paths[1];
+        if (isReference(state_.subject.settings.path)) state_.subject.settings.path = drawn_paths[1];
         state_.look = options.look;
         state_.stored = options.look.file;
         // Without --baseline, which the interface chooses.

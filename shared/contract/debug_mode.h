@@ -9,7 +9,8 @@
 
 #include "types.h"
 
-// number  name            width  metric  kind  domain  made by  shows
+// number  name  width  metric  kind  domain  made by  shows
+//     stage  step  code  standard  compact  part  texels  related
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   metric  relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
@@ -20,53 +21,147 @@
 //           forward_only   forward+ and the reference: the G-buffer does not store it
 //           deferred_only  deferred alone: it describes samples of the G-buffer
 //           paths_only     both paths, not the reference: it describes how they work
+//   stage   what makes the value:
+//           id          the material's index
+//           place       the position alone, as the rasteriser interpolates it
+//           facet       the triangle
+//           surface     the material's factors and texels
+//           list        selection of lights, or of samples, to evaluate
+//           map         selection of a shadow map
+//           visibility  shadow maps or rays
+//           light       surface and light, with shadows      unshadowed  surface and light without shadows
+//           haze        the medium between surface and camera
+//   step    order of computation, in tens to leave room: from 100 position and normal, 200 material,
+//           400 light that arrives, 500 light that leaves
+//   code    how packed G-buffers store it (StoredField::Code); exact: unchanged, or not at all
+//   standard, compact  bits in these encodings (gbuffer.h), of each component; radiance: of the mantissas
+//   part    the part of a material without which a scene's G-buffer does not store it; that of a layer
+//           (LAYER_* of material.h): without which the channel is 0
+//   texels  how it depends on texels: number: linearly; color: sRGB, times linear ones if scaled_color;
+//           thickness: linear between two lengths; direction, line: 3 and 2 components 2 t - 1 of a direction
+//   related its place among the channels that relations of an audit compare; 0: they do not
 // clang-format off
-#define DEBUG_MODES(X)                                                                                 \
-    X(0,  lit,              3, relative, color,  any,      both,         "radiance, W/(sr m^2)")       \
-    X(1,  albedo,           3, absolute, color,  share,    both,         "base colour, linear Rec.709") \
-    X(2,  normals,          3, angular,  vector, unit,     both,         "shading normal, world")      \
-    X(3,  metallic,         1, absolute, scalar, share,    both,         "metallic, 0 to 1")           \
-    X(4,  roughness,        1, absolute, scalar, share,    both,         "perceptual roughness, 0 to 1") \
-    X(5,  emission,         3, relative, color,  positive, both,         "emitted radiance, W/(sr m^2)") \
-    X(6,  occlusion,        1, absolute, scalar, share,    both,         "ambient occlusion, 0 to 1")  \
-    X(7,  specular,         3, absolute, color,  share,    both,         "F0, specular colour at normal incidence") \
-    X(8,  material_id,      1, exact,    id,     any,      both,         "material index; -1: background") \
-    X(9,  texcoords,        2, absolute, vector, any,      forward_only, "first UV set")               \
-    X(10, depth,            1, relative, scalar, positive, both,         "view depth, m (EXR layer Z)") \
-    X(11, position,         3, relative, vector, any,      both,         "shading position relative to the camera, world axes, m") \
-    X(12, geometric_normal, 3, angular,  vector, unit,     both,         "triangle normal, world")        \
-    X(20, light_count,      1, absolute, scalar, positive, paths_only,   "number of lights evaluated at the pixel") \
-    X(21, list_overflow,    1, exact,    scalar, share,    paths_only,   "1 where the pixel's light list overflowed") \
-    X(22, shaded_samples,   1, absolute, scalar, positive, deferred_only, "number of sample groups that deferred lighting shades at the pixel") \
-    X(30, shadow_visibility, 1, absolute, scalar, share,   both,         "visible fraction of the shadow-casting sun; 1 without one") \
-    X(31, cascade,          1, exact,    id,     any,      paths_only,   "sun shadow cascade, or requested clipmap level, from 0; -1: none") \
-    X(32, page_residency,   1, exact,    id,     any,      paths_only,   "resident minus requested clipmap level; 0: page resident; -1: no clipmap") \
-    X(33, local_visibility, 1, absolute, scalar, share,    both,         "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any") \
-    X(40, lit_diffuse,      3, relative, color,  any,      both,         "radiance reflected by the diffuse lobe, W/(sr m^2)")  \
-    X(41, lit_specular,     3, relative, color,  any,      both,         "radiance reflected by the specular lobe, W/(sr m^2)") \
-    X(42, lit_ambient,      3, relative, color,  any,      both,         "radiance of reflected ambient light, W/(sr m^2)") \
-    X(43, lit_haze,         3, relative, color,  any,      both,         "radiance scattered by haze in front of the surface, W/(sr m^2)") \
-    X(44, transmittance,    3, absolute, color,  share,    both,         "transmittance of haze between surface and camera, 0 to 1")       \
-    X(45, lit_environment,  3, relative, color,  any,      both,         "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)") \
-    X(46, lit_clearcoat,    3, relative, color,  any,      both,         "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)") \
-    X(47, lit_sheen,        3, relative, color,  any,      both,         "sheen's contribution to lit_specular and lit_ambient, W/(sr m^2)") \
-    X(50, dielectric_f90,   1, absolute, scalar, share,    both,         "F90 of the dielectric layer, 0 to 1") \
-    X(51, lightmap,         3, relative, color,  positive, both,         "lightmap irradiance / pi, W/(sr m^2)") \
-    X(52, tangent,          3, absolute, vector, any,      forward_only, "tangent of the normal map, world; 0 without a normal map") \
-    X(53, handedness,       1, exact,    scalar, any,      forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map") \
-    X(54, tangent_normal,   3, absolute, vector, any,      forward_only, "normal map's normal, tangent space, unit; 0 without a normal map") \
-    X(55, dielectric_f0,    3, absolute, color,  share,    both,         "F0 of the dielectric layer") \
-    X(56, lightmapped,      1, exact,    scalar, share,    both,         "1 where the material has a lightmap, which replaces the environment's diffuse light") \
-    X(60, clearcoat,        1, absolute, scalar, share,    both,         "weight of the clear coat, 0 to 1") \
-    X(61, clearcoat_roughness, 1, absolute, scalar, share, both,         "perceptual roughness of the clear coat, 0 to 1; 0 without one") \
-    X(62, clearcoat_normal, 3, angular,  vector, unit_or_zero, both,         "normal of the clear coat, world; 0 without one") \
-    X(63, anisotropy,       1, absolute, scalar, share,    both,         "strength of anisotropy, 0 to 1") \
-    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both,         "direction along which highlights stretch, world, either sign; 0 where isotropic") \
-    X(65, sheen_color,      3, absolute, color,  share,    both,         "colour of the sheen, linear Rec.709") \
-    X(66, sheen_roughness,  1, absolute, scalar, share,    both,         "perceptual roughness of the sheen, 0 to 1; 0 without one") \
-    X(67, iridescence,      1, absolute, scalar, share,    both,         "weight of the thin film, 0 to 1") \
-    X(68, iridescence_ior,  1, absolute, scalar, positive, both,         "index of refraction of the thin film; 0 without one") \
-    X(69, iridescence_thickness, 1, relative, scalar, positive, both,    "thickness of the thin film, nm; 0 without one")
+#define DEBUG_MODES(X) \
+    X(0,  lit, 3, relative, color, any, both, "radiance, W/(sr m^2)", \
+          light, 620, exact, 0, 0, none, none, 1) \
+    X(1,  albedo, 3, absolute, color, share, both, "base colour, linear Rec.709", \
+          surface, 200, root, ALBEDO_BITS, ALBEDO_BITS, none, color, 2) \
+    X(2,  normals, 3, angular, vector, unit, both, "shading normal, world", \
+          surface, 180, octahedral, STANDARD_NORMAL_BITS, COMPACT_NORMAL_BITS, none, direction, 3) \
+    X(3,  metallic, 1, absolute, scalar, share, both, "metallic, 0 to 1", \
+          surface, 210, unorm, STANDARD_METALLIC_BITS, COMPACT_METALLIC_BITS, none, number, 4) \
+    X(4,  roughness, 1, absolute, scalar, share, both, "perceptual roughness, 0 to 1", \
+          surface, 220, unorm, STANDARD_ROUGHNESS_BITS, COMPACT_ROUGHNESS_BITS, none, number, 5) \
+    X(5,  emission, 3, relative, color, positive, both, "emitted radiance, W/(sr m^2)", \
+          surface, 370, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, emission, color, 6) \
+    X(6,  occlusion, 1, absolute, scalar, share, both, "ambient occlusion, 0 to 1", \
+          surface, 360, unorm, OCCLUSION_BITS, OCCLUSION_BITS, none, number, 0) \
+    X(7,  specular, 3, absolute, color, share, both, "F0, specular colour at normal incidence", \
+          surface, 250, exact, 0, 0, none, scaled_color, 0) \
+    X(8,  material_id, 1, exact, id, any, both, "material index; -1: background", \
+          id, 100, exact, 0, 0, none, none, 7) \
+    X(9,  texcoords, 2, absolute, vector, any, forward_only, "first UV set", \
+          place, 140, exact, 0, 0, none, none, 0) \
+    X(10, depth, 1, relative, scalar, positive, both, "view depth, m (EXR layer Z)", \
+          place, 110, exact, 0, 0, none, none, 8) \
+    X(11, position, 3, relative, vector, any, both, "shading position relative to the camera, world axes, m", \
+          place, 120, exact, 0, 0, none, none, 0) \
+    X(12, geometric_normal, 3, angular, vector, unit, both, "triangle normal, world", \
+          facet, 130, octahedral, STANDARD_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, none, none, 9) \
+    X(20, light_count, 1, absolute, scalar, positive, paths_only, "number of lights evaluated at the pixel", \
+          list, 450, exact, 0, 0, none, none, 0) \
+    X(21, list_overflow, 1, exact, scalar, share, paths_only, "1 where the pixel's light list overflowed", \
+          list, 440, exact, 0, 0, none, none, 0) \
+    X(22, shaded_samples, 1, absolute, scalar, positive, deferred_only, "number of sample groups that deferred lighting shades at the pixel", \
+          list, 460, exact, 0, 0, none, none, 0) \
+    X(30, shadow_visibility, 1, absolute, scalar, share, both, "visible fraction of the shadow-casting sun; 1 without one", \
+          visibility, 400, exact, 0, 0, none, none, 0) \
+    X(31, cascade, 1, exact, id, any, paths_only, "sun shadow cascade, or requested clipmap level, from 0; -1: none", \
+          map, 410, exact, 0, 0, none, none, 0) \
+    X(32, page_residency, 1, exact, id, any, paths_only, "resident minus requested clipmap level; 0: page resident; -1: no clipmap", \
+          map, 420, exact, 0, 0, none, none, 0) \
+    X(33, local_visibility, 1, absolute, scalar, share, both, "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any", \
+          visibility, 430, exact, 0, 0, none, none, 0) \
+    X(40, lit_diffuse, 3, relative, color, any, both, "radiance reflected by the diffuse lobe, W/(sr m^2)", \
+          light, 500, exact, 0, 0, none, none, 0) \
+    X(41, lit_specular, 3, relative, color, any, both, "radiance reflected by the specular lobe, W/(sr m^2)", \
+          light, 510, exact, 0, 0, none, none, 0) \
+    X(42, lit_ambient, 3, relative, color, any, both, "radiance of reflected ambient light, W/(sr m^2)", \
+          unshadowed, 520, exact, 0, 0, none, none, 0) \
+    X(43, lit_haze, 3, relative, color, any, both, "radiance scattered by haze in front of the surface, W/(sr m^2)", \
+          haze, 610, exact, 0, 0, none, none, 0) \
+    X(44, transmittance, 3, absolute, color, share, both, "transmittance of haze between surface and camera, 0 to 1", \
+          haze, 600, exact, 0, 0, none, none, 0) \
+    X(45, lit_environment, 3, relative, color, any, both, "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)", \
+          unshadowed, 530, exact, 0, 0, none, none, 0) \
+    X(46, lit_clearcoat, 3, relative, color, any, both, "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
+          light, 550, exact, 0, 0, clearcoat, none, 0) \
+    X(47, lit_sheen, 3, relative, color, any, both, "sheen's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
+          light, 540, exact, 0, 0, sheen, none, 0) \
+    X(50, dielectric_f90, 1, absolute, scalar, share, both, "F90 of the dielectric layer, 0 to 1", \
+          surface, 240, unorm, SPECULAR_BITS, SPECULAR_BITS, dielectric, number, 0) \
+    X(51, lightmap, 3, relative, color, positive, both, "lightmap irradiance / pi, W/(sr m^2)", \
+          surface, 380, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, lightmap, color, 0) \
+    X(52, tangent, 3, absolute, vector, any, forward_only, "tangent of the normal map, world; 0 without a normal map", \
+          place, 150, exact, 0, 0, none, none, 0) \
+    X(53, handedness, 1, exact, scalar, any, forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map", \
+          surface, 160, exact, 0, 0, none, none, 0) \
+    X(54, tangent_normal, 3, absolute, vector, any, forward_only, "normal map's normal, tangent space, unit; 0 without a normal map", \
+          surface, 170, exact, 0, 0, none, direction, 0) \
+    X(55, dielectric_f0, 3, absolute, color, share, both, "F0 of the dielectric layer", \
+          surface, 230, root, SPECULAR_BITS, SPECULAR_BITS, dielectric, scaled_color, 0) \
+    X(56, lightmapped, 1, exact, scalar, share, both, "1 where the material has a lightmap, which replaces the environment's diffuse light", \
+          surface, 390, exact, 0, 0, none, none, 0) \
+    X(60, clearcoat, 1, absolute, scalar, share, both, "weight of the clear coat, 0 to 1", \
+          surface, 330, unorm, CLEARCOAT_BITS, CLEARCOAT_BITS, clearcoat, number, 0) \
+    X(61, clearcoat_roughness, 1, absolute, scalar, share, both, "perceptual roughness of the clear coat, 0 to 1; 0 without one", \
+          surface, 340, unorm, CLEARCOAT_ROUGHNESS_BITS, CLEARCOAT_ROUGHNESS_BITS, clearcoat, number, 11) \
+    X(62, clearcoat_normal, 3, angular, vector, unit_or_zero, both, "normal of the clear coat, world; 0 without one", \
+          surface, 350, octahedral, CLEARCOAT_NORMAL_BITS, CLEARCOAT_NORMAL_BITS, clearcoat, direction, 10) \
+    X(63, anisotropy, 1, absolute, scalar, share, both, "strength of anisotropy, 0 to 1", \
+          surface, 260, unorm, ANISOTROPY_BITS, ANISOTROPY_BITS, anisotropy, number, 0) \
+    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both, "direction along which highlights stretch, world, either sign; 0 where isotropic", \
+          surface, 270, line, ANISOTROPY_ANGLE_BITS, ANISOTROPY_ANGLE_BITS, anisotropy, line, 0) \
+    X(65, sheen_color, 3, absolute, color, share, both, "colour of the sheen, linear Rec.709", \
+          surface, 310, root, SHEEN_BITS, SHEEN_BITS, sheen, color, 12) \
+    X(66, sheen_roughness, 1, absolute, scalar, share, both, "perceptual roughness of the sheen, 0 to 1; 0 without one", \
+          surface, 320, unorm, SHEEN_BITS, SHEEN_BITS, sheen, number, 13) \
+    X(67, iridescence, 1, absolute, scalar, share, both, "weight of the thin film, 0 to 1", \
+          surface, 280, unorm, IRIDESCENCE_BITS, IRIDESCENCE_BITS, iridescence, number, 14) \
+    X(68, iridescence_ior, 1, absolute, scalar, positive, both, "index of refraction of the thin film; 0 without one", \
+          surface, 290, index, IRIDESCENCE_IOR_BITS, IRIDESCENCE_IOR_BITS, iridescence, none, 0) \
+    X(69, iridescence_thickness, 1, relative, scalar, positive, both, "thickness of the thin film, nm; 0 without one", \
+          surface, 300, half, IRIDESCENCE_THICKNESS_BITS, IRIDESCENCE_THICKNESS_BITS, iridescence, thickness, 15)
+// clang-format on
+
+// channel  slot (SLOT_* of material.h)  component: the texels that change a channel, each times the material's
+// factor of the slot. rgb: all three. texel_ranges.cpp has what materials combine otherwise.
+// clang-format off
+#define CHANNEL_TEXELS(X)                      \
+    X(albedo,              base_color,          rgb) \
+    X(specular,            base_color,          rgb) \
+    X(roughness,           metallic_roughness,  g)   \
+    X(metallic,            metallic_roughness,  b)   \
+    X(specular,            metallic_roughness,  b)   \
+    X(normals,             normal,              rgb) \
+    X(tangent_normal,      normal,              rgb) \
+    X(occlusion,           occlusion,           r)   \
+    X(emission,            emissive,            rgb) \
+    X(dielectric_f90,      specular,            a)   \
+    X(dielectric_f0,       specular,            a)   \
+    X(specular,            specular,            a)   \
+    X(dielectric_f0,       specular_color,      rgb) \
+    X(specular,            specular_color,      rgb) \
+    X(lightmap,            lightmap,            rgb) \
+    X(clearcoat,           clearcoat,           r)   \
+    X(clearcoat_roughness, clearcoat_roughness, g)   \
+    X(clearcoat_normal,    clearcoat_normal,    rgb) \
+    X(anisotropy,          anisotropy,          b)   \
+    X(anisotropy_direction, anisotropy,         rg)  \
+    X(sheen_color,         sheen_color,         rgb) \
+    X(sheen_roughness,     sheen_roughness,     a)   \
+    X(iridescence,         iridescence,         r)   \
+    X(iridescence_thickness, iridescence_thickness, g)
 // clang-format on
 
 // name  image  component: where captures store a channel. Captures render images of four components;
@@ -129,7 +224,8 @@ CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 16);
 // Colour attachments of a capture pass; device_support.h requires as many.
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
 
-#define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows) \
+#define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
+                             standard, compact, part, texels, related)                                  \
     CONTRACT_CONST(uint, DEBUG_##name, number);
 DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
 #undef DIPTYCH_DEBUG_NUMBER

@@ -71,7 +71,7 @@ std::optional<std::string> drawingProblem(const Device& device, const Settings& 
     if (!draws(litFormatOf(settings.lit_format),
                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT))
         return lacks("lit-format", "does not support this format as an attachment", "fp32");
-    if (settings.path == Path::deferred && settings.lighting == Lighting::compute) {
+    if (hasGBuffer(settings.path) && settings.lighting == Lighting::compute) {
         const auto samples = static_cast<VkSampleCountFlags>(settings.msaa);
         const bool stores = settings.msaa == 1 || device.support().storesSamples();
         if (!stores ||

@@ -2,24 +2,25 @@
 #include "shared/frame/debug_modes.h"
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
 
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
 namespace diptych {
-namespace {
-
-constexpr DebugMode modes[] = {
-#define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, domain, maker, shows) \
-    {number, #name, width, Metric::metric, ChannelKind::kind, Domain::domain, MadeBy::maker, shows},
-    DEBUG_MODES(DIPTYCH_DEBUG_ROW)
-#undef DIPTYCH_DEBUG_ROW
-};
-
-}  // namespace
 
 std::span<const DebugMode> debugModes() {
+    using namespace gpu;  // the bits of G-buffers
+    static constexpr DebugMode modes[] = {
+#define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
+                          standard, compact, part, texels, related)                                   \
+    {number,           #name,         width, Metric::metric, ChannelKind::kind,                       \
+     Domain::domain,   MadeBy::maker, shows, step,           {FieldCode::code, standard, compact},    \
+     TexelUse::texels, related},
+        DEBUG_MODES(DIPTYCH_DEBUG_ROW)
+#undef DIPTYCH_DEBUG_ROW
+    };
     return modes;
 }
 
@@ -28,15 +29,15 @@ const DebugMode* findDebugMode(std::string_view nameOrNumber) {
     const char* end = nameOrNumber.data() + nameOrNumber.size();
     const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
     const bool isNumber = error == std::errc() && rest == end;
-    const auto found = std::ranges::find_if(modes, [&](const DebugMode& mode) {
+    const auto found = std::ranges::find_if(debugModes(), [&](const DebugMode& mode) {
         return isNumber ? mode.number == number : mode.name == nameOrNumber;
     });
-    return found == std::end(modes) ? nullptr : &*found;
+    return found == debugModes().end() ? nullptr : &*found;
 }
 
 const DebugMode& debugMode(int number) {
-    const auto found = std::ranges::find(modes, number, &DebugMode::number);
-    if (found == std::end(modes)) throw std::out_of_range("debug mode " + std::to_string(number));
+    const auto found = std::ranges::find(debugModes(), number, &DebugMode::number);
+    if (found == debugModes().end()) throw std::out_of_range("debug mode " + std::to_string(number));
     return *found;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,17 @@ enum class ChannelKind { color, vector, scalar, id };
 // Valid range of the values: unit vectors, these or 0, 0 to 1, 0 or more, or any.
 enum class Domain { unit, unit_or_zero, share, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
+// Columns of DEBUG_MODES, which explains their values.
+enum class ChannelStage { id, place, facet, surface, list, map, visibility, light, unshadowed, haze };
+enum class FieldCode { exact, unorm, root, octahedral, line, radiance, index, half };
+enum class MaterialPart { none, emission, lightmap, dielectric, clearcoat, anisotropy, sheen, iridescence };
+enum class TexelUse { none, number, color, scaled_color, thickness, direction, line };
+
+// How packed G-buffers store a channel; bits of each component.
+struct ChannelCode {
+    FieldCode code = FieldCode::exact;
+    unsigned standard = 0, compact = 0;
+};
 
 // How a channel is shown as an image; by_metric: by its kind and metric.
 enum class Shown { by_metric, radiance, display, normalised };
@@ -35,6 +47,10 @@ struct DebugMode {
     Domain domain;
     MadeBy maker;
     std::string_view shows;
+    int step = 0;  // ascends in the order of computation
+    ChannelCode stored{};
+    TexelUse texels = TexelUse::none;
+    int related = 0;  // place among the channels that relations compare; 0: none
     Shown shown = Shown::by_metric;
 };
 
@@ -43,56 +59,69 @@ const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unkn
 const DebugMode& debugMode(int number);                         // throws std::out_of_range
 std::string_view nameOf(Metric metric);
 
+// What makes a channel, and the part of a material without which it is not stored; of numbers of no channel:
+// surface, none.
+#define DIPTYCH_DEBUG_PROPERTY(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
+                               standard, compact, part, texels, related)                                   \
+    case number:                                                                                           \
+        return {ChannelStage::stage, MaterialPart::part};
+struct ChannelSource {
+    ChannelStage stage = ChannelStage::surface;
+    MaterialPart part = MaterialPart::none;
+};
+constexpr ChannelSource sourceOf(int mode) {
+    switch (mode) { DEBUG_MODES(DIPTYCH_DEBUG_PROPERTY) }
+    return {};
+}
+#undef DIPTYCH_DEBUG_PROPERTY
+
 // Channels of lighting: those that depend on the surface and on the light it receives.
-inline constexpr std::array litModes{static_cast<int>(gpu::DEBUG_lit),
-                                     static_cast<int>(gpu::DEBUG_lit_diffuse),
-                                     static_cast<int>(gpu::DEBUG_lit_specular),
-                                     static_cast<int>(gpu::DEBUG_lit_ambient),
-                                     static_cast<int>(gpu::DEBUG_lit_environment),
-                                     static_cast<int>(gpu::DEBUG_lit_clearcoat),
-                                     static_cast<int>(gpu::DEBUG_lit_sheen)};
 constexpr bool isLit(int mode) {
-    return std::ranges::find(litModes, mode) != litModes.end();
+    const ChannelStage stage = sourceOf(mode).stage;
+    return stage == ChannelStage::light || stage == ChannelStage::unshadowed;
 }
 
 // Channels of the medium between surface and camera; they depend on the position alone.
 constexpr bool isOfHaze(int mode) {
-    return mode == static_cast<int>(gpu::DEBUG_lit_haze) ||
-           mode == static_cast<int>(gpu::DEBUG_transmittance);
+    return sourceOf(mode).stage == ChannelStage::haze;
 }
 
 // Channels that shading computes: all of the above, and light visibility.
 constexpr bool isShaded(int mode) {
-    return isLit(mode) || isOfHaze(mode) || mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
-           mode == static_cast<int>(gpu::DEBUG_local_visibility);
+    return isLit(mode) || isOfHaze(mode) || sourceOf(mode).stage == ChannelStage::visibility;
 }
+
+#define DIPTYCH_DEBUG_LIT(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
+                          standard, compact, part, texels, related)                                   \
+    +(isLit(number) ? 1u : 0u)
+inline constexpr std::size_t litModeCount = 0 DEBUG_MODES(DIPTYCH_DEBUG_LIT);
+#undef DIPTYCH_DEBUG_LIT
+
+// The channels for which isLit(), in ascending order of number.
+inline constexpr auto litModes = [] {
+    std::array<int, litModeCount> lit{};
+    int next = 0;
+    std::ranges::generate(lit, [&] {
+        while (!isLit(next)) ++next;
+        return next++;
+    });
+    return lit;
+}();
 
 // LAYER_* of contract/material.h without which the channel is 0 everywhere; 0: none.
 constexpr gpu::uint layerOf(int mode) {
-    if (mode == static_cast<int>(gpu::DEBUG_lit_clearcoat)) return gpu::LAYER_CLEARCOAT;
-    if (mode >= static_cast<int>(gpu::DEBUG_clearcoat) &&
-        mode <= static_cast<int>(gpu::DEBUG_clearcoat_normal))
-        return gpu::LAYER_CLEARCOAT;
-    if (mode == static_cast<int>(gpu::DEBUG_anisotropy) ||
-        mode == static_cast<int>(gpu::DEBUG_anisotropy_direction))
-        return gpu::LAYER_ANISOTROPY;
-    if (mode == static_cast<int>(gpu::DEBUG_lit_sheen) || mode == static_cast<int>(gpu::DEBUG_sheen_color) ||
-        mode == static_cast<int>(gpu::DEBUG_sheen_roughness))
-        return gpu::LAYER_SHEEN;
-    if (mode >= static_cast<int>(gpu::DEBUG_iridescence) &&
-        mode <= static_cast<int>(gpu::DEBUG_iridescence_thickness))
-        return gpu::LAYER_IRIDESCENCE;
-    return 0;
-}
-
-// 0 in a scene without ambient light and lightmaps.
-constexpr bool isAmbient(int mode) {
-    return mode == static_cast<int>(gpu::DEBUG_lit_ambient);
-}
-
-// 0 without an environment. Neither this nor ambient light includes shadow-casting lights.
-constexpr bool isOfEnvironment(int mode) {
-    return mode == static_cast<int>(gpu::DEBUG_lit_environment);
+    switch (sourceOf(mode).part) {
+        case MaterialPart::clearcoat:
+            return gpu::LAYER_CLEARCOAT;
+        case MaterialPart::anisotropy:
+            return gpu::LAYER_ANISOTROPY;
+        case MaterialPart::sheen:
+            return gpu::LAYER_SHEEN;
+        case MaterialPart::iridescence:
+            return gpu::LAYER_IRIDESCENCE;
+        default:
+            return 0;
+    }
 }
 
 // EXR channel names: R, G, B for lit, Z for depth, and for example "albedo.R", "normals.X", "roughness.Y".

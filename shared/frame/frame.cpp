@@ -22,8 +22,7 @@ void letGo(const Frame& frame) {
 }
 
 bool isReferenceFrame(const Frame& frame) {
-    return frame.settings.path == Path::reference &&
-           (frame.origin.file.empty() || !frame.origin.device.empty());
+    return isReference(frame.settings.path) && (frame.origin.file.empty() || !frame.origin.device.empty());
 }
 
 std::string uncertaintyNote(double relative) {

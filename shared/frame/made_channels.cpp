@@ -12,17 +12,17 @@ std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode)
         case MadeBy::both:
             return {};
         case MadeBy::forward_only:
-            return settings.path == Path::deferred
+            return hasGBuffer(settings.path)
                        ? "the deferred path's G-buffer does not store it; use --path forward_plus"
                        : "";
         case MadeBy::deferred_only:
-            if (settings.path != Path::deferred)
+            if (!hasGBuffer(settings.path))
                 return "only deferred lighting selects samples to shade; use --path deferred";
             return settings.msaa == 1 ? "every pixel is shaded once; use --msaa 4" : "";
         case MadeBy::paths_only:
-            return settings.path == Path::reference ? "the reference has no light lists or shadow maps; use "
-                                                      "--path forward_plus or deferred"
-                                                    : "";
+            return isReference(settings.path) ? "the reference has no light lists or shadow maps; use "
+                                                "--path forward_plus or deferred"
+                                              : "";
     }
     return {};
 }

@@ -56,7 +56,7 @@ inline bool isFiniteFrom0(double value) {
     return value >= 0 && std::isfinite(value);
 }
 inline bool isReference(const Settings& s) {
-    return s.path == Path::reference;
+    return diptych::isReference(s.path);
 }
 inline constexpr std::string_view needs_msaa = "has no effect without --msaa 4";
 inline constexpr std::string_view own_samples = "the reference takes --spp samples per pixel";
@@ -88,7 +88,7 @@ inline bool hasCascades(const Settings& s) {
     return hasShadows(s) && !hasClipmap(s);
 }
 inline bool isShadowedForwardPlus(const Settings& s) {
-    return s.path == Path::forward_plus && hasShadows(s);  // its geometric normals are quantized, too
+    return shadesFragments(s.path) && hasShadows(s);  // its geometric normals are quantized, too
 }
 inline bool hasEvsm4(const Settings& s) {
     return s.shadows == Shadows::evsm4;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,43 @@ inline constexpr auto enum_names<Path> = std::to_array<EnumName<Path>>({{Path::d
 
 // Paths that a GPU renders, in comparison order.
 inline constexpr std::array drawn_paths{Path::deferred, Path::forward_plus};
+// The one of them that shades its own surfaces, decoded by no G-buffer; it explains what an encoding changes.
+inline constexpr Path unencoded_path = drawn_paths[1];
+
+// The other of the two.
+constexpr Path otherPath(Path path) {
+    return path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
+}
+
+// What a path can do. All other code asks this row instead of comparing Path values; path_table.h has the
+// functions of those that a device renders.
+struct PathRow {
+    Path path;
+    std::string_view side;  // option with the path's own Settings
+    bool drawn;             // by a device; else by rays, in double precision
+    bool gbuffer;           // stores surfaces, and lights what it decodes
+    bool fragments;         // lights the fragments of its own draws, with all that their vertices have
+};
+inline constexpr std::array path_rows{
+    PathRow{.path = Path::deferred, .side = "--deferred", .drawn = true, .gbuffer = true, .fragments = false},
+    PathRow{.path = Path::forward_plus,
+            .side = "--forward-plus",
+            .drawn = true,
+            .gbuffer = false,
+            .fragments = true},
+    PathRow{.path = Path::reference, .side = {}, .drawn = false, .gbuffer = false, .fragments = false}};
+constexpr const PathRow& pathRow(Path path) {
+    return path_rows.at(static_cast<std::size_t>(path));
+}
+constexpr bool isReference(Path path) {
+    return !pathRow(path).drawn;
+}
+constexpr bool hasGBuffer(Path path) {
+    return pathRow(path).gbuffer;
+}
+constexpr bool shadesFragments(Path path) {
+    return pathRow(path).fragments;
+}
 
 enum class Assignment { every, tiled, clustered, per_object };
 template <>

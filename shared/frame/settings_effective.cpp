@@ -35,7 +35,7 @@ Settings effectiveSettings(const Settings& settings) {
     Settings::rows([&](const Field& field, auto member) {
         if (!whyIgnored(settings, field).empty()) effective.*member = defaults().*member;
     });
-    if (settings.path != Path::reference) return effective;
+    if (!isReference(settings.path)) return effective;
     for (const Field& field : settingFields())
         if (!field.one_for_reference.empty() && effective.valueOf(field.option) != field.off)
             effective.set(field.option, std::string(field.one_for_reference));

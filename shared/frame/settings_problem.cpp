@@ -13,26 +13,26 @@ namespace {
 using Rule = std::optional<std::string> (*)(const Settings&);
 
 std::optional<std::string> surfacesHaveOneSample(const Settings& s) {
-    if (s.path != Path::reference || s.reference_mode != ReferenceMode::surface || s.spp == 1) return {};
+    if (!isReference(s.path) || s.reference_mode != ReferenceMode::surface || s.spp == 1) return {};
     return fmt::format("--spp {}: --reference-mode surface shades one sample; use --reference-mode scene",
                        s.spp);
 }
 
 std::optional<std::string> deferredKnowsNoObjects(const Settings& s) {
-    if (s.path != Path::deferred || s.assign != Assignment::per_object) return {};
+    if (!hasGBuffer(s.path) || s.assign != Assignment::per_object) return {};
     return "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
            "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered";
 }
 
 std::optional<std::string> tilesNeedDepths(const Settings& s) {
-    if (s.path != Path::forward_plus || s.assign != Assignment::tiled || s.prepass != Switch::off) return {};
+    if (!shadesFragments(s.path) || s.assign != Assignment::tiled || s.prepass != Switch::off) return {};
     return "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass "
            "on";
 }
 
 std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
     const bool steps = s.depth_format == DepthFormat::d24 || s.depth_format == DepthFormat::d16;
-    if (s.path != Path::forward_plus || s.prepass != Switch::off || !steps) return {};
+    if (!shadesFragments(s.path) || s.prepass != Switch::off || !steps) return {};
     return fmt::format(
         "--depth-format {} cannot be used with --prepass off: shading needs the stored depth; use --prepass "
         "on",
@@ -40,8 +40,7 @@ std::optional<std::string> storedDepthsAreShaded(const Settings& s) {
 }
 
 std::optional<std::string> levelsHavePages(const Settings& s) {
-    if (s.path == Path::reference || s.shadows != Shadows::clipmap ||
-        s.shadow_size >= 4 * s.clipmap_page_size)
+    if (isReference(s.path) || s.shadows != Shadows::clipmap || s.shadow_size >= 4 * s.clipmap_page_size)
         return {};
     return fmt::format("--clipmap-page-size {}: four pages in a row exceed --shadow-size {}; use {}",
                        s.clipmap_page_size, s.shadow_size,
@@ -49,7 +48,7 @@ std::optional<std::string> levelsHavePages(const Settings& s) {
 }
 
 std::optional<std::string> onlyTheReferenceWalks(const Settings& s) {
-    if (s.path == Path::reference || s.multiscatter != Multiscatter::walk) return {};
+    if (isReference(s.path) || s.multiscatter != Multiscatter::walk) return {};
     return "--multiscatter walk: only the reference simulates it; use energy or fdez";
 }
 
@@ -57,7 +56,7 @@ std::optional<std::string> sumsOfLayersHaveOneSample(const Settings& s) {
     const bool drawnOver = s.transparency == Transparency::sorted ||
                            s.transparency == Transparency::unsorted ||
                            s.transparency == Transparency::triangles || s.transparency == Transparency::off;
-    if (s.path == Path::reference || s.msaa == 1 || drawnOver) return {};
+    if (isReference(s.path) || s.msaa == 1 || drawnOver) return {};
     return fmt::format(
         "--transparency {} with --msaa {}: it supports only one sample per pixel; use sorted, unsorted or "
         "triangles",

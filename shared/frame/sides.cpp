@@ -130,7 +130,7 @@ SideSettings readSides(const std::array<std::string, 2>& given, Settings& common
 }
 
 std::string sideOption(Path path) {
-    return path == Path::deferred ? "--deferred" : "--forward-plus";
+    return std::string(pathRow(path).side);
 }
 
 std::vector<std::string> wordsOf(const SideSettings& sides) {

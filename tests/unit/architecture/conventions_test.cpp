@@ -243,6 +243,31 @@ TEST(Conventions, APlantedUseOfLibpngIsFound) {
     EXPECT_EQ(plant("CMakeLists.txt", "find_package(PNG REQUIRED)"), 0u);
 }
 
+// Comparisons of Path values outside path_rows, which says what a path can do.
+Faults comparedPaths(const Files& files) {
+    static const std::regex compared("[!=]= *Path::\\w|\\bPath::\\w+ *[!=]=");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (isCode(path) && !path.starts_with("tests/") && path != "shared/frame/setting_values.h")
+            if (std::smatch match; std::regex_search(text, match, compared))
+                faults.push_back(path + ": " + match.str());
+    return faults;
+}
+
+TEST(Conventions, OnlyItsRowSaysWhatAPathCanDo) {
+    EXPECT_EQ(joined(comparedPaths(sources())), "");
+}
+
+TEST(Conventions, APlantedComparisonOfPathsIsFound) {
+    const auto plant = [](const char* path, const char* text) {
+        return comparedPaths({{path, text}}).size();
+    };
+    EXPECT_EQ(plant("compare/planted.cpp", "if (s.path == Path::deferred) return;"), 1u);
+    EXPECT_EQ(plant("shared/planted.h", "return Path::reference != path;"), 1u);
+    EXPECT_EQ(plant("compare/planted.cpp", "settings.path = Path::deferred;"), 0u);
+    EXPECT_EQ(plant("tests/unit/planted.cpp", "if (s.path == Path::deferred) return;"), 0u);
+}
+
 // Absolute paths of the machine where a file was written.
 Faults pathsOfAMachine(const Files& files) {
     static const std::regex absolute("/(home|work|root|Users)/[A-Za-z0-9_.]");

@@ -23,7 +23,7 @@ namespace {
 
 // File with the table, and the table's first line.
 constexpr const char* table_file = "tests/architecture/README.md";
-constexpr const char* table_head = "| to add | touch |";
+constexpr const char* table_head = "| to add | files | touch |";
 
 // A row of the table, and the whole words that identify its example's files. Words in comments do not
 // count, words in quotes do.
@@ -32,8 +32,10 @@ struct Example {
     std::vector<std::string> words;
 };
 const std::vector<Example> examples = {
-    {"a channel", {"X(4,  roughness", "DEBUG_roughness"}},
-    {"a channel of light", {"X(42, lit_ambient", "DEBUG_lit_ambient"}},
+    {"a channel", {"X(6,  occlusion", "DEBUG_occlusion"}},
+    {"a channel that bounds another", {"X(4,  roughness", "DEBUG_roughness"}},
+    {"a channel of light", {"X(47, lit_sheen", "DEBUG_lit_sheen"}},
+    {"a term of `lit`", {"X(42, lit_ambient", "DEBUG_lit_ambient"}},
     {"an input from vertex to fragment shader", {"v_color", "vertex_color", "FEATURE_vertex_color"}},
     {"a light kind",
      {"LightKind::tube", "rect, disc, tube", "disc = 0, tube", "lights.tube", "result.tube", "\"tube\"",
@@ -117,29 +119,39 @@ std::set<std::string> filesThatMention(const Files& files, const std::vector<std
     return found;
 }
 
-// Rows of the table: what to add, and the files and folders (with a final slash) it names.
-std::map<std::string, std::set<std::string>> recipesOf(const std::string& page) {
+// The files and folders (with a final slash) of a row, and how many it says they are.
+struct Recipe {
+    std::set<std::string> names;
+    std::string count;
+};
+
+// Rows of the table by what they add.
+std::map<std::string, Recipe> recipesOf(const std::string& page) {
     static const std::regex path("`([^` ]*/[^` ]*)`");
-    std::map<std::string, std::set<std::string>> recipes;
+    std::map<std::string, Recipe> recipes;
     std::istringstream lines(page.substr(std::min(page.find(table_head), page.size())));
     std::string line;
     for (int number = 0; std::getline(lines, line) && line.starts_with('|'); ++number) {
         if (number < 2) continue;  // the header and the rule below it
-        const std::size_t middle = line.find(" | ", 2);
-        std::set<std::string>& named = recipes[line.substr(2, middle - 2)];
-        const std::string cell = line.substr(middle);
+        const std::size_t count = line.find(" | ", 2), touch = line.find(" | ", count + 3);
+        Recipe& recipe = recipes[line.substr(2, count - 2)];
+        recipe.count = line.substr(count + 3, touch - count - 3);
+        const std::string cell = line.substr(touch);
         for (std::sregex_iterator it(cell.begin(), cell.end(), path), end; it != end; ++it)
-            named.insert((*it)[1].str());
+            recipe.names.insert((*it)[1].str());
     }
     return recipes;
 }
 
 Faults recipeFaults(const std::string& page, const Files& files) {
-    const std::map<std::string, std::set<std::string>> recipes = recipesOf(page);
+    const std::map<std::string, Recipe> recipes = recipesOf(page);
     Faults faults;
-    for (const auto& [row, named] : recipes)
+    for (const auto& [row, recipe] : recipes) {
         if (std::ranges::count(examples, row, &Example::row) == 0)
             faults.push_back(row + ": has no example that is looked for");
+        if (const std::string named = std::to_string(recipe.names.size()); named != recipe.count)
+            faults.push_back(row + ": says " + recipe.count + " files and names " + named);
+    }
     for (const Example& example : examples) {
         const auto recipe = recipes.find(example.row);
         if (recipe == recipes.end()) {
@@ -151,10 +163,11 @@ Faults recipeFaults(const std::string& page, const Files& files) {
             return name == file || (name.ends_with('/') && file.starts_with(name));
         };
         for (const std::string& file : found)
-            if (std::ranges::none_of(recipe->second, [&](const auto& name) { return covers(name, file); }))
+            if (std::ranges::none_of(recipe->second.names,
+                                     [&](const auto& name) { return covers(name, file); }))
                 faults.push_back(example.row + ": " + file + " mentions " + example.words.front() +
                                  " and the recipe does not name it");
-        for (const std::string& name : recipe->second)
+        for (const std::string& name : recipe->second.names)
             if (std::ranges::none_of(found, [&](const auto& file) { return covers(name, file); }))
                 faults.push_back(example.row + ": the recipe names " + name + ", which does not mention " +
                                  example.words.front());
@@ -169,9 +182,10 @@ TEST(Recipes, NameTheFilesThatMentionAnExample) {
 TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     const std::string page = tablePage();
     Files named;  // only files that the recipes mention
-    for (const auto& [row, names] : recipesOf(page))
+    for (const auto& [row, recipe] : recipesOf(page))
         for (const auto& source : programSources())
-            if (std::ranges::any_of(names, [&](const auto& name) { return source.first.starts_with(name); }))
+            if (std::ranges::any_of(recipe.names,
+                                    [&](const auto& name) { return source.first.starts_with(name); }))
                 named.insert(source);
     ASSERT_EQ(joined(recipeFaults(page, named)), "");
     const auto planted = [&](const std::string& file, const std::string& text) {
@@ -180,12 +194,12 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         return recipeFaults(page, files);
     };
     EXPECT_EQ(
-        planted("compare/planted.cpp", "int roughness = DEBUG_roughness;"),
-        Faults{"a channel: compare/planted.cpp mentions X(4,  roughness and the recipe does not name it"});
-    EXPECT_EQ(planted("compare/planted.cpp", "// DEBUG_roughness\n/* mae */ int DEBUG_roughness2;"), Faults{})
+        planted("compare/planted.cpp", "int occlusion = DEBUG_occlusion;"),
+        Faults{"a channel: compare/planted.cpp mentions X(6,  occlusion and the recipe does not name it"});
+    EXPECT_EQ(planted("compare/planted.cpp", "// DEBUG_occlusion\n/* mae */ int DEBUG_occlusion2;"), Faults{})
         << "a comment, and a longer word";
-    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// DEBUG_roughness").size(), 2u)
-        << "and lit_ambient";
+    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// DEBUG_occlusion").size(), 4u)
+        << "and the other examples of channels";
 
     const auto edited = [&](const std::string& from, const std::string& to) {
         std::string other = page;
@@ -193,10 +207,19 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         EXPECT_NE(at, std::string::npos) << from;
         return recipeFaults(other.replace(at, from.size(), to), named);
     };
-    EXPECT_EQ(edited("| a figure | ", "| a figure | `compare/rules.h`, "),
+    EXPECT_EQ(edited("| a figure | 4 | ", "| a figure | 5 | `compare/rules.h`, "),
               Faults{"a figure: the recipe names compare/rules.h, which does not mention mae"});
+    EXPECT_EQ(edited("| a figure | 4 | ", "| a figure | 3 | "), Faults{"a figure: says 3 files and names 4"});
     EXPECT_EQ(edited("| a figure | ", "| a number | ").size(), 2u) << "an unknown row, and a missing one";
     EXPECT_EQ(recipeFaults("no table", named).size(), examples.size());
+}
+
+// What the design promises: a row of the table, a line of the shader, a line of the reference.
+TEST(Recipes, AChannelTakesThreeFiles) {
+    for (const char* channel : {"a channel", "a channel of light"})
+        EXPECT_EQ(recipesOf(tablePage()).at(channel).names,
+                  (std::set<std::string>{"shared/contract/debug_mode.h", "shaders/lib/surface/debug.glsl",
+                                         "compare/reference/channels.cpp"}));
 }
 
 }  // namespace

@@ -74,6 +74,53 @@ TEST(DebugModes, AnglesAreBetweenUnitVectors) {
     EXPECT_EQ(debugMode(gpu::DEBUG_anisotropy_direction).metric, Metric::axial) << "it has no sign";
 }
 
+// A pixel's surface is found before the light that reaches it, and that before the light it sends.
+TEST(DebugModes, StepsFollowTheComputation) {
+    std::set<int> steps;
+    for (const DebugMode& mode : debugModes()) {
+        EXPECT_TRUE(steps.insert(mode.step).second) << mode.name << " has the step of another channel";
+        const ChannelStage stage = sourceOf(mode.number).stage;
+        const int hundreds = stage < ChannelStage::list ? 100 : stage < ChannelStage::light ? 400 : 500;
+        EXPECT_GE(mode.step, hundreds) << mode.name;
+        EXPECT_LT(mode.step, hundreds == 100 ? 400 : hundreds == 400 ? 500 : 700) << mode.name;
+    }
+    EXPECT_EQ(*steps.rbegin(), debugMode(gpu::DEBUG_lit).step) << "what all else makes";
+}
+
+TEST(DebugModes, CodesHaveBits) {
+    for (const DebugMode& mode : debugModes()) {
+        const ChannelCode& of = mode.stored;
+        EXPECT_EQ(of.code == FieldCode::exact, of.standard == 0) << mode.name;
+        EXPECT_LE(of.compact, of.standard) << mode.name;
+        EXPECT_EQ(of.compact == 0, of.standard == 0) << mode.name;
+        const bool turned = of.code == FieldCode::octahedral || of.code == FieldCode::line;
+        EXPECT_TRUE(!turned || isAngle(mode.metric)) << mode.name;
+    }
+    EXPECT_EQ(debugMode(gpu::DEBUG_normals).stored.compact, 12u);
+    EXPECT_EQ(debugMode(gpu::DEBUG_normals).stored.standard, 16u);
+}
+
+TEST(DebugModes, PlacesAmongRelatedChannelsAreUnique) {
+    std::set<int> places;
+    for (const DebugMode& mode : debugModes())
+        if (mode.related != 0) {
+            EXPECT_TRUE(places.insert(mode.related).second) << mode.name;
+        }
+    EXPECT_EQ(*places.begin(), debugMode(gpu::DEBUG_lit).related);
+    EXPECT_EQ(*places.rbegin(), static_cast<int>(places.size()));
+}
+
+// Only channels of a surface come from texels, in the unit that their use has.
+TEST(DebugModes, TexelsMakeSurfaces) {
+    for (const DebugMode& mode : debugModes()) {
+        if (mode.texels == TexelUse::none) continue;
+        EXPECT_EQ(sourceOf(mode.number).stage, ChannelStage::surface) << mode.name;
+        const bool color = mode.texels == TexelUse::color || mode.texels == TexelUse::scaled_color;
+        EXPECT_EQ(color, mode.kind == ChannelKind::color) << mode.name;
+        EXPECT_EQ(mode.texels == TexelUse::line, mode.metric == Metric::axial) << mode.name;
+    }
+}
+
 TEST(DebugModes, LayersHaveTheirChannels) {
     for (const DebugMode& mode : debugModes()) {
         const std::string name(mode.name);

@@ -103,6 +103,23 @@ Settings everythingChanged() {
     return s;
 }
 
+TEST(PathRows, AreInOrderAndSayWhoDraws) {
+    ASSERT_EQ(path_rows.size(), enumNames<Path>().size());
+    std::vector<Path> drawn;
+    for (const auto& [path, name] : enumNames<Path>()) {
+        const PathRow& row = pathRow(path);
+        EXPECT_EQ(row.path, path) << name;
+        EXPECT_EQ(isReference(path), name == "reference");
+        EXPECT_EQ(row.drawn, row.gbuffer || row.fragments) << name << " has to shade something";
+        EXPECT_FALSE(row.gbuffer && row.fragments) << name;
+        EXPECT_EQ(row.side.empty(), !row.drawn) << name;
+        if (row.drawn) drawn.push_back(path);
+    }
+    EXPECT_EQ(drawn, std::vector(drawn_paths.begin(), drawn_paths.end()));
+    EXPECT_TRUE(shadesFragments(unencoded_path)) << "no encoding changes its surfaces";
+    for (const Path path : drawn_paths) EXPECT_NE(otherPath(path), path);
+}
+
 TEST(Settings, JsonRoundTripIsExact) {
     EXPECT_EQ(settingsFromJson(toJson(Settings())), Settings());
     EXPECT_EQ(settingsFromJson(toJson(everythingChanged())), everythingChanged());
