@@ -39,8 +39,8 @@ std::vector<int> blockSizes(int runs) {
     constexpr int most = 5;  // each block allocates the row's images again
     const int at_once = std::max(4, (runs + most - 1) / most);
     std::vector<int> blocks{std::min((runs + 1) / 2, at_once)};
-    for (int left = runs - blocks.front(); left > 0; left -= blocks.back())
-        blocks.push_back(std::min(left, at_once));
+    for (int rest = runs - blocks.front(); rest > 0; rest -= blocks.back())
+        blocks.push_back(std::min(rest, at_once));
     return blocks;
 }
 
