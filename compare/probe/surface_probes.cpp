@@ -31,11 +31,10 @@ Probe roughnessProbe() {
                            "roughness 0 to 1 including both ends; normals that change by 1e-6 to 10 per "
                            "pixel, partly by rounding; sequences of 64 with growing change",
                            "rounding in filteredRoughness(), including two square roots");
-    p.ins = 8;
+    p.ins = 9;
     p.line = 64;
     p.monotone = 1;
-    p.features = {{gpu::FEATURE_specular_aa_variance, std::bit_cast<std::uint32_t>(variance)},
-                  {gpu::FEATURE_specular_aa_limit, std::bit_cast<std::uint32_t>(limit)}};
+    p.features = {{gpu::FEATURE_specular_aa_variance, std::bit_cast<std::uint32_t>(variance)}};
     p.make = [](Random&, std::size_t row, float* in) {
         Random line(row / 64);
         const double change = 1e-6 * std::pow(1e7, static_cast<double>(row % 64) / 63);
@@ -43,6 +42,7 @@ Probe roughnessProbe() {
         put(randomDirection(line) * change * line.unit(), in + 1);
         put(randomDirection(line) * change, in + 4);
         in[7] = line.coin() ? 0 : static_cast<float>(line.logarithmic(1e-12, 1e-6));
+        in[8] = limit;
     };
     p.definition = [](const float* in, double* out) {
         const double x = length(exactVec(in + 1)), y = length(exactVec(in + 4)), change = x * x + y * y;

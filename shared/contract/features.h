@@ -99,35 +99,34 @@
     X(51, sample_edges,               pass,    PASS_LIGHTING)                                               \
     /* the resolve weights a pixel's samples by a tone curve */                                             \
     X(52, tonemapped_resolve,         frame,   PASS_SAMPLES)                                                \
-    /* SPECULAR_AA_* of material.h; two parameters of shaders/lib/surface/specular_aa.glsl, float32 bits */         \
+    /* SPECULAR_AA_* of material.h; a parameter of shaders/lib/surface/specular_aa.glsl, float32 bits */           \
     X(53, specular_aa,                frame,   PASSES_SURFACE)                                              \
     X(54, specular_aa_variance,       amount,  PASSES_SURFACE)                                              \
-    X(55, specular_aa_limit,          amount,  PASSES_SURFACE)                                              \
     /* DEPTH_* of view.h: storage format of the scene's depth */                                            \
-    X(56, depth_format,               amount,  PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS)  \
+    X(55, depth_format,               amount,  PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS)  \
     /* point, spot and directional lighting in 16-bit floats */                                             \
-    X(57, half_shading,               frame,   PASSES_SHADE)                                                \
+    X(56, half_shading,               frame,   PASSES_SHADE)                                                \
     /* attenuate a dielectric's base per component, not by its layer's largest reflectance */               \
-    X(58, base_by_component,          frame,   PASSES_SHADE)                                                \
+    X(57, base_by_component,          frame,   PASSES_SHADE)                                                \
     /* spot cones fade by smoothstep; the range window is squared */                                        \
-    X(59, smooth_cones,               frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
-    X(60, squared_window,             frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
+    X(58, smooth_cones,               frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
+    X(59, squared_window,             frame,   PASSES_SURFACE | PASS_LIGHTING)                              \
     /* read lights and lists by address: they exceed the device's largest texel buffer */                   \
-    X(61, addressed_lights,           frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)                 \
-    X(62, clearcoat_texture,          item,    PASSES_SURFACE)                                              \
-    X(63, clearcoat_roughness_texture, item,   PASSES_SURFACE)                                              \
-    X(64, clearcoat_normal_texture,   item,    PASSES_SURFACE)                                              \
-    X(65, anisotropy_texture,         item,    PASSES_SURFACE)                                              \
+    X(60, addressed_lights,           frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS)                 \
+    X(61, clearcoat_texture,          item,    PASSES_SURFACE)                                              \
+    X(62, clearcoat_roughness_texture, item,   PASSES_SURFACE)                                              \
+    X(63, clearcoat_normal_texture,   item,    PASSES_SURFACE)                                              \
+    X(64, anisotropy_texture,         item,    PASSES_SURFACE)                                              \
     /* a sum of LAYER_* of material.h: of the draw; in deferred lighting, of the scene */                   \
-    X(66, layers,                     item,    PASSES_SURFACE | PASS_LIGHTING)                              \
+    X(65, layers,                     item,    PASSES_SURFACE | PASS_LIGHTING)                              \
     /* a sum of LAYER_*: those that the G-buffer stores */                                                  \
-    X(67, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
+    X(66, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
     /* KHR_materials_pbrSpecularGlossiness (material.h) */                                                  \
-    X(68, specular_glossiness,        item,    PASSES_SURFACE)                                              \
-    X(69, sheen_color_texture,        item,    PASSES_SURFACE)                                              \
-    X(70, sheen_roughness_texture,    item,    PASSES_SURFACE)                                              \
-    X(71, iridescence_texture,        item,    PASSES_SURFACE)                                              \
-    X(72, iridescence_thickness_texture, item, PASSES_SURFACE)
+    X(67, specular_glossiness,        item,    PASSES_SURFACE)                                              \
+    X(68, sheen_color_texture,        item,    PASSES_SURFACE)                                              \
+    X(69, sheen_roughness_texture,    item,    PASSES_SURFACE)                                              \
+    X(70, iridescence_texture,        item,    PASSES_SURFACE)                                              \
+    X(71, iridescence_thickness_texture, item, PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -30,7 +30,8 @@ struct View {
     uint rect_light_count;
     uint disc_light_count;
     uint tube_light_count;
-    vec3 ambient;  // W/(sr m^2), uniform
+    vec3 ambient;             // W/(sr m^2), uniform
+    float specular_aa_limit;  // kappa of shaders/lib/surface/specular_aa.glsl
     // Addresses of the lights' buffers, for FEATURE_addressed_lights.
     uvec2 lights;
     uvec2 spot_cones;
@@ -43,6 +44,7 @@ CONTRACT_END
 // GLSL unpacks from this table. Perspective only: it omits the rays of an orthographic camera. Each row
 // fills one component.
 //   FLOAT, UINT(texel, lane, member)    SHORTS(texel, lane, low 16 bits, high 16 bits)
+//   BYTES(texel, lane, lowest 8 bits, next 8 bits, high 16 bits)
 // clang-format off
 #define PACKED_VIEW(FLOAT, UINT)                \
     FLOAT(0, x, direction_0.x)                  \
@@ -58,14 +60,14 @@ CONTRACT_END
     FLOAT(2, z, direction_y.z)                  \
     FLOAT(2, w, depth_denominator.x)            \
     FLOAT(3, x, depth_denominator.y)            \
+    FLOAT(4, x, specular_aa_limit)              \
     UINT(4, y, directional_light_count)         \
     UINT(4, z, point_light_count)               \
     UINT(4, w, spot_light_count)
-#define PACKED_GRID(FLOAT, UINT, SHORTS)        \
+#define PACKED_GRID(FLOAT, SHORTS, BYTES)       \
     FLOAT(3, y, slice_offset)                   \
-    SHORTS(3, z, slice_shift, tile_shift)       \
-    SHORTS(3, w, tiles.x, tiles.y)              \
-    UINT(4, x, slices)
+    BYTES(3, z, slice_shift, tile_shift, slices) \
+    SHORTS(3, w, tiles.x, tiles.y)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -27,6 +27,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.disc_light_count = lights.disc;
     gpuView.tube_light_count = lights.tube;
     gpuView.ambient = lights.ambient;
+    gpuView.specular_aa_limit = choice.specular_aa_limit;
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, texelsOrAddress);
     spot_cones_ =
         makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones, texelsOrAddress);

@@ -21,6 +21,7 @@ public:
         LightLists::Choice lists{};
         std::optional<std::uint32_t> object_pixel_lights{};  // --pixel-lights with --assign per_object
         bool albedo_table = false, sheen_table = false;      // uploads the tables of albedo.h
+        float specular_aa_limit = 0;                         // --spec-aa-limit
     };
     FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
                  const DrawList& draws, const GpuLights& lights, const Choice& choice);

@@ -35,8 +35,7 @@ void addSpecularAa(Variant& variant, const Settings& settings) {
     const gpu::uint slope = settings.spec_aa_kernel == SpecularKernel::slope ? gpu::SPECULAR_AA_SLOPE : 0;
     variant
         .set(gpu::FEATURE_specular_aa, (mapped ? gpu::SPECULAR_AA_MAPPED : gpu::SPECULAR_AA_GEOMETRY) | slope)
-        .set(gpu::FEATURE_specular_aa_variance, bitsOf(settings.spec_aa_variance))
-        .set(gpu::FEATURE_specular_aa_limit, bitsOf(settings.spec_aa_limit));
+        .set(gpu::FEATURE_specular_aa_variance, bitsOf(settings.spec_aa_variance));
 }
 
 }  // namespace

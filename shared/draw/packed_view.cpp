@@ -23,15 +23,16 @@ PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid) {
 #define VIEW_FLOAT(texel, lane, member) packed[texel].lane = std::bit_cast<gpu::uint>(view.member);
 #define VIEW_UINT(texel, lane, member) packed[texel].lane = view.member;
 #define GRID_FLOAT(texel, lane, member) packed[texel].lane = std::bit_cast<gpu::uint>(grid.member);
-#define GRID_UINT(texel, lane, member) packed[texel].lane = grid.member;
 #define GRID_SHORTS(texel, lane, low, high) packed[texel].lane = grid.low | (grid.high << 16);
+#define GRID_BYTES(texel, lane, low, middle, high) \
+    packed[texel].lane = grid.low | (grid.middle << 8) | (grid.high << 16);
     PACKED_VIEW(VIEW_FLOAT, VIEW_UINT)
-    PACKED_GRID(GRID_FLOAT, GRID_UINT, GRID_SHORTS)
+    PACKED_GRID(GRID_FLOAT, GRID_SHORTS, GRID_BYTES)
 #undef VIEW_FLOAT
 #undef VIEW_UINT
 #undef GRID_FLOAT
-#undef GRID_UINT
 #undef GRID_SHORTS
+#undef GRID_BYTES
     return packed;
 }
 

@@ -13,7 +13,7 @@ namespace diptych {
 
 using PackedView = std::array<glm::uvec4, gpu::PACKED_VIEW_TEXELS>;
 
-// `grid`: both tile counts and both shifts are below 65,536.
+// `grid`: both tile counts and the slices are below 65,536, both shifts below 256.
 PackedView packedView(const gpu::View& view, const gpu::LightGrid& grid);
 
 // Whether every texel component occurs in the list exactly once; a component is 4 * texel + 0 to 3.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Blended surfaces over either path's opaque image: compared with closed forms, the reference and each
 // other.
-#include "compare/verdict/pair_reports.h"
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"
-#include "tests/image/scenes.h"
+#include "tests/image/blended.h"
 
 #include <fmt/format.h>
 
@@ -12,14 +11,6 @@
 
 namespace diptych::tests {
 namespace {
-
-constexpr Path rasterPaths[] = {Path::deferred, Path::forward_plus};
-
-Settings blendedPicture() {
-    Settings settings = smallPicture(GBufferEncoding::full);
-    settings.size = {96, 54};
-    return settings;
-}
 
 // Unlit squares with radiance `colors`, each nearer to the camera than the one before; the first is
 // opaque. All fill the image.
@@ -47,16 +38,6 @@ std::vector<glm::vec4> someLayers(std::size_t count, float opacity) {
     return colors;
 }
 
-glm::dvec3 pixelOf(const Frame& frame, int x, int y) {
-    const Image& image = frame.channels.at(lit);
-    return {double{image.at(x, y, 0)}, double{image.at(x, y, 1)}, double{image.at(x, y, 2)}};
-}
-
-Frame picture(Path path, const Scene& scene, const Settings& settings) {
-    Renderer renderer(device(), scene, pipelines());
-    return drawnBy(path, renderer, settings, {lit});
-}
-
 // Every layer rounds to float32 once or twice.
 TEST(Transparent, LayersAreBlendedOver) {
     for (const std::size_t count : {1u, 2u, 8u, 32u})
@@ -65,8 +46,8 @@ TEST(Transparent, LayersAreBlendedOver) {
             glm::dvec3 expected(colors.front());
             for (std::size_t i = 1; i < colors.size(); ++i)
                 expected = glm::mix(expected, glm::dvec3(colors[i]), double{opacity});
-            for (const Path path : rasterPaths) {
-                const glm::dvec3 made = pixelOf(picture(path, layers(colors), blendedPicture()), 40, 20);
+            for (const Path path : drawn_paths) {
+                const glm::dvec3 made = litAt(drawnBlended(path, layers(colors), blendedPicture()), 40, 20);
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(made[c], expected[c], 2e-7 * static_cast<double>(count + 4))
                         << count << " " << opacity << " " << nameOf(path);
@@ -80,11 +61,12 @@ TEST(Transparent, WhatIsOpaqueHidesAllBehindItAndOpacity0Nothing) {
     const std::vector<glm::vec4> front(colors.begin() + 3, colors.end());
     std::vector<glm::vec4> more = front;
     more.insert(more.begin() + 1, glm::vec4(5, 5, 5, 0));
-    for (const Path path : rasterPaths) {
-        const Image whole = picture(path, layers(colors), blendedPicture()).channels.at(lit);
-        EXPECT_EQ(differingPixels(whole, picture(path, layers(front), blendedPicture()).channels.at(lit)),
+    for (const Path path : drawn_paths) {
+        const Image whole = drawnBlended(path, layers(colors), blendedPicture()).channels.at(lit);
+        EXPECT_EQ(
+            differingPixels(whole, drawnBlended(path, layers(front), blendedPicture()).channels.at(lit)), 0u);
+        EXPECT_EQ(differingPixels(whole, drawnBlended(path, layers(more), blendedPicture()).channels.at(lit)),
                   0u);
-        EXPECT_EQ(differingPixels(whole, picture(path, layers(more), blendedPicture()).channels.at(lit)), 0u);
     }
 }
 
@@ -128,7 +110,7 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
     const std::vector<int> channels{lit, static_cast<int>(gpu::DEBUG_albedo),
                                     static_cast<int>(gpu::DEBUG_depth),
                                     static_cast<int>(gpu::DEBUG_lit_diffuse)};
-    for (const Path path : rasterPaths) {
+    for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), without(device(), opaque, pipelines());
         const Frame all = drawnBy(path, renderer, blendedPicture(), channels),
                     rest = drawnBy(path, without, blendedPicture(), channels);
@@ -150,7 +132,7 @@ TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
     RenderOptions options;
     options.channels = {lit};
     options.runs = 1;
-    for (const Path path : rasterPaths) {
+    for (const Path path : drawn_paths) {
         std::optional<Frame> first;
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
             Settings settings = blendedPicture();
@@ -183,46 +165,22 @@ TEST(Transparent, WithoutBlendingThereIsNoPass) {
     }
 }
 
-// Failures of both paths against the reference.
-std::vector<std::string> failures(const Scene& scene, Renderer& renderer, const Settings& settings) {
-    Settings truth = settings;
-    truth.path = Path::reference;
-    truth.transparency = Transparency::sorted;
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
-    std::vector<Frame> frames{renderer.draw(truth, options)};
-    for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
-    const Requirements needs = requirements(scene, poseAt(scene, 0));
-    const DeviceInfo& info = device().info();
-    const Report report = makeReferenceReport(std::move(frames), {needs, needs, needs},
-                                              {info.name, info.driver, info.type}, {}, {{}}, {{}});
-    std::vector<std::string> failed;
-    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
-        for (const ChannelDiff& channel : report.comparisons.at(i).channels)
-            if (channel.verdict == Verdict::fail)
-                failed.push_back(fmt::format("{}: {}", channel.mode->name, channel.reason));
-    return failed;
-}
-std::vector<std::string> failures(const char* name, const Settings& settings) {
-    return failures(uploaded(name).scene, uploaded(name).renderer, settings);
-}
-
 TEST(Transparent, SortedIsTheReferencesOrder) {
     Settings settings = blendedPicture();
-    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{});
+    EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{});
     settings.camera = "inside";
-    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "from inside of a ball";
+    EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{})
+        << "from inside of a ball";
     settings.camera = Settings().camera;
     settings.haze = true;
     settings.haze_density = 2000;
-    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "in haze";
+    EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{}) << "in haze";
 }
 
 TEST(Transparent, AnotherOrderFails) {
     Settings settings = blendedPicture();
     settings.transparency = Transparency::unsorted;
-    const std::vector<std::string> failed = failures("builtin:crossed", settings);
+    const std::vector<std::string> failed = failedChannels("builtin:crossed", settings);
     ASSERT_EQ(failed.size(), 2u);
     for (const std::string& each : failed) EXPECT_EQ(each.substr(0, 4), "lit:");
 }
@@ -266,16 +224,16 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
     const Scene scene = interleavedRows();
     Renderer renderer(device(), scene, pipelines());
     Settings settings = blendedPicture();
-    EXPECT_EQ(failures(scene, renderer, settings).size(), 2u) << "sorted";
+    EXPECT_EQ(failedChannels(scene, renderer, settings).size(), 2u) << "sorted";
     settings.transparency = Transparency::triangles;
-    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
+    EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
     const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
     EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
     // Another order of the same draws: their light lists stay the same.
     Settings every = settings, object = settings;
     every.assign = Assignment::every;
     object.assign = Assignment::per_object;
-    for (const Path path : rasterPaths)
+    for (const Path path : drawn_paths)
         EXPECT_EQ(differingPixels(drawnBy(path, renderer, every, {lit}).channels.at(lit),
                                   drawnBy(path, renderer, settings, {lit}).channels.at(lit)),
                   0u)
@@ -289,134 +247,13 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
 TEST(Transparent, TrianglesAreRightWhereDrawsAre) {
     Settings settings = blendedPicture();
     settings.transparency = Transparency::triangles;
-    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{});
+    EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{});
     settings.camera = "inside";
-    EXPECT_EQ(failures("builtin:glass", settings), std::vector<std::string>{}) << "from inside of a ball";
+    EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{})
+        << "from inside of a ball";
     // Intersecting panes.
     settings.camera = Settings().camera;
-    EXPECT_EQ(failures("builtin:crossed", settings).size(), 2u);
-}
-
-// A pane before a wall that emits (1, 2, 3), without other light towards the camera.
-Scene paneOf(const glm::vec3& color, float transmission, float metallic = 0) {
-    Builder b;
-    b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
-    b.add("wall", quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}),
-          b.material("wall", {glm::vec3(0), 0, 1, {1, 2, 3}}), glm::dvec3(0.0));
-    b.add("pane", quad({-9, -9, 1}, {18, 0, 0}, {0, 18, 0}), b.material("pane", {color, metallic, 0.5f}),
-          glm::dvec3(0.0));
-    b.scene.materials.back().transmission = transmission;
-    b.sun({0, 0, 1}, glm::vec3(1), 1);  // from behind
-    return std::move(b.scene);
-}
-
-// From the front the layer reflects 0.04. The base transmits what it neither scatters nor absorbs, times
-// the luminance of its colour; a metal absorbs all. No light reaches the pane's front.
-TEST(Transmission, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
-    struct Case {
-        glm::vec3 color;
-        float transmission, metallic;
-        double passes;
-    };
-    const Case cases[] = {{{1, 1, 1}, 1, 0, 0.96},
-                          {{1, 1, 1}, 0.25f, 0, 0.24},
-                          {{0.5f, 0.25f, 1}, 1, 0, 0.96 * (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722)},
-                          {{1, 1, 1}, 1, 0.5f, 0.48},
-                          {{1, 1, 1}, 1, 1, 0},
-                          {{3, 3, 3}, 1, 0, 1}};  // impossible in a file; nothing is amplified
-    for (const Case& c : cases)
-        for (const Path path : rasterPaths) {
-            const glm::dvec3 made =
-                pixelOf(picture(path, paneOf(c.color, c.transmission, c.metallic), blendedPicture()), 48, 27);
-            for (int i = 0; i < 3; ++i)
-                EXPECT_NEAR(made[i], c.passes * (i + 1), 1e-6) << c.passes << " " << nameOf(path);
-        }
-}
-
-// Panes one behind the other: whole, partly covering, masked, rough, half metal; lit, before floor and
-// sky.
-Scene panes() {
-    Builder b;
-    b.camera("front", {0.6, 1.2, 5}, {0, 0.6, 0}, 40, 0.1, 100);
-    b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -5}),
-          b.material("floor", {{0.5f, 0.48f, 0.45f}, 0, 0.6f}), glm::dvec3(0.0));
-    b.add("ball", sphere(0.4, 32, 16), b.material("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.4f}),
-          glm::dvec3(-0.2, 0.4, -0.8));
-    const auto pane = [&](const char* name, const Surface& surface, float transmission, double x, double z) {
-        const int material = b.material(name, surface);
-        b.scene.materials.back().transmission = transmission;
-        b.add(name, quad({x, 0.2, z}, {1.2, 0, 0.15}, {0, 1.1, 0}), material, glm::dvec3(0.0));
-        return &b.scene.materials.back();
-    };
-    pane("clear", {glm::vec3(1), 0, 0.1f}, 1, -1.4, 0);
-    pane("green", {{0.2f, 0.8f, 0.4f}, 0, 0.3f}, 0.7f, -0.9, 0.5)->double_sided = true;
-    Material* const gauze = pane("gauze", {{0.9f, 0.7f, 0.3f}, 0, 0.5f}, 0.8f, -0.3, 0.2);
-    gauze->alpha_mode = AlphaMode::blend;
-    gauze->base_color.a = 0.6f;
-    Material* const holes = pane("holes", {glm::vec3(1), 0, 0.4f}, 0.9f, 0.3, 0.8);
-    holes->alpha_mode = AlphaMode::mask;
-    holes->base_color_texture = b.texture(lattice("lattice", 64), 1);
-    pane("metal", {{0.9f, 0.7f, 0.3f}, 0.5f, 0.3f, {0.05f, 0.1f, 0.02f}}, 0.9f, 0.5, -0.3)->ior = 1.8f;
-    b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
-    b.point({-0.5, 1.2, 1.6}, {1.0f, 0.7f, 0.4f}, 2, 5);
-    return std::move(b.scene);
-}
-
-TEST(Transmission, IsTheReferences) {
-    const Scene scene = panes();
-    Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
-    settings.ambient = {0.2f, 0.3f, 0.4f};
-    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
-    settings.haze = true;
-    settings.haze_density = 2000;
-    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{}) << "in haze";
-    settings.shadows = Shadows::pcf;  // panes cast none
-    settings.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{}) << "with shadows";
-}
-
-TEST(Transmission, BothPathsAreEqualBitForBit) {
-    const Scene scene = panes();
-    Renderer renderer(device(), scene, pipelines());
-    for (const auto& [transparency, name] : enumNames<Transparency>()) {
-        Settings settings = blendedPicture();
-        settings.transparency = transparency;
-        settings.shadows = Shadows::pcf;
-        settings.haze = true;
-        const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u) << name;
-    }
-}
-
-// One pane at a time: order is irrelevant, and every mode must keep its transmission and reflection. Sums
-// round to float32 a few more times.
-TEST(Transmission, OnePaneIsTheSameInEveryMode) {
-    for (const float metallic : {0.0f, 0.5f}) {
-        Scene scene = paneOf({0.5f, 0.8f, 1}, 0.9f, metallic);
-        scene.lights[0].direction = {0.2, -0.1, -1};
-        Renderer renderer(device(), scene, pipelines());
-        Settings settings = blendedPicture();
-        const Image expected = drawnBy(Path::deferred, renderer, settings, {lit}).channels.at(lit);
-        for (const auto& [transparency, name] : enumNames<Transparency>()) {
-            if (transparency == Transparency::off) continue;
-            settings.transparency = transparency;
-            const Image made = drawnBy(Path::deferred, renderer, settings, {lit}).channels.at(lit);
-            double most = 0;
-            for (std::size_t i = 0; i < made.data.size(); ++i)
-                most = std::max(most, std::abs(double{made.data[i]} / double{expected.data[i]} - 1));
-            EXPECT_LT(most, 2e-5) << name << ", metallic " << metallic;
-        }
-    }
-}
-
-// Lists match the reference's order, also with masked or partly covering panes.
-TEST(Transmission, ListsAreTheReferences) {
-    const Scene scene = panes();
-    Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
-    settings.transparency = Transparency::list;
-    EXPECT_EQ(failures(scene, renderer, settings), std::vector<std::string>{});
+    EXPECT_EQ(failedChannels("builtin:crossed", settings).size(), 2u);
 }
 
 // Sets the alpha mode and opacity of every material without a mask; alpha of textures and vertices becomes
@@ -453,10 +290,10 @@ TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     settings.transparency_layers = 32;
     settings.haze = true;
     const Image opaque =
-        picture(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings).channels.at(lit);
+        drawnBlended(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings).channels.at(lit);
     EXPECT_GT(*std::ranges::max_element(opaque.data), 0.0f);
-    for (const Path path : rasterPaths) {
-        const Image made = picture(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(lit);
+    for (const Path path : drawn_paths) {
+        const Image made = drawnBlended(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(lit);
         double most = 0;
         for (std::size_t i = 0; i < made.data.size(); ++i)
             most = std::max(most, std::abs(double{made.data[i]} - double{opaque.data[i]}) /
@@ -519,8 +356,8 @@ TEST(Transparent, HazeIsThatOfItsOwnDepth) {
             const glm::dvec3 seen = behind * glm::exp(-extinction * far),
                              hazed = front * glm::exp(-extinction * near);
             const glm::dvec3 expected = transparency == Transparency::off ? seen : 0.5 * hazed + 0.5 * seen;
-            for (const Path path : rasterPaths) {
-                const glm::dvec3 made = pixelOf(picture(path, scene, settings), 48, 27);
+            for (const Path path : drawn_paths) {
+                const glm::dvec3 made = litAt(drawnBlended(path, scene, settings), 48, 27);
                 // Ray marching sums the optical depths of two media in float32.
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(made[c], expected[c], steps > 0 ? 1e-5 : 2e-6)
@@ -545,11 +382,11 @@ TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
         b.scene.environment = {"sky", Image(8, 4, 3, 2.0f)};
         Settings settings = blendedPicture();
         settings.transparency = transparency;
-        for (const Path path : rasterPaths) {
-            const Frame frame = picture(path, b.scene, settings);
+        for (const Path path : drawn_paths) {
+            const Frame frame = drawnBlended(path, b.scene, settings);
             EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
             // 1 m in front of the camera it is at the horizon's height, -2 + 3 (3 / 4.5) = 0.
-            const glm::dvec3 below = pixelOf(frame, 48, 40), above = pixelOf(frame, 48, 2);
+            const glm::dvec3 below = litAt(frame, 48, 40), above = litAt(frame, 48, 2);
             EXPECT_NEAR(below.x, 0.5 * 0.25 + 0.5 * 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);
             EXPECT_NEAR(above.x, 2, 1e-5) << nameOf(transparency) << " " << nameOf(path);
         }

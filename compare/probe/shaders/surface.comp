@@ -9,8 +9,8 @@
 void main() {
     if (beyondRows()) return;
     switch (probed) {
-        case 0:  // roughness, change of the normal in x and y, part of it due to rounding
-            out1(0, filteredRoughness(in1(0), in3(1), in3(4), in1(7)));
+        case 0:  // roughness, change of the normal in x and y, part of it due to rounding, limit
+            out1(0, filteredRoughness(in1(0), in3(1), in3(4), in1(7), in1(8)));
             break;
         case 1: {  // F0, F90, albedo -> factors of both, Lambertian lobe
             SpecularFactors s = specularFactors(vec3(in1(0)), in1(1), vec2(in1(2), in1(3)));

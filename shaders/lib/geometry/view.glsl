@@ -36,6 +36,8 @@ uvec4 viewTexel(int i) {
 #define UNPACK_FLOAT(texel, lane, member) v.member = uintBitsToFloat(t##texel.lane);
 #define UNPACK_UINT(texel, lane, member) v.member = t##texel.lane;
 #define UNPACK_SHORTS(texel, lane, low, high) v.low = t##texel.lane & 0xffffu, v.high = t##texel.lane >> 16;
+#define UNPACK_BYTES(texel, lane, low, middle, high) \
+    v.low = t##texel.lane & 0xffu, v.middle = t##texel.lane >> 8 & 0xffu, v.high = t##texel.lane >> 16;
 
 View readView() {
     View v = view_block;
@@ -49,8 +51,8 @@ View readView() {
 LightGrid readGrid() {
     LightGrid v = grid_block;
     if (feature_view_source != VIEW_UNIFORM) {
-        uvec4 t3 = viewTexel(3), t4 = viewTexel(4);
-        PACKED_GRID(UNPACK_FLOAT, UNPACK_UINT, UNPACK_SHORTS)
+        uvec4 t3 = viewTexel(3);
+        PACKED_GRID(UNPACK_FLOAT, UNPACK_SHORTS, UNPACK_BYTES)
     }
     return v;
 }
@@ -58,6 +60,7 @@ LightGrid readGrid() {
 #undef UNPACK_FLOAT
 #undef UNPACK_UINT
 #undef UNPACK_SHORTS
+#undef UNPACK_BYTES
 
 View view = readView();
 LightGrid grid = readGrid();

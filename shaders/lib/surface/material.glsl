@@ -230,7 +230,7 @@ float filteredRoughness(float roughness, vec3 n) {
         down *= inversesqrt(dot(down, down));
         return steepenedRoughness(roughness, dFdxFine(unit), dFdyFine(unit), right, down, rounded);
     }
-    return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded);
+    return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded, view.specular_aa_limit);
 }
 
 float filteredRoughness(float roughness) {

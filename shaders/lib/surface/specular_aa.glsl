@@ -22,11 +22,10 @@ float roundedChange(float inverse_w, vec2 pixel, float dx, float dy) {
 }
 
 // Perceptual roughness if the unit normal changes by `dn_dx` and `dn_dy` between pixels. A change up to
-// `rounded` counts as flat and keeps the roughness bit for bit.
-float filteredRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, float rounded) {
+// `rounded` counts as flat and keeps the roughness bit for bit. `limit`: kappa.
+float filteredRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, float rounded, float limit) {
     float change = dot(dn_dx, dn_dx) + dot(dn_dy, dn_dy);
     float variance = uintBitsToFloat(feature_specular_aa_variance);  // sigma^2, square pixels
-    float limit = uintBitsToFloat(feature_specular_aa_limit);        // kappa
     float kernel = change > rounded ? min(2.0 * variance * change, limit) : 0.0;
     float alpha = max(roughness, MIN_PERCEPTUAL_ROUGHNESS);  // as shaded
     alpha *= alpha;

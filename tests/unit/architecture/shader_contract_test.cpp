@@ -296,13 +296,14 @@ TEST(ShaderContract, ThePackedViewHoldsEveryField) {
 #define FILL_FLOAT(texel, lane, member) of.member = number++;
 #define FILL_UINT(texel, lane, member) of.member = count++;
 #define FILL_SHORTS(texel, lane, low, high) of.low = count++, of.high = count++;
+#define FILL_BYTES(texel, lane, low, middle, high) of.low = count++, of.middle = count++, of.high = count++;
     {
         gpu::View& of = view;
         PACKED_VIEW(FILL_FLOAT, FILL_UINT)
     }
     {
         gpu::LightGrid& of = grid;
-        PACKED_GRID(FILL_FLOAT, FILL_UINT, FILL_SHORTS)
+        PACKED_GRID(FILL_FLOAT, FILL_SHORTS, FILL_BYTES)
     }
     const PackedView t = packedView(view, grid);
     std::size_t fields = 0;
@@ -315,15 +316,19 @@ TEST(ShaderContract, ThePackedViewHoldsEveryField) {
 #define SAME_SHORTS(texel, lane, low, high)      \
     same(#low, t[texel].lane & 0xffffu, of.low); \
     same(#high, t[texel].lane >> 16, of.high);
+#define SAME_BYTES(texel, lane, low, middle, high)        \
+    same(#low, t[texel].lane & 0xffu, of.low);            \
+    same(#middle, t[texel].lane >> 8 & 0xffu, of.middle); \
+    same(#high, t[texel].lane >> 16, of.high);
     {
         const gpu::View& of = view;
         PACKED_VIEW(SAME_FLOAT, SAME_UINT)
     }
     {
         const gpu::LightGrid& of = grid;
-        PACKED_GRID(SAME_FLOAT, SAME_UINT, SAME_SHORTS)
+        PACKED_GRID(SAME_FLOAT, SAME_SHORTS, SAME_BYTES)
     }
-    EXPECT_EQ(fields, 22u);
+    EXPECT_EQ(fields, 23u);
 }
 
 TEST(ShaderContract, ALaneThatIsFilledTwiceOrNotAtAllIsFound) {

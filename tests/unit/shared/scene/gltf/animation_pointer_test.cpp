@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// KHR_animation_pointer: targets of pointers, animated properties, and ranges.
+// KHR_animation_pointer: animated properties, and ranges.
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/requirements.h"
-#include "tests/support/gltf_builder.h"
+#include "tests/unit/shared/scene/gltf/pointer_file.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -16,73 +16,6 @@ namespace diptych {
 namespace {
 
 using Json = nlohmann::json;
-
-const char* const onePixel =
-    "data:image/"
-    "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5E"
-    "rkJggg==";
-
-// A morphed triangle with a textured material, a spot light, a sun, and both camera types.
-struct PointerFile : GltfFile {
-    PointerFile() : GltfFile(triangle()) {
-        const int up = accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, FLOAT, "VEC3", 3);
-        primitive()["targets"] = {{{"POSITION", up}}, {{"POSITION", up}}};
-        primitive()["attributes"]["TEXCOORD_0"] = accessor<float>({0, 0, 1, 0, 0, 1}, FLOAT, "VEC2", 2);
-        primitive()["material"] = 0;
-        json["meshes"][0]["weights"] = {0.5, 0.25};
-        const Json texture = {{"index", 0}};
-        json["materials"] = {
-            {{"pbrMetallicRoughness", {{"baseColorTexture", texture}, {"metallicRoughnessTexture", texture}}},
-             {"normalTexture", texture},
-             {"occlusionTexture", texture},
-             {"emissiveTexture", texture},
-             {"extensions",
-              {{"KHR_materials_specular", {{"specularTexture", texture}, {"specularColorTexture", texture}}},
-               {"KHR_materials_clearcoat",
-                {{"clearcoatTexture", texture},
-                 {"clearcoatRoughnessTexture", texture},
-                 {"clearcoatNormalTexture", texture}}},
-               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}},
-               {"KHR_materials_sheen", {{"sheenColorTexture", texture}, {"sheenRoughnessTexture", texture}}},
-               {"KHR_materials_iridescence",
-                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}}}}}};
-        json["images"] = {{{"uri", onePixel}}};
-        json["textures"] = {{{"source", 0}}};
-        json["cameras"] = {{{"type", "perspective"},
-                            {"perspective", {{"yfov", 1}, {"aspectRatio", 1}, {"znear", 0.5}, {"zfar", 10}}}},
-                           {{"type", "orthographic"},
-                            {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.5}, {"zfar", 10}}}}};
-        json["extensions"]["KHR_lights_punctual"]["lights"] = {
-            {{"type", "spot"}, {"range", 5}, {"spot", {{"innerConeAngle", 0.125}, {"outerConeAngle", 0.5}}}},
-            {{"type", "directional"}}};
-        const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
-        json["nodes"][0]["extensions"] = light(0);
-        json["nodes"].push_back({{"camera", 0}, {"extensions", light(1)}});
-        json["nodes"].push_back({{"camera", 1}, {"extensions", light(0)}});
-        json["scenes"] = {{{"nodes", {0, 1, 2}}}};
-        json["extensionsUsed"] = {"KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_specular"};
-    }
-    // Keys at 0 s and 1 s.
-    PointerFile& channel(const std::string& pointer, const std::vector<float>& values,
-                         const char* interpolation = "LINEAR") {
-        const std::size_t width = values.size() / (std::string(interpolation) == "CUBICSPLINE" ? 6 : 2);
-        const bool array = pointer.ends_with("/weights");
-        const char* const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-        return channelTo(pointer, accessor(values, FLOAT, array ? "SCALAR" : types[width], array ? 1 : width),
-                         interpolation);
-    }
-    PointerFile& channelTo(const std::string& pointer, int output, const char* interpolation = "LINEAR") {
-        Json& a = json["animations"][0];
-        a["samplers"].push_back({{"input", accessor<float>({0, 1}, FLOAT, "SCALAR", 1)},
-                                 {"output", output},
-                                 {"interpolation", interpolation}});
-        a["channels"].push_back(
-            {{"sampler", a["samplers"].size() - 1},
-             {"target",
-              {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
-        return *this;
-    }
-};
 
 const Material& materialAt(const Scene& scene, const Pose& pose) {
     return materialsOf(scene, pose).at(0);
@@ -400,115 +333,6 @@ TEST(GltfAnimationPointer, WhatAFactorSwitchesOnIsNeeded) {
     EXPECT_EQ(end.max_emission, 0.5f);
     EXPECT_EQ(materialsThatBlend(scene), (std::vector<bool>{true}));
     EXPECT_TRUE(mentions(scene.notes, "1 material (0) with KHR_materials_transmission: blended"));
-}
-
-// ---- faults ------------------------------------------------------------------------------------------
-
-TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
-    const std::string nothing = "names a property that cannot be animated here";
-    const std::pair<std::string, std::string> cases[] = {
-        {"", nothing},
-        {"/", nothing},
-        {"nodes/0/scale", nothing},
-        {"/nodes/0", nothing},
-        {"/nodes/0/scale/", nothing},
-        {"/nodes/0/scale/0", nothing},
-        {"/nodes/-1/scale", nothing},
-        {"/nodes/00/scale", nothing},
-        {"/nodes/+0/scale", nothing},
-        {"/nodes//scale", nothing},
-        {"/nodes/99999999999999999999/scale", nothing},
-        {"/nodes/0/matrix", nothing},
-        {"/materials/0/extensions/KHR_materials_dispersion/dispersion", nothing},
-        {"/materials/0/doubleSided", nothing},
-        {"/materials/0/extras/a", nothing},
-        {"/nodes/3/scale", "the file has 3"},
-        {"/materials/1/alphaCutoff", "the file has 1"},
-        {"/meshes/0/weights/2", "the mesh has 2 morph targets"},
-        {"/cameras/0/orthographic/znear", "the camera is perspective"},
-        {"/cameras/0/orthographic/xmag", "the camera is perspective"},
-        {"/cameras/1/perspective/yfov", "the camera is orthographic"},
-    };
-    for (const auto& [pointer, fault] : cases) {
-        PointerFile f;
-        f.channel(pointer, {0, 1});
-        const Scene scene = f.load();
-        EXPECT_TRUE(scene.animations.empty()) << pointer;
-        EXPECT_TRUE(mentions(scene.notes, fault)) << pointer;
-        EXPECT_TRUE(mentions(scene.notes, "animation 0: 1 of 1 channels left out: channel 0: pointer"))
-            << pointer;
-    }
-    const std::tuple<const char*, const char*, std::function<void(PointerFile&)>> changed[] = {
-        {"/cameras/0/perspective/zfar", "the camera has no zfar",
-         [](PointerFile& f) { f.json["cameras"][0]["perspective"].erase("zfar"); }},
-        {"/cameras/0/perspective/aspectRatio", "the camera has no aspectRatio",
-         [](PointerFile& f) { f.json["cameras"][0]["perspective"].erase("aspectRatio"); }},
-        {"/extensions/KHR_lights_punctual/lights/0/range", "the light has no range",
-         [](PointerFile& f) { f.json["extensions"]["KHR_lights_punctual"]["lights"][0].erase("range"); }},
-        {"/materials/0/normalTexture/scale", "the material has no such texture",
-         [](PointerFile& f) { f.json["materials"][0].erase("normalTexture"); }}};
-    for (const auto& [pointer, fault, change] : changed) {
-        PointerFile f;
-        change(f);
-        f.channel(pointer, {1, 2});
-        EXPECT_TRUE(mentions(f.load().notes, fault)) << pointer;
-    }
-}
-
-TEST(GltfAnimationPointer, OutputsFitWhatTheyMove) {
-    PointerFile f;
-    f.channelTo("/materials/0/alphaCutoff", f.accessor<float>({0, 0, 0, 1, 1, 1}, FLOAT, "VEC3", 3));
-    EXPECT_TRUE(mentions(f.load().notes, "is not SCALAR"));
-    PointerFile g;
-    g.channelTo("/materials/0/alphaCutoff", g.accessor<float>({0, 0, 0, 1}, FLOAT, "SCALAR", 1));
-    EXPECT_TRUE(mentions(g.load().notes, "4 elements for 2 keys"));
-    PointerFile h;
-    h.channel("/nodes/0/weights", {0, 0, 0, 1, 1, 1});
-    EXPECT_TRUE(mentions(h.load().notes, "3 weights per key, but node 0 has 2 morph targets"));
-}
-
-// By two pointers, by a pointer and a plain target, or by an array and its element.
-TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
-    const std::pair<const char*, const char*> cases[] = {{"/nodes/0/weights", "/nodes/0/weights"},
-                                                         {"/nodes/0/weights", "/nodes/0/weights/1"},
-                                                         {"/nodes/0/weights/1", "/nodes/0/weights"},
-                                                         {"/meshes/0/weights/1", "/meshes/0/weights/1"},
-                                                         {"/meshes/0/weights/0", "/meshes/0/weights"}};
-    for (const auto& [first, second] : cases) {
-        PointerFile f;
-        for (const std::string pointer : {first, second})
-            f.channel(pointer, pointer.ends_with("weights") ? std::vector<float>{0, 0, 1, 1}
-                                                            : std::vector<float>{0, 1});
-        const Scene scene = f.load();
-        EXPECT_EQ(scene.animations.at(0).channels.size(), 1u) << first << " " << second;
-        EXPECT_TRUE(mentions(scene.notes, "an earlier channel already animates")) << first << second;
-    }
-    PointerFile elements;
-    elements.channel("/nodes/0/weights/0", {0, 1}).channel("/nodes/0/weights/1", {0, 1});
-    EXPECT_EQ(elements.load().animations.at(0).channels.size(), 2u);
-    PointerFile plain;
-    plain.channel("/nodes/0/translation", {0, 0, 0, 1, 1, 1});
-    Json second = plain.json["animations"][0]["channels"][0];
-    second["target"] = {{"node", 0}, {"path", "translation"}};
-    plain.json["animations"][0]["channels"].push_back(second);
-    EXPECT_TRUE(mentions(plain.load().notes, "an earlier channel already animates node 0"));
-}
-
-// An unlit material only shows its base colour, and a sun has no cone: such channels change nothing.
-TEST(GltfAnimationPointer, WhatCannotBeSeenIsIgnored) {
-    PointerFile f;
-    f.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
-    f.channel("/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
-    f.channel("/extensions/KHR_lights_punctual/lights/1/spot/innerConeAngle", {0, 1});
-    Scene scene = f.load();
-    EXPECT_TRUE(scene.animations.empty());
-    EXPECT_FALSE(mentions(scene.notes, "left out: channel"));
-    f.channel("/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 0, 1, 1, 1, 1});
-    scene = f.load();
-    EXPECT_EQ(poseAt(scene, 0.5).materials.at(0).base_color, glm::vec4(0.5f));
-    EXPECT_TRUE(poseAt(scene, 0.5).materials[0].unlit);
-    f.json["extensionsRequired"] = {"KHR_animation_pointer"};
-    EXPECT_NO_THROW(f.load());
 }
 
 }  // namespace
