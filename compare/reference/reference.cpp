@@ -151,15 +151,15 @@ private:
         std::vector<float> values{0};
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = renderer.render(x, y);
-            const auto takeChannel = [&](int mode, const Pixel& of) {
+            const auto takeChannel = [&](int mode, int width, const Pixel& of) {
                 const glm::dvec3 value = channelValue(mode, of);
-                for (int c = 0; c < debugMode(mode).width; ++c)
-                    values.push_back(static_cast<float>(value[c]));
+                for (int c = 0; c < width; ++c) values.push_back(static_cast<float>(value[c]));
             };
-            for (const DebugMode* mode : drawn_) takeChannel(mode->number, pixel);
+            for (const DebugMode* mode : drawn_) takeChannel(mode->number, mode->width, pixel);
             if (request_.decoded) {
                 const Pixel decoded = renderer.withDecoded(x, y, pixel);
-                for (const auto& [mode, image] : picture_.decoded) takeChannel(mode, decoded);
+                for (const auto& [mode, image] : picture_.decoded)
+                    takeChannel(mode, image.components, decoded);
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty + pixel.blended.uncertainty));
             const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
