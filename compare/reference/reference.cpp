@@ -56,7 +56,7 @@ public:
             }
             image = Image(request.view.width, request.view.height, mode.width);
             if (copied) continue;  // of a layer that no surface has: 0
-            drawn_.push_back(&mode);
+            drawn_.emplace_back(&mode, &image);
             floats_ += mode.width;
         }
         if (request.decoded)
@@ -151,15 +151,15 @@ private:
         std::vector<float> values{0};
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = renderer.render(x, y);
-            const auto takeChannel = [&](int mode, const Pixel& of) {
+            const auto takeChannel = [&](int mode, int width, const Pixel& of) {
                 const glm::dvec3 value = channelValue(mode, of);
-                for (int c = 0; c < debugMode(mode).width; ++c)
-                    values.push_back(static_cast<float>(value[c]));
+                for (int c = 0; c < width; ++c) values.push_back(static_cast<float>(value[c]));
             };
-            for (const DebugMode* mode : drawn_) takeChannel(mode->number, pixel);
+            for (const auto& [mode, image] : drawn_) takeChannel(mode->number, mode->width, pixel);
             if (request_.decoded) {
                 const Pixel decoded = renderer.withDecoded(x, y, pixel);
-                for (const auto& [mode, image] : picture_.decoded) takeChannel(mode, decoded);
+                for (const auto& [mode, image] : picture_.decoded)
+                    takeChannel(mode, image.components, decoded);
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty + pixel.blended.uncertainty));
             const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
@@ -183,10 +183,8 @@ private:
     void put(std::uint64_t tile, const std::vector<float>& values) {
         const float* next = values.data() + 1;  // after the seconds
         eachPixel(tile, [&](int x, int y) {
-            for (const DebugMode* mode : drawn_) {
-                Image& image = picture_.channels[mode->number];
-                for (int c = 0; c < mode->width; ++c) image.at(x, y, c) = *next++;
-            }
+            for (const auto& [mode, image] : drawn_)
+                for (int c = 0; c < mode->width; ++c) image->at(x, y, c) = *next++;
             for (auto& [mode, image] : picture_.decoded)
                 for (int c = 0; c < image.components; ++c) image.at(x, y, c) = *next++;
             picture_.uncertainty.at(x, y) = *next++;
@@ -197,8 +195,8 @@ private:
 
     const Request& request_;
     const int across_, down_;
-    int floats_ = 0;  // floats per pixel; a tile has one more
-    std::vector<const DebugMode*> drawn_;
+    int floats_ = 0;                                          // floats per pixel; a tile has one more
+    std::vector<std::pair<const DebugMode*, Image*>> drawn_;  // images in picture_
     Picture picture_;
 };
 

@@ -66,8 +66,11 @@ public:
             if ((of.number == mode.number || (isLit(mode.number) && isSurface(of))) &&
                 pair.baseline.channels.contains(of.number) && pair.test.channels.contains(of.number))
                 bounds_[of.number] = encodingBound(of, pair);
-        if (pair.texels)
-            for (std::size_t code = 0; code < 256; ++code) shares_[code] = srgbShare(code);
+        for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
+        if (!pair.texels) return;
+        for (std::size_t code = 255; code > 0; --code)
+            shares_[code - 1] = shares_[code] =
+                std::max(shares_[code], pair.texels->srgbError(code) / exact_[code]);
     }
 
     Footprints operator()() {
@@ -179,6 +182,14 @@ private:
                 // The specular texture scales F0, and metallic mixes it with albedo.
                 return most + (mode.texels == TexelUse::scaled_color ? code : 0);
             }
+<<<<<<< HEAD
+=======
+            case gpu::DEBUG_emission:
+            case gpu::DEBUG_lightmap:
+                return shares_[1] * metrics::largestFinite(value, mode.width);
+            default:
+                return 0;
+>>>>>>> 412210e63faa6efa544d1ebd52d06901e7ef9ee3
         }
         return 0;
     }
@@ -208,20 +219,11 @@ private:
         return share * size;
     }
 
-    // Largest relative decoding error over codes from `first` on: a factor may have darkened the texel,
-    // never brightened it.
-    double srgbShare(std::size_t first) const {
-        double most = 0;
-        for (std::size_t code = std::max<std::size_t>(first, 1); code < 256; ++code)
-            most = std::max(most, pair_.texels->srgbError(code) / exactSrgb(code));
-        return most;
-    }
     // Bound of a decoded colour; includes one more code for mip levels.
     double srgbBound(double value) const {
         std::size_t code = 0;
-        while (code < 254 && exactSrgb(code + 1) <= value) ++code;
-        return value * shares_[code] + exactSrgb(code + 1) - exactSrgb(code) +
-               pair_.texels->srgb_filter.rounding;
+        while (code < 254 && exact_[code + 1] <= value) ++code;
+        return value * shares_[code] + exact_[code + 1] - exact_[code] + pair_.texels->srgb_filter.rounding;
     }
 
     // Largest permitted error of a smooth pixel, in the channel's metric; negative if it is not smooth.
@@ -309,8 +311,11 @@ private:
     const Image &baseline_, &test_;
     PixelError error_;
     EnvironmentCost environment_;
-    std::map<int, double> bounds_;      // encodingBound() of the surface's channels
-    std::array<double, 256> shares_{};  // srgbShare() of each code
+    std::map<int, double> bounds_;  // encodingBound() of the surface's channels
+    std::array<double, 256> exact_{};
+    // Largest relative decoding error over codes from this one on: a factor may have darkened the texel,
+    // never brightened it.
+    std::array<double, 256> shares_{};
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Canonical form of disassembled SPIR-V: equal for modules that differ only in ids and in the order of
-// declarations.
+// declarations and blocks.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,35 @@
 #include <vector>
 
 namespace diptych {
+
+// The lines of functions with their blocks in depth-first order from each function's first.
+inline std::vector<std::string> blocksInOrder(const std::vector<std::string>& functions) {
+    static const std::regex label("^%([0-9]+) = OpLabel$"), id("%([0-9]+)");
+    std::map<std::string, std::vector<std::string>> blocks;
+    std::vector<std::string> lines, *block = &lines;
+    std::string first;
+    const std::function<void(const std::string&)> visit = [&](const std::string& of) {
+        const auto taken = blocks.extract(of);
+        if (taken.empty()) return;
+        lines.insert(lines.end(), taken.mapped().begin(), taken.mapped().end());
+        for (const std::string& line : taken.mapped())  // branches and merges name blocks
+            if (line.starts_with("Op"))
+                for (std::sregex_iterator at(line.begin(), line.end(), id), end; at != end; ++at)
+                    visit((*at)[1]);
+    };
+    for (const std::string& line : functions) {
+        std::smatch match;
+        if (std::regex_match(line, match, label)) {
+            if (blocks.empty()) first = match[1];
+            block = &blocks[match[1]];
+        } else if (line == "OpFunctionEnd") {
+            visit(first);
+            block = &lines;
+        }
+        block->push_back(line);
+    }
+    return lines;
+}
 
 // `disassembly`: output of spirv-dis --no-header --raw-id. Each declaration (type, constant, variable with
 // its decorations) becomes an index into `known`, a table shared by all compared modules. Ids in functions
@@ -81,7 +110,7 @@ inline std::vector<std::string> canonicalSpirv(const std::string& disassembly,
         }
         lines.push_back(text);
     }
-    for (const std::string& line : functions) {
+    for (const std::string& line : blocksInOrder(functions)) {
         std::smatch match;
         const bool made = std::regex_match(line, match, definition);
         lines.push_back(replaced(line, name) + (made ? decorations[match[1]] : ""));

@@ -35,12 +35,14 @@ TEST(CommandLine, WithoutWordsTheGalleryIsMeant) {
 
 TEST(CommandLine, EverySettingIsAnOptionOfEveryRenderingCommand) {
     const Settings defaults;
-    for (const std::string& command : rendering)
+    for (const std::string& command : rendering) {
+        std::vector<std::string> words{command};
         Settings::fields(defaults, [&](const Field& field, const auto&) {
-            const std::string option(field.option);
-            EXPECT_EQ(parseCommandLine({command, "--" + option, defaults.valueOf(option)}).settings, defaults)
-                << option;
+            words.push_back(fmt::format("--{}", field.option));
+            words.push_back(defaults.valueOf(field.option));
         });
+        EXPECT_EQ(parseCommandLine(words).settings, defaults) << command;
+    }
 }
 
 // Options other than Settings.

@@ -75,7 +75,7 @@ TEST(ExperimentGrid, WhateverItHoldsIsPlannedOrRefused) {
     std::mt19937 random(3);
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
     int planned = 0, refused = 0;
-    for (int trial = 0; trial < 20000; ++trial) {
+    for (int trial = 0; trial < 4000; ++trial) {
         std::string text = sound;
         for (std::size_t change = below(4); change > 0; --change)
             text.replace(
@@ -90,8 +90,8 @@ TEST(ExperimentGrid, WhateverItHoldsIsPlannedOrRefused) {
             ++refused;
         }
     }
-    EXPECT_GT(planned, 1000);
-    EXPECT_GT(refused, 1000);
+    EXPECT_GT(planned, 200);
+    EXPECT_GT(refused, 200);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -113,26 +114,27 @@ class Studio {
 public:
     Studio() : charts_(loadScene("builtin:calibration")) {
         for (const Lamp lamp : lamps) truths_[lamp] = referenceUnder(charts_, lamp);
+        std::normal_distribution<double> noise(1, 0.02);
+        for (double& factor : noise_) factor = noise(random_);
     }
     const Scene& charts() const { return charts_; }
 
     std::vector<Shown> pictures(const Fake& fake, unsigned seed) {
-        std::mt19937 random(seed);
+        random_.seed(seed);
         std::vector<Shown> all;
-        for (const Lamp lamp : lamps)
-            all.push_back({lamp, truths_.at(lamp), picture(fake, lamp, random), {}});
+        for (const Lamp lamp : lamps) all.push_back({lamp, truths_.at(lamp), picture(fake, lamp), {}});
         return all;
     }
 
 private:
-    Image picture(const Fake& fake, Lamp lamp, std::mt19937& random) {
-        std::normal_distribution<double> noise(1, 0.02);
-        const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random);
+    Image picture(const Fake& fake, Lamp lamp) {
+        const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random_);
         const auto found = fake.factors.find(lamp);
         const double factor = (found == fake.factors.end() ? 1 : found->second) * model;
         const ChartReference& lit = drawn(fake, lamp);
         const ChartReference& dark = drawn(fake, Lamp::none);
         Image image = lit.lit;
+        std::size_t next = random_() % noise_.size();
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const int fx = fake.mirrored ? image.width - 1 - x : x,
@@ -141,7 +143,7 @@ private:
                 for (int c = 0; c < 3; ++c)
                     v[c] =
                         (dark.lit.at(fx, fy, c) + factor * (lit.lit.at(fx, fy, c) - dark.lit.at(fx, fy, c))) *
-                        noise(random);
+                        noise_[next++ % noise_.size()];
                 if (fake.primaries) v = *fake.primaries * v;
                 for (int c = 0; c < 3; ++c)
                     image.at(x, y, c) = static_cast<float>(fake.curve ? fake.curve(v[c]) : v[c]);
@@ -164,9 +166,9 @@ private:
     ChartReference draw(const Fake& fake, Lamp lamp) const {
         Scene scene = chartsUnder(charts_, lamp);
         Settings settings = chartSettings(lamp);
-        // Under the environment, where pixels are slow and only the centres of faces count, at a quarter
-        // of the size.
-        const int coarse = lamp == Lamp::environment ? 4 : 1;
+        // With light, where only the centres of faces count, at a quarter of the size; under the environment,
+        // where pixels are slow, at an eighth.
+        const int coarse = lamp == Lamp::none ? 1 : lamp == Lamp::environment ? 8 : 4;
         const Size whole_size = settings.size;
         const Size size{whole_size.width / coarse, whole_size.height / coarse};
         settings.size = coarse > 1 ? size : Size{size.width + fake.right, size.height + fake.down};
@@ -207,6 +209,8 @@ private:
     }
 
     const Scene charts_;
+    std::mt19937 random_{1};
+    std::array<double, 99991> noise_{};  // factors; each image starts at another one
     std::map<Lamp, ChartReference> truths_;
     std::map<std::string, ChartReference> drawn_;
 };

@@ -282,7 +282,7 @@ void expectSame(const Picture& a, const Picture& b) {
 
 TEST(ReferenceDraw, TheSamePictureWhateverTheNumberOfThreads) {
     const Scene scene = sampledScene(0.2f);
-    const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 18, 17);
+    const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 33, 2);
     const Drawn many = drawn(scene, view, true);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     expectSame(many.picture, drawn(scene, view, true).picture);

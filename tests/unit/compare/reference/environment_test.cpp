@@ -180,7 +180,7 @@ TEST(ReferenceEnvironment, OneBrightTexel) {
         const Environment sky = sunnySky(texel.x, texel.y);
         const EnvironmentLight light(sky, 1);
         const Surface s = lambertian(ofTexel(texel.x + 2.5, texel.y + 0.3, 16, 8));
-        constexpr int rows = 512, columns = 1024;
+        constexpr int rows = 256, columns = 512;
         double expected = 0;
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x) {
@@ -200,7 +200,7 @@ TEST(ReferenceEnvironment, ASmoothLayerOverAWhiteBaseUnderACoarseSky) {
     s.dielectric_f0 = glm::dvec3(0.04);
     s.dielectric_f90 = 0.04;  // F90 = F0: 0.96 of the light reaches the base, the rest is mirrored
     s.to_viewer = s.normal;
-    for (const glm::ivec2 size : {glm::ivec2(2, 1), {4, 2}, {8, 4}, {16, 8}, {64, 32}})
+    for (const glm::ivec2 size : {glm::ivec2(2, 1), {8, 4}, {64, 32}})
         expectConfident(constantSky(1, size.x, size.y), s, 0.96 + 0.04 * 0.99998, samplingError);
 }
 

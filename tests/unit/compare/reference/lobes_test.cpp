@@ -149,8 +149,8 @@ double ceilingLight(const Surface& s, const glm::dvec4& extent, const glm::dvec2
     const double alpha = s.roughness * s.roughness;
     const Crowded along_x{extent.x, extent.y, mirrored.x, alpha},
         along_y{extent.z, extent.w, mirrored.y, alpha};
-    return along_x(500, [&](double x) {
-        return along_y(500, [&](double y) {
+    return along_x(300, [&](double x) {
+        return along_y(300, [&](double y) {
             const double square = x * x + y * y + 1;
             return appendixB(s, glm::normalize(glm::dvec3(x, y, 1))) / (square * std::sqrt(square));
         });

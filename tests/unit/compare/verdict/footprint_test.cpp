@@ -49,6 +49,7 @@ ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptio
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
+    for (Frame& frame : report.frames) frame.requested = {static_cast<int>(mode)};
     const Comparison comparison = compareFrames(report, 0, 1, needs, options);
     const bool traced = std::ranges::any_of(report.frames, [](const Frame& frame) {
         return frame.settings.reference_mode == ReferenceMode::scene;

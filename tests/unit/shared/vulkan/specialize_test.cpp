@@ -9,6 +9,7 @@
 #include "shared/contract/posing.h"
 #include "shared/vulkan/shader_interface.h"
 #include "shared/vulkan/spirv.h"
+#include "tests/support/campaign.h"
 #include "tests/support/spirv_tools.h"
 
 #include <fmt/format.h>
@@ -105,17 +106,17 @@ std::string ofEveryModule(
 }
 
 TEST(Specialize, EveryModuleStaysValid) {
-    EXPECT_EQ(ofEveryModule(0, 20,
+    EXPECT_EQ(ofEveryModule(0, 8,
                             [](const ShaderModule& module, const FeatureValues& values) {
                                 return complaint(specializedBy(module.words, values));
                             }),
               "");
 }
 
-// Takes a tenth of the validator's time for hundreds of values. With blocks in the module's own order,
-// seed 27 left gbuffer.frag with ids defined further below.
+// Takes a tenth of the validator's time, for hundreds of values in a campaign. With blocks in the module's
+// own order, seed 27 left gbuffer.frag with ids defined further below.
 TEST(Specialize, WhatTheCodeNamesIsMadeAbove) {
-    EXPECT_EQ(ofEveryModule(20, 300,
+    EXPECT_EQ(ofEveryModule(8, isCampaign() ? 300 : 48,
                             [](const ShaderModule& module, const FeatureValues& values) {
                                 const std::uint32_t id = madeBelow(specializedBy(module.words, values));
                                 return id == 0 ? std::string() : fmt::format("%{} is made below", id);
@@ -124,7 +125,7 @@ TEST(Specialize, WhatTheCodeNamesIsMadeAbove) {
 }
 
 TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
-    EXPECT_EQ(ofEveryModule(0, 4,
+    EXPECT_EQ(ofEveryModule(1, isCampaign() ? 5 : 3,
                             [](const ShaderModule& module, const FeatureValues& values) {
                                 const auto theirs = computations(optimised(module.words, values));
                                 const SpirvWords ours = specializedBy(module.words, values);
@@ -137,7 +138,7 @@ TEST(Specialize, LeavesWhatTheOptimiserLeaves) {
 
 // SPIRV-Tools finds no more inputs, outputs or bindings that the code does not use.
 TEST(Specialize, LeavesNoInterfaceThatTheCodeDoesNotName) {
-    EXPECT_EQ(ofEveryModule(0, 12,
+    EXPECT_EQ(ofEveryModule(0, 4,
                             [](const ShaderModule& module, const FeatureValues& values) {
                                 const SpirvWords words = specializedBy(module.words, values);
                                 spvtools::Optimizer optimizer(spirvEnvironment);
