@@ -176,20 +176,12 @@ private:
             case TexelUse::color:
             case TexelUse::scaled_color: {
                 if (mode.metric == Metric::relative)
-                    return srgbShare(1) * metrics::largestFinite(value, mode.width);
+                    return shares_[1] * metrics::largestFinite(value, mode.width);
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
                 // The specular texture scales F0, and metallic mixes it with albedo.
                 return most + (mode.texels == TexelUse::scaled_color ? code : 0);
             }
-<<<<<<< HEAD
-=======
-            case gpu::DEBUG_emission:
-            case gpu::DEBUG_lightmap:
-                return shares_[1] * metrics::largestFinite(value, mode.width);
-            default:
-                return 0;
->>>>>>> 412210e63faa6efa544d1ebd52d06901e7ef9ee3
         }
         return 0;
     }
