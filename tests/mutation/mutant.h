@@ -34,11 +34,7 @@ inline void diptychReach(std::uint32_t n) {
     }();
     if (bytes) bytes[n & 0xffff] = 1;
 }
-inline bool diptychMutant(std::uint32_t n) {
-    diptychReach(n);
-    return n == diptychChosen();
-}
-#define DIPTYCH_MUTANT(n) ::diptychMutant(n)
+#define DIPTYCH_MUTANT(n) (::diptychReach(n), (n) == ::diptychChosen())
 
 // Replaces the switch by an ordinary constant. Marks all edits of the module as reached.
 inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {

@@ -13,25 +13,8 @@ quickest first, until one fails or is late. What survives is compiled once more,
 the original's, it is equivalent. WORK/results.json has all that is known, and the next run goes on from there. An edit
 may remove or overwrite files that it should not: whoever runs this should be able to write little else.
 """
-import argparse
-import bisect
-import collections
-import concurrent.futures
-import contextlib
-import difflib
-import functools
-import json
-import os
-import pathlib
-import random
-import re
-import shutil
-import signal
-import subprocess
-import sys
-import threading
-import time
-import types
+import argparse, collections, concurrent.futures, contextlib, difflib, functools, json, os, pathlib, random, re, shutil
+import signal, subprocess, sys, threading, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("compare", "deferred", "forward_plus", "shaders/lib", "shaders/pass", "shared")
@@ -40,16 +23,10 @@ KINDS = ("unit", "probe", "image", "tool")
 SPARE = 1.4  # candidates drawn per wanted edit: some do not compile
 M = "\0"  # the switch, in Edit.switched
 INCLUDE = '#include "tests/mutation/mutant.h"\n'
+say = functools.partial(print, flush=True)
 # Calls that pass a module to Vulkan or strip it, and their replacements that set the switch.
 SETTERS = (("vkCreateShaderModule(", "diptychCreateShaderModule("),
            ("Specializer(module, value, outputs)", "Specializer(diptychModule(module), value, outputs)"))
-
-
-say = functools.partial(print, flush=True)
-
-
-# --- sources ----------------------------------------------------------------------------------------------
-
 TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|\#(?:\\\n|[^\n])*|\s+)
   |(?P<string>(?:u8|[uUL])?R"(?P<d>[^(\s]*)\(.*?\)(?P=d)"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+')
   |(?P<number>\.?\d(?:[eE][+-]|['\w.])*)|(?P<name>[A-Za-z_]\w*)
@@ -82,7 +59,6 @@ class Source:
         found = [m for m in TOKEN.finditer(text) if not m["skip"]]
         self.count, self.at, self.spans = len(found), [m[0] for m in found] + ["", ""], [m.span() for m in found]
         self.kind = ["string" if m["string"] else m.lastgroup for m in found] + ["", ""]
-        self.lines = [0] + [m.end() for m in re.finditer("\n", text)]
         self.match, self.inside, self.dead, stack, angles = {}, [], set(), [], []
         for i, t in enumerate(self.at):
             if t in (")", "]", "}") and stack:
@@ -111,7 +87,7 @@ class Source:
             self.dead.update(range(i, end + (end > i)))
 
     def line(self, position):
-        return bisect.bisect_right(self.lines, position)
+        return self.text.count("\n", 0, position) + 1
 
     def span(self, first, last):
         return self.spans[first][0], self.spans[last][1]
@@ -176,8 +152,7 @@ class Source:
                    for k in range(first, last))
 
 
-# --- operators: (name, first position, end, replacement, how it is switched if it is no expression) ---
-
+# Operators yield (name, first position, end, replacement, how it is switched if it is no expression).
 def number(text, rng):
     """The number off by one, or by 1 %."""
     if whole := re.fullmatch(r"(0x[\da-f]+|\d+)([ulz]*)", text.replace("'", ""), re.I):
@@ -282,8 +257,8 @@ def constness(source, i):
 
 def edit_of(source, i, operator, start, end, new, how=None):
     how = how or f"({M} ? ({' '.join(new.split())}) : ({source.text[start:end]}))"
-    return types.SimpleNamespace(file=source.path, operator=operator, start=start, end=end, old=source.text[start:end], new=new, switched=how,
-                                 const=constness(source, i), lines=[source.line(start), source.line(end)], by=None, test=None, tried=[])
+    return argparse.Namespace(file=source.path, operator=operator, start=start, end=end, old=source.text[start:end], new=new, switched=how,
+                              const=constness(source, i), lines=[source.line(start), source.line(end)], by=None, test=None, tried=[])
 
 
 def applied(edit, text):
@@ -344,8 +319,6 @@ def blamed(said, edits, tree):
     return bad
 
 
-# --- a run ------------------------------------------------------------------------------------------------
-
 def call(*command, may_fail=False, **options):
     done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", **options)
     if done.returncode and not may_fail:
@@ -363,7 +336,7 @@ class Run:
         self.lock, self.locks = threading.Lock(), collections.defaultdict(threading.Lock)
         saved = json.loads(self.file.read_text(encoding="utf-8")) if self.file.exists() else {}
         self.plan, self.commit, self.suites = saved.get("plan"), saved.get("commit"), saved.get("suites", {})
-        self.edits, self.tree = [types.SimpleNamespace(**e) for e in saved.get("edits", [])], (options.copy or work / "copy").resolve()
+        self.edits, self.tree = [argparse.Namespace(**e) for e in saved.get("edits", [])], (options.copy or work / "copy").resolve()
 
     def save(self):
         with self.lock:
@@ -541,18 +514,15 @@ class Run:
     def go(self):
         self.draw()
         if not self.options.report:
-            begun = time.monotonic()
             self.clone()
             self.compile()
-            say(f"built in {time.monotonic() - begun:.0f} s")
             suites = self.known()
-            say(f"{len(suites)} suites are known after {time.monotonic() - begun:.0f} s")
+            say(f"built; {len(suites)} suites are known")
             self.each(lambda edit: self.attempt(edit, suites), [e for e in self.wanted() if e.by in (None, "survived")])
             for edit in self.wanted():
                 if edit.by == "survived" and self.equivalent(edit):
                     edit.by = "equivalent"
                     self.save()
-            say(f"all done after {time.monotonic() - begun:.0f} s")
         self.report()
 
     def report(self):

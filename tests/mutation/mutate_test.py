@@ -1,15 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests of mutate.py on synthetic sources and on the product's; nothing is built."""
-import argparse
-import collections
-import json
-import pathlib
-import random
-import subprocess
-import sys
-import tempfile
-import unittest
+import argparse, collections, json, pathlib, random, subprocess, sys, tempfile, unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
