@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/channel_table.h"
 
-#include "compare/report/html.h"
+#include "compare/report/folders.h"
 #include "compare/report/titles.h"
 
 #include <fmt/format.h>
@@ -50,6 +50,10 @@ Cell verdictCell(const ChannelDiff& channel) {
 }
 
 }  // namespace
+
+std::string cardId(const std::string& comparison, const DebugMode& mode) {
+    return fmt::format("c{}-{}", comparison, nameOfFile(mode.name));
+}
 
 output::Table channelTable(const Comparison& comparison, const std::string& id) {
     output::Table table{

@@ -242,10 +242,6 @@ std::string laterSections(const ReportLayout& layout, const ReportTexts& texts) 
 
 }  // namespace
 
-std::string cardId(const std::string& comparison, const DebugMode& mode) {
-    return fmt::format("c{}-{}", comparison, nameOfFile(mode.name));
-}
-
 std::string cardLink(const std::string& comparison, const DebugMode& mode) {
     return fmt::format("<a href=\"#{}\">{}</a>", cardId(comparison, mode), markup(mode.name));
 }

@@ -26,9 +26,7 @@ std::string sectionTitle(const Report& report, const ReportLayout& layout, std::
 // part, the script names its file instead of the comparison.
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 
-// A channel's anchor in the page, "c0-lit", and a link to it that shows the channel's name. `comparison`:
-// from ReportLayout::ids.
-std::string cardId(const std::string& comparison, const DebugMode& mode);
+// A link to cardId() that shows the channel's name.
 std::string cardLink(const std::string& comparison, const DebugMode& mode);
 
 // Parts of the page; `index` is the index of the comparison.

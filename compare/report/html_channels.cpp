@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cards of one comparison: images, difference, wipe, values, reason.
 #include "compare/picture/heat.h"
+#include "compare/report/channel_table.h"
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"

@@ -134,8 +134,8 @@
           surface, 300, half, IRIDESCENCE_THICKNESS_BITS, IRIDESCENCE_THICKNESS_BITS, iridescence, thickness, 15)
 // clang-format on
 
-// channel  slot (SLOT_* of material.h)  component: the texels that change a channel, each times the material's
-// factor of the slot. rgb: all three. texel_ranges.cpp has what materials combine otherwise.
+// channel  slot (SLOT_* of material.h)  component: the texels that change a channel, each times the
+// material's factor of the slot. rgb: all three. texel_ranges.cpp has what materials combine otherwise.
 // clang-format off
 #define CHANNEL_TEXELS(X)                      \
     X(albedo,              base_color,          rgb) \
@@ -225,7 +225,7 @@ CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 16);
 CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
 
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
-                             standard, compact, part, texels, related)                                  \
+                             standard, compact, part, texels, related)                                   \
     CONTRACT_CONST(uint, DEBUG_##name, number);
 DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
 #undef DIPTYCH_DEBUG_NUMBER
