@@ -14,7 +14,7 @@
 
 namespace diptych::audit {
 
-// What is asked.
+// The sweep of quantities that `audit` asks for.
 struct AuditQuestion {
     std::vector<std::string> quantities;                   // names; empty: all
     std::vector<std::pair<std::string, double>> required;  // magnitudes that must pass, by quantity

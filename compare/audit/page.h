@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the pages of quantities and of relations share.
+// Parts shared by the pages of quantities and of relations.
 #pragma once
 
 #include "compare/audit/case.h"

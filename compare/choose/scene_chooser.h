@@ -17,7 +17,7 @@
 
 namespace diptych::choose {
 
-// What is asked.
+// The budget and the candidates that `choose` asks for.
 struct Question {
     Settings settings;
     std::vector<std::string> cameras;  // empty: all of the scene

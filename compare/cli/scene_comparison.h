@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the options compare, and what they do not support.
+// Comparisons that the options ask for, and refusals of those that they do not support.
 #pragma once
 
 #include "compare/cli/options.h"

@@ -21,7 +21,7 @@
 
 namespace diptych::experiment {
 
-// What is compared.
+// The sides of a comparison.
 struct Compared {
     Path baseline = Path::deferred;  // the left panel
     bool from_file = false;          // a file's Frame replaces it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What kept results are known by, so that an interrupted experiment resumes.
+// Keys of kept results: an interrupted experiment resumes by them.
 #pragma once
 
 #include "compare/files/checkpoint_folder.h"

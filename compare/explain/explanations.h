@@ -18,7 +18,7 @@ namespace diptych {
 // Whether any comparison is explained: with `all` every one, else those whose lit fails.
 bool isExplained(bool all, const Report& report);
 
-// What is asked.
+// The comparisons to explain, and how.
 struct ExplanationQuestion {
     bool all = false;   // explain lit even where it passes
     Settings settings;  // of the scene's variant and environment

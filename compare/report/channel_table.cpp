@@ -76,7 +76,7 @@ output::Table channelTable(const Comparison& comparison, const std::string& id) 
                                                 : either("-", "\u2013");
         });
     };
-    // Of the criterion; compared channels without one have `otherwise`.
+    // A value of the criterion; compared channels without one show `otherwise`.
     const auto addCriterion = [&](Column column, const Cell& otherwise, const auto& cellOf) {
         const Cell none = either("-", column.kind == Column::number ? "\u2013" : "");
         add(std::move(column), [&](const ChannelDiff* channel) -> Cell {
