@@ -20,8 +20,8 @@ layout(constant_id = 2000) const uint diptych_mutant = 0u;
 
 inline std::uint32_t diptychChosen() {
     static const char* const number = std::getenv("DIPTYCH_MUTANT");
-    static const auto chosen = static_cast<std::uint32_t>(number ? std::atoi(number) : 0);
-    return chosen;
+    static const int chosen = number ? std::atoi(number) : 0;
+    return static_cast<std::uint32_t>(chosen);
 }
 // Marks an edit as reached in the file DIPTYCH_REACHED, which keeps it even if the process is killed.
 inline void diptychReach(std::uint32_t n) {
@@ -38,13 +38,12 @@ inline void diptychReach(std::uint32_t n) {
 
 // Replaces the switch by an ordinary constant. Marks all edits of the module as reached.
 inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> words(module.begin(), module.begin() + 5);
     std::map<std::uint32_t, std::uint32_t> constants;
     std::uint32_t id = 0;
-    for (std::size_t at = 0, size = 5; at < module.size();
-         at += size, size = at < module.size() ? module[at] >> 16 : 0) {
-        const auto in = module.subspan(at, size);
-        const std::uint32_t op = at == 0 ? 0 : in[0] & 0xffff;
+    for (std::size_t at = 5; at < module.size(); at += module[at] >> 16) {
+        const auto in = module.subspan(at, module[at] >> 16);
+        const std::uint32_t op = in[0] & 0xffff;
         if (op == 71 && in[2] == 1 && in[3] == 2000)
             id = in[1];  // OpDecorate SpecId
         else

@@ -2,18 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Makes small edits of the product, C++ and GLSL, and says which test notices each.
 
-    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--kinds unit,probe] [--copy DIR]
-    mutate.py WORK --all | --again | --report    goes on with what survived, by every suite or at today's HEAD; the table
+    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--kinds unit,probe] [--copy DIR] [--all]
 
-All edits stand in one build of a clone of what is committed (WORK/copy; --copy: a clone that has been built in DIR/build),
-each as `DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). What the compiler refuses, such as an edit of what must be
-constant, is left out; another takes its place. Then each suite of ctest is run without an edit: how long it takes, and
-which edits' places it comes by. Those suites alone try an edit: of unit tests first, then of probes, then the others, the
-quickest first, until one fails or is late. What survives is compiled once more, alone: where object files or modules are
-the original's, it is equivalent. WORK/results.json has all that is known, and the next run goes on from there. An edit
-may remove or overwrite files that it should not: whoever runs this should be able to write little else.
+All edits stand in one build of a clone of what is committed (WORK/copy; --copy: a clone, built in DIR/build), each as
+`DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). What the compiler refuses, such as an edit of what must be constant, is left
+out; another takes its place. Then each suite of ctest is run without an edit: how long it takes, and which edits' places it
+comes by. Those suites alone try an edit: of unit tests first, then of probes, then the others, the quickest first, until one
+fails or is late. What survives is compiled once more, alone: where object files or modules are the original's, it is equivalent.
+WORK/results.json has all that is known, and the same command goes on from there; with --all, tests that can wait (longer.txt)
+try what survived. An edit may remove or overwrite files that it should not: whoever runs this should be able to write little else.
 """
-import argparse, collections, concurrent.futures, contextlib, difflib, functools, json, os, pathlib, random, re, shutil
+import argparse, collections, concurrent.futures, contextlib, functools, json, os, pathlib, random, re, shutil
 import signal, subprocess, sys, threading, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,8 +33,7 @@ TOKEN = re.compile(r"""(?P<skip>//[^\n]*|/\*.*?\*/|\#(?:\\\n|[^\n])*|\s+)
 ASSIGN = {op + "=" for op in ("", *"+-*/%&|^", "<<", ">>")}
 # Binary operators, from weakest to strongest binding; they end an operand's expression.
 LEVELS = [{"||", "^^"}, {"&&"}, {"&", "|", "^"}, {"==", "!="}, {"<", "<=", ">", ">="}, {"<<", ">>"}, {"+", "-"}, {"*", "/", "%"}]
-BINARY = set().union(*LEVELS)
-CHAIN = ASSIGN | BINARY
+CHAIN = ASSIGN.union(*LEVELS)
 WORDS = set("""return else do throw case default goto delete new if for while switch break continue using const auto static struct
     class public private try catch constexpr""".split())
 TYPES = {"class", "struct", "namespace", "enum", "union"}
@@ -103,7 +101,7 @@ class Source:
         """Whether an expression ends here. clang-format puts spaces on both sides of binary operators only."""
         t = self.at[i]
         return t in (",", ";", "?", ":", "(", "[", "{", "}", ")", "]", "") or t in WORDS or (
-            t in stops and i not in self.dead and (t not in BINARY or self.space(i) and self.text[self.spans[i][1]].isspace()))
+            t in stops and i not in self.dead and (t in ASSIGN or self.space(i) and self.text[self.spans[i][1]].isspace()))
 
     def region(self, i, stops):
         """First and last token of the expression around token i, ended by operators of `stops`; None if it has a body."""
@@ -122,17 +120,13 @@ class Source:
                       and self.at[k - 1] not in (")", "]") for k in range(first, last + 2))
         return None if lambdas else (first, last)
 
-    def statement(self, i):
-        """The first token of the statement that token i is in, within the same brackets."""
-        while i > 0 and self.at[i - 1] not in (";", "{", "(", "[") and (
-                self.at[i - 1] != "}" or self.group(self.match.get(i - 1, 0))):
-            i = self.match.get(i - 1, i - 1) if self.at[i - 1] in (")", "]", "}") else i - 1
-        return i
-
     @functools.cache
     def head(self, brace):
-        """The tokens of the statement before a brace."""
-        return self.at[self.statement(brace):brace]
+        """The tokens of the statement before a brace, within the same brackets."""
+        i = brace
+        while i > 0 and self.at[i - 1] not in (";", "{", "(", "[") and (self.at[i - 1] != "}" or self.group(self.match.get(i - 1, 0))):
+            i = self.match.get(i - 1, i - 1) if self.at[i - 1] in (")", "]", "}") else i - 1
+        return self.at[i:brace]
 
     def body(self, i):
         """The head of the function whose body has token i; None outside functions and in lambdas."""
@@ -196,8 +190,7 @@ def of_call(source, i, rng):
             or source.at[i - 1] not in WORDS and source.declares(i - 1, i) or source.glsl and not ALIKE.fullmatch(name)):
         return
     (start, end), at = source.span(*region), rng.randrange(len(cuts))
-    a, b = source.span(([i + 1] + cuts)[at] + 1, cuts[at] - 1)
-    c, d = source.span(cuts[at] + 1, (cuts + [close])[at + 1] - 1)
+    (a, b), (c, d) = [source.span(k + 1, last - 1) for k, last in zip([i + 1, *cuts], [*cuts, close])][at:at + 2]
     drops = at + 1 == len(cuts) and not source.glsl and rng.random() < 0.3
     yield "argument", start, end, text[start:b] + text[d:end] if drops else text[start:a] + text[c:d] + text[b:c] + text[a:b] + text[d:end]
 
@@ -215,12 +208,10 @@ def of_statement(source, i, rng):
     if source.at[i] not in WORDS and source.at[end] == ";" and does and not source.declares(i, does[0]):
         start, end = source.span(i, end)
         yield "dropped", start, end, ";", f"{{ if (!{M}) {source.text[start:end]} }}"
-    name = words.index("(") - 1
-    while name > 1 and words[name - 1] in ("::", "~"):
-        name -= 1 + (words[name - 1] == "::")
-    kind = [w for w in words[:max(name, 0)] if w not in ("inline", "static", "constexpr", "virtual", "explicit", "std", "::")] or ["void"]
-    what = "return; " if kind == ["void"] else f"return {kind[-1]}(0); " if source.glsl else "return {}; "
-    known = re.fullmatch("[a-z0-9]+", kind[-1]) if source.glsl else kind[-1] != "&" and "auto" not in kind
+    at = words.index("(")
+    none = at == 1 or {"void", "explicit", "~", words[at - 1]} & {*words[:at - 1]}  # a constructor's name stands twice
+    what = "return; " if none else f"return {words[at - 2]}(0); " if source.glsl else "return {}; "
+    known = words[at - 2].islower() if source.glsl else not {"auto", "&"} & {*words[:at]}
     if begins and known and source.at[i] not in ("case", "default", "else") and rng.random() < 0.25:
         start = source.spans[i][0]
         yield "early return", start, start, what, f"if ({M}) {what}"
@@ -276,10 +267,9 @@ def draw(files, count, seed, changed=None):
         for i, (start, _) in enumerate(source.spans):
             line = source.line(start)
             if i not in source.dead and (changed is None or line in changed.get(path, ())):
-                for what in edits_of(source, i, rng):
-                    if not re.search("//|/[*]", source.text[what[1]:what[2]]) and source.text[what[1]:what[2]] != what[3]:
-                        lines[line].append((i, what))
-        folders[path.rpartition("/")[0]] += [(source, found) for found in lines.values()]
+                lines[line] += [(i, what) for what in edits_of(source, i, rng)
+                                if source.text[what[1]:what[2]] != what[3] and not re.search("//|/[*]", source.text[what[1]:what[2]])]
+        folders[path.rpartition("/")[0]] += [(source, found) for found in lines.values() if found]
     names = sorted(folders)
     rng.shuffle(names)
     while len(edits) < count and (names := [name for name in names if folders[name]]):
@@ -326,93 +316,77 @@ def call(*command, may_fail=False, **options):
     return done if may_fail else done.stdout
 
 
-def git(tree, *arguments):
-    return call("git", "-C", tree, *arguments)
-
-
 class Run:
-    def __init__(self, work, options, root=ROOT):
-        self.work, self.options, self.root, self.file = work, options, root, work / "results.json"
+    def __init__(self, work, options):
+        self.work, self.options, self.file, self.tree = work, options, work / "results.json", (options.copy or work / "copy").resolve()
         self.lock, self.locks = threading.Lock(), collections.defaultdict(threading.Lock)
         saved = json.loads(self.file.read_text(encoding="utf-8")) if self.file.exists() else {}
-        self.plan, self.commit, self.suites = saved.get("plan"), saved.get("commit"), saved.get("suites", {})
-        self.edits, self.tree = [argparse.Namespace(**e) for e in saved.get("edits", [])], (options.copy or work / "copy").resolve()
+        self.plan, self.suites = saved.get("plan"), saved.get("suites", {})
+        self.edits = [argparse.Namespace(**e) for e in saved.get("edits", [])]
 
     def save(self):
         with self.lock:
-            state = {"plan": self.plan, "commit": self.commit, "suites": self.suites, "edits": [e.__dict__ for e in self.edits]}
+            state = {"plan": self.plan, "suites": self.suites, "edits": [e.__dict__ for e in self.edits]}
             self.file.with_suffix(".new").write_text(json.dumps(state, indent=1), encoding="utf-8")
             self.file.with_suffix(".new").replace(self.file)
+
+    def git(self, *arguments):
+        return call("git", "-C", self.tree, *arguments)
 
     def wanted(self):
         return [e for e in self.edits if e.by != "compiler"][:self.plan["number"]]
 
-    def draw(self):
-        """Sets the edits of this run, drawn or loaded, and their sources."""
-        o, head = self.options, git(self.root, "rev-parse", "HEAD").strip()
-        plan = {"number": o.number, "seed": o.seed, "paths": o.paths, "since": o.since}
-        if self.plan and not (o.all or o.again or o.report) and self.plan != plan:
-            raise SystemExit(f"{self.file}: it is of another run, {self.plan}: the same arguments, or another folder")
-        self.plan, self.commit = self.plan or plan, head if o.again else self.commit or head
-        if o.again:
-            self.suites = {}
-            for edit in self.edits:
-                edit.tried = []
-        names = git(self.root, "ls-tree", "-r", "--name-only", self.commit, "--", *(self.plan["paths"] or FOLDERS)).split()
-        names = [n for n in names if re.match("|".join(FOLDERS), n) and "/example/" not in n and n.endswith((".cpp", ".h", *GLSL))]
-        self.files = {n: git(self.root, "show", f"{self.commit}:{n}") for n in names}
-        since, changed, name = self.plan["since"], collections.defaultdict(set), ""
-        for line in git(self.root, "diff", "-U0", "--no-prefix", since, self.commit).split("\n") if since else ():
-            name = line[4:] if line.startswith("+++ ") else name
-            if hunk := re.match(r"@@ \S+ \+(\d+)(?:,(\d+))? @@", line):
-                changed[name].update(range(int(hunk[1]), int(hunk[1]) + int(hunk[2] or 1)))
-        self.edits = self.edits or draw(self.files, int(self.plan["number"] * SPARE) + 1, self.plan["seed"], changed if since else None)
-        for edit in self.edits:
-            if self.files.get(edit.file, "")[edit.start:edit.end] != edit.old:
-                raise SystemExit(f"{edit.file} has changed since: a new run, in another folder")
-        self.save()
-
     def clone(self):
         if not self.tree.exists():
-            call("git", "clone", "-q", self.root, self.tree)
+            call("git", "clone", "-q", ROOT, self.tree)
         mark = self.tree / ".git" / "mutants"  # this program may overwrite a clone with this mark
-        if not mark.exists() and git(self.tree, "status", "--porcelain", "-uno"):
+        if not mark.exists() and self.git("status", "--porcelain", "-uno"):
             raise SystemExit(f"{self.tree} has changes that are not committed: give a clone without any")
         mark.touch()
-        if git(self.tree, "rev-parse", "HEAD").strip() != self.commit:
-            git(self.tree, "fetch", "-q", self.root, self.commit)
-            git(self.tree, "checkout", "-q", "-f", "--detach", self.commit)
         if not (self.tree / "build" / "build.ninja").exists():
             call("cmake", "-S", self.tree, "-B", self.tree / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
 
+    def draw(self):
+        """Reads the clone's sources; draws the edits, if none are known."""
+        o, changed, name = self.options, collections.defaultdict(set), ""
+        plan = {"number": o.number, "seed": o.seed, "paths": o.paths, "since": o.since, "commit": self.git("rev-parse", "HEAD").strip()}
+        if self.plan not in (None, plan):
+            raise SystemExit(f"{self.file}: it is of another run, {self.plan}: the same arguments and commit, or another folder")
+        names = [n for n in self.git("ls-files", *(o.paths or FOLDERS)).split() if n.endswith((".cpp", ".h", *GLSL))]
+        self.plan, self.files = plan, {n: self.git("show", f"HEAD:{n}") for n in names if "/example/" not in n}
+        for line in self.git("diff", "-U0", "--no-prefix", o.since, "HEAD").split("\n") if o.since else ():
+            name = line[4:] if line.startswith("+++ ") else name
+            if hunk := re.match(r"@@ \S+ \+(\d+)(?:,(\d+))? @@", line):
+                changed[name].update(range(int(hunk[1]), int(hunk[1]) + int(hunk[2] or 1)))
+        self.edits = self.edits or draw(self.files, int(o.number * SPARE) + 1, o.seed, changed if o.since else None)
+        self.save()
+
     def put(self):
         """Writes only the files that change, so that builds are incremental."""
-        by_file = collections.defaultdict(list)
-        for edit in self.edits:
-            if edit.by != "compiler":
-                by_file[edit.file].append(edit)
-        wanted = {name: switched(name, self.files[name], edits) for name, edits in by_file.items()}
-        for old, new in SETTERS if any(name.endswith(GLSL) for name in by_file) else ():
-            for name in git(self.tree, "grep", "-l", "-F", old, "HEAD", "--", "*.cpp").replace("HEAD:", "").split():
-                text = wanted.get(name) or INCLUDE + git(self.tree, "show", f"HEAD:{name}")
+        edits = [e for e in self.edits if e.by != "compiler"]
+        wanted = {n: switched(n, self.files[n], [e for e in edits if e.file == n]) for n in {e.file for e in edits}}
+        for old, new in SETTERS:
+            for name in self.git("grep", "-l", "-F", old, "HEAD", "--", "*.cpp").replace("HEAD:", "").split():
+                text = wanted.get(name) or INCLUDE + self.git("show", f"HEAD:{name}")
                 wanted[name] = re.sub(r"\b" + re.escape(old), new, text)  # not __wrap_..., which the linker knows
-        for name in git(self.tree, "diff", "--name-only").split():
-            wanted.setdefault(name, git(self.tree, "show", f"HEAD:{name}"))
+        for name in self.git("diff", "--name-only").split():
+            wanted.setdefault(name, self.git("show", f"HEAD:{name}"))
         for name, text in wanted.items():
             if (self.tree / name).read_text(encoding="utf-8") != text:
                 (self.tree / name).write_text(text, encoding="utf-8")
+        return edits
 
     def compile(self):
         while True:
-            self.put()
+            edits = self.put()
             done = call("ninja", "-C", self.tree / "build", f"-j{self.options.jobs}", "-k", "0",
                         *(f"{kind}_tests" for kind in self.options.kinds.split(",")), may_fail=True)
             if done.returncode == 0:
                 return
-            bad = blamed(done.stdout, [e for e in self.edits if e.by != "compiler"], self.tree)
+            bad = blamed(done.stdout, edits, self.tree)
             if not bad:
                 raise SystemExit("the copy does not build, and no error names an edit:\n" + done.stdout[-4000:])
-            for edit in self.edits:
+            for edit in edits:
                 edit.by = "compiler" if edit.number in bad else edit.by
             say(f"left out, as they do not compile: {' '.join(map(str, sorted(bad)))}")
             self.save()
@@ -422,7 +396,7 @@ class Run:
         folder, begun, code = self.work / "tmp" / str(threading.get_ident()), time.monotonic(), "late"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        with self.locks[suite["name"]], open(folder / "said", "w+", encoding="utf-8", errors="replace") as said:
+        with self.locks[suite["name"]], open(folder / "said", "w") as said:
             # A mutant may request all memory or disk.
             process = subprocess.Popen(["sh", "-c", 'ulimit -d 8000000; ulimit -f 8000000; exec "$@"', "sh", *suite["command"]], stdout=said, stderr=said,
                                        cwd=suite["folder"], start_new_session=True,
@@ -432,8 +406,7 @@ class Run:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
-            said.seek(0)
-            text = said.read()
+        text = (folder / "said").read_text(encoding="utf-8", errors="replace")
         failed = re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", text, re.M) or re.findall(r"^\[ RUN      \] (\S+)$", text, re.M)[-1:]
         return [] if code == 0 else sorted(set(failed)) or [f"({code})"], time.monotonic() - begun
 
@@ -483,14 +456,14 @@ class Run:
                 edit.tried.append(suite["name"])
         edit.by = by
         self.save()
-        say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {edit.by} {edit.test or ''}")
+        say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {by} {edit.test or f'by {len(edit.tried)} suites'}",
+            *(f"\n- {edit.old}\n+ {edit.new}" for _ in range(by == "survived")))
 
     def equivalent(self, edit):
-        """Whether object code or modules equal the original's. WORK/alone, with unedited copies, is searched first."""
-        alone, build, result = self.work / "alone", self.tree / "build", self.work / "alone" / "result"
-        for name in {e.file for e in self.edits}:
-            (alone / name).parent.mkdir(parents=True, exist_ok=True)
-            (alone / name).write_text(self.files[name], encoding="utf-8")
+        """Whether object code or modules equal the original's. WORK/alone is a clone without other edits."""
+        alone, build, result = self.work / "alone", self.tree / "build", self.work / "tmp" / "result"
+        if not alone.exists():
+            call("git", "clone", "-q", self.tree, alone)
         if edit.file.endswith(GLSL):
             targets = [str(d.relative_to(build))[:-2] for d in build.rglob("*.spv.d") if f"/{edit.file}" in d.read_text()]
         else:
@@ -498,12 +471,12 @@ class Run:
             targets = [target for target, names in known if f"/{edit.file}\n" in names]
         targets = sorted(target for target in targets if not target.startswith("tests/"))
         for target in targets[:1 if edit.file.endswith(".cpp") else None]:
-            command = call("ninja", "-C", build, "-t", "commands", "-s", target).strip().split("\n")[-1]
-            command = command.replace(str(build / target), str(result)).replace(target, str(result)).replace(" -I", f" -I{alone} -I", 1)
+            command, compiled = call("ninja", "-C", build, "-t", "commands", "-s", target).strip().split("\n")[-1], set()
+            command = command.replace(str(build / target), str(result)).replace(target, str(result))
             if edit.file.endswith(".cpp"):
-                command = re.sub(r" -c \S+", f" -c {alone / edit.file}", command)
-            command, compiled = command.replace(str(self.tree / edit.file), str(alone / edit.file)), set()
-            for text in (self.files[edit.file], applied(edit, self.files[edit.file])):
+                command = re.sub(r" -c \S+", f" -c {self.tree / edit.file}", command)
+            command = re.sub(re.escape(str(self.tree)) + r"\b(?!/build)", str(alone), command)
+            for text in (applied(edit, self.files[edit.file]), self.files[edit.file]):
                 (alone / edit.file).write_text(text, encoding="utf-8")
                 call("sh", "-c", command, cwd=build)
                 compiled.add(result.read_bytes())
@@ -512,46 +485,37 @@ class Run:
         return bool(targets)
 
     def go(self):
+        self.clone()
         self.draw()
-        if not self.options.report:
-            self.clone()
-            self.compile()
-            suites = self.known()
-            say(f"built; {len(suites)} suites are known")
-            self.each(lambda edit: self.attempt(edit, suites), [e for e in self.wanted() if e.by in (None, "survived")])
-            for edit in self.wanted():
-                if edit.by == "survived" and self.equivalent(edit):
-                    edit.by = "equivalent"
-                    self.save()
-        self.report()
-
-    def report(self):
-        heads, rows = (*KINDS, "survived", "equivalent"), collections.defaultdict(collections.Counter)
-        for edit in sorted(self.wanted(), key=lambda e: (e.file, e.start)):
+        self.compile()
+        suites = self.known()
+        say(f"built; {len(suites)} suites are known")
+        self.each(lambda edit: self.attempt(edit, suites), [e for e in self.wanted() if e.by in (None, "survived")])
+        for edit in self.wanted():
+            if edit.by == "survived" and self.equivalent(edit):
+                edit.by = "equivalent"
+        self.save()
+        heads, rows = ("edits", *KINDS, "survived", "equivalent"), collections.defaultdict(collections.Counter)
+        for edit in self.wanted():
             for row in (edit.file.rpartition("/")[0], "~all"):
                 rows[row].update(("edits", edit.by))
-            if edit.by == "survived":
-                text, reached = self.files[edit.file], any(edit.number in s["reached"] for s in self.suites.values())
-                diff = difflib.unified_diff(text.splitlines(), applied(edit, text).splitlines(), n=1, lineterm="")
-                print(f"\n{edit.number} {edit.file}: {edit.operator}{'' if reached else '; no test comes by'}", *list(diff)[2:], sep="\n")
-        print(f"\n| folder | edits | {' | '.join(heads)} |\n|---|---|{'---|' * len(heads)}")
+        say(f"\n| folder | {' | '.join(heads)} |\n|{'---|' * (1 + len(heads))}")
         for name, row in sorted(rows.items()):
-            print(f"| {name.strip('~')} | {row['edits']} | " + " | ".join(str(row[h] or "") for h in heads) + " |")
-        print(f"\nleft out, as they do not compile: {sum(e.by == 'compiler' for e in self.edits)}")
+            say(f"| {name.strip('~')} | " + " | ".join(str(row[h] or "") for h in heads) + " |")
+        say(f"\nleft out, as they do not compile: {sum(e.by == 'compiler' for e in self.edits)}")
 
 
-def main(arguments, root=ROOT):
+def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("paths", nargs="*")
-    for name, kind, default in (("number", int, 120), ("seed", int, 1), ("since", str, None), ("kinds", str, ",".join(KINDS)),
-                                ("copy", pathlib.Path, None), ("jobs", int, os.cpu_count())):
-        parser.add_argument(f"--{name}", type=kind, default=default)
-    for name in ("all", "again", "report"):
-        parser.add_argument(f"--{name}", action="store_true")
+    for name, default in (("number", 120), ("seed", 1), ("since", ""), ("kinds", ",".join(KINDS)), ("jobs", os.cpu_count())):
+        parser.add_argument(f"--{name}", type=type(default), default=default)
+    parser.add_argument("--copy", type=pathlib.Path)
+    parser.add_argument("--all", action="store_true")
     options = parser.parse_args(arguments)
     options.work.mkdir(parents=True, exist_ok=True)
-    Run(options.work.resolve(), options, root).go()
+    Run(options.work.resolve(), options).go()
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutate  # noqa: E402
 
-mutate.say = lambda words: None
+mutate.say = lambda *words: None
 
 FUNCTION = "int f(int a, int b, Kind kind) {{\n    {}\n}}\n"
 ENUMS = {"Kind": ["first", "second", "third"]}
