@@ -128,11 +128,23 @@ private:
     void addInstance(const Scene& scene, const Pose& pose, const Instance& instance, SkinNormals normals) {
         const Primitive& primitive = primitiveOf(scene, instance);
         if (primitive.indices.empty() || primitive.positions.empty()) return;
-        if (instance.deformed())
-            return addNode({{"mesh", addMesh(posedPrimitive(scene, pose, instance, normals))}});
+        if (instance.deformed()) {
+            Primitive posed = posedPrimitive(scene, pose, instance, normals);
+            const double scale = volumeScale(scene, pose, instance);
+            for (glm::vec3& position : posed.positions) position /= static_cast<float>(scale);
+            return addNode({{"mesh", addMesh(posed)}, {"scale", {scale, scale, scale}}});
+        }
         const auto [found, added] = meshes_.try_emplace({instance.mesh, instance.primitive}, 0);
         if (added) found->second = addMesh(primitive);
         addNode({{"mesh", found->second}, {"matrix", listOf(instance.world_from_object)}});
+    }
+
+    // Scale of the node of a posed mesh: 1, or that by which the original's nodes scale a volume's thickness.
+    static double volumeScale(const Scene& scene, const Pose& pose, const Instance& instance) {
+        const auto material = static_cast<std::size_t>(primitiveOf(scene, instance).material);
+        const bool thick = materialsOf(scene, pose)[material].thickness > 0;
+        const double scale = thick ? lengthScale(instance) : 1;
+        return scale > 0 ? scale : 1;
     }
 
     // Vertices in world space.
@@ -226,6 +238,15 @@ private:
             Json& film = extensions["KHR_materials_iridescence"];
             put(film, "iridescenceTexture", gpu::SLOT_iridescence);
             put(film, "iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness);
+        }
+        if (extensions.contains("KHR_materials_transmission"))
+            put(extensions["KHR_materials_transmission"], "transmissionTexture", gpu::SLOT_transmission);
+        if (extensions.contains("KHR_materials_volume"))
+            put(extensions["KHR_materials_volume"], "thicknessTexture", gpu::SLOT_thickness);
+        if (extensions.contains("KHR_materials_diffuse_transmission")) {
+            Json& diffuse = extensions["KHR_materials_diffuse_transmission"];
+            put(diffuse, "diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission);
+            put(diffuse, "diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color);
         }
     }
 

@@ -10,8 +10,8 @@ CONTRACT_BEGIN
 // (Karis 2013, "Real Shading in Unreal Engine 4": the environment BRDF). The table has HEIGHT rows of
 // WIDTH samples.
 // clang-format off
-//   along a row    x = ALBEDO_BLEND * sqrt(n.v (1 + k) / (n.v + k)) + (1 - ALBEDO_BLEND) * sqrt(n.v), k = 2 alpha:
-//                  at grazing angles the transition is as wide as alpha
+//   along a row    x = ALBEDO_BLEND * sqrt(n.v (1 + k) / (n.v + k)) + (1 - ALBEDO_BLEND) * sqrt(n.v),
+//                  k = 2 alpha: at grazing angles the transition is as wide as alpha
 //   across rows    y = sqrt(roughness), from the smallest shaded roughness to 1
 // clang-format on
 // Interpolation is cubic: Lagrange's polynomial through the four nearest samples, at the border through

@@ -47,7 +47,8 @@ CONTRACT_END
     X(0, PARTIAL_DIFFUSE,   fetched_image, "RGBA32F, W/(sr m^2)")                             \
     X(1, PARTIAL_SPECULAR,  fetched_image, "RGBA32F, W/(sr m^2)")                             \
     X(2, PARTIAL_CLEARCOAT, fetched_image, "RGBA32F, W/(sr m^2); the clear coat's part of the specular sum") \
-    X(3, PARTIAL_SHEEN,     fetched_image, "RGBA32F, W/(sr m^2); the sheen's part of the specular sum")
+    X(3, PARTIAL_SHEEN,     fetched_image, "RGBA32F, W/(sr m^2); the sheen's part of the specular sum") \
+    X(4, PARTIAL_TRANSMISSION, fetched_image, "RGBA32F, W/(sr m^2); the part of the diffuse sum from behind")
 // clang-format on
 
 CONTRACT_BEGIN

@@ -23,7 +23,7 @@ struct CulledCluster {
     uint triangles;
 };
 
-// Which sides of an instance's triangles are drawn.
+// Sides of an instance's triangles that are drawn.
 CONTRACT_CONST(uint, CULLED_BOTH_SIDES, 1);
 CONTRACT_CONST(uint, CULLED_MIRRORED, 2);  // front faces are clockwise on screen
 

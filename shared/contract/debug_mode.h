@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
-// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material, 60.. layers) and never
-// renumbered.
+// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material, 60.. layers,
+// 70.. transmission) and never renumbered.
 //
 // tests/architecture/README.md lists the files to change for a new channel.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
@@ -38,7 +38,8 @@
 //   part    the part of a material without which a scene's G-buffer does not store it; that of a layer
 //           (LAYER_* of material.h): without which the channel is 0
 //   texels  how it depends on texels: number: linearly; color: sRGB, times linear ones if scaled_color;
-//           thickness: linear between two lengths; direction, line: 3 and 2 components 2 t - 1 of a direction
+//           thickness: linear between two lengths; length: linear, times a length; direction, line: 3 and 2
+//           components 2 t - 1 of a direction
 //   related its place among the channels that relations of an audit compare; 0: they do not
 // clang-format off
 #define DEBUG_MODES(X) \
@@ -64,7 +65,8 @@
           place, 140, exact, 0, 0, none, none, 0) \
     X(10, depth, 1, relative, scalar, positive, both, "view depth, m (EXR layer Z)", \
           place, 110, exact, 0, 0, none, none, 8) \
-    X(11, position, 3, relative, vector, any, both, "shading position relative to the camera, world axes, m", \
+    X(11, position, 3, relative, vector, any, both, \
+          "shading position relative to the camera, world axes, m", \
           place, 120, exact, 0, 0, none, none, 0) \
     X(12, geometric_normal, 3, angular, vector, unit, both, "triangle normal, world", \
           facet, 130, octahedral, STANDARD_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, none, none, 9) \
@@ -72,66 +74,114 @@
           list, 450, exact, 0, 0, none, none, 0) \
     X(21, list_overflow, 1, exact, scalar, share, paths_only, "1 where the pixel's light list overflowed", \
           list, 440, exact, 0, 0, none, none, 0) \
-    X(22, shaded_samples, 1, absolute, scalar, positive, deferred_only, "number of sample groups that deferred lighting shades at the pixel", \
+    X(22, shaded_samples, 1, absolute, scalar, positive, deferred_only, \
+          "number of sample groups that deferred lighting shades at the pixel", \
           list, 460, exact, 0, 0, none, none, 0) \
-    X(30, shadow_visibility, 1, absolute, scalar, share, both, "visible fraction of the shadow-casting sun; 1 without one", \
+    X(30, shadow_visibility, 1, absolute, scalar, share, both, \
+          "visible fraction of the shadow-casting sun; 1 without one", \
           visibility, 400, exact, 0, 0, none, none, 0) \
-    X(31, cascade, 1, exact, id, any, paths_only, "sun shadow cascade, or requested clipmap level, from 0; -1: none", \
+    X(31, cascade, 1, exact, id, any, paths_only, \
+          "sun shadow cascade, or requested clipmap level, from 0; -1: none", \
           map, 410, exact, 0, 0, none, none, 0) \
-    X(32, page_residency, 1, exact, id, any, paths_only, "resident minus requested clipmap level; 0: page resident; -1: no clipmap", \
+    X(32, page_residency, 1, exact, id, any, paths_only, \
+          "resident minus requested clipmap level; 0: page resident; -1: no clipmap", \
           map, 420, exact, 0, 0, none, none, 0) \
-    X(33, local_visibility, 1, absolute, scalar, share, both, "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any", \
+    X(33, local_visibility, 1, absolute, scalar, share, both, \
+          "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any", \
           visibility, 430, exact, 0, 0, none, none, 0) \
-    X(40, lit_diffuse, 3, relative, color, any, both, "radiance reflected by the diffuse lobe, W/(sr m^2)", \
+    X(40, lit_diffuse, 3, relative, color, any, both, \
+          "radiance of the diffuse lobes, in front and through the surface, W/(sr m^2)", \
           light, 500, exact, 0, 0, none, none, 0) \
-    X(41, lit_specular, 3, relative, color, any, both, "radiance reflected by the specular lobe, W/(sr m^2)", \
+    X(41, lit_specular, 3, relative, color, any, both, \
+          "radiance reflected by the specular lobe, W/(sr m^2)", \
           light, 510, exact, 0, 0, none, none, 0) \
-    X(42, lit_ambient, 3, relative, color, any, both, "radiance of reflected ambient light, W/(sr m^2)", \
+    X(42, lit_ambient, 3, relative, color, any, both, \
+          "radiance of ambient light, reflected and through the surface, W/(sr m^2)", \
           unshadowed, 520, exact, 0, 0, none, none, 0) \
-    X(43, lit_haze, 3, relative, color, any, both, "radiance scattered by haze in front of the surface, W/(sr m^2)", \
+    X(43, lit_haze, 3, relative, color, any, both, \
+          "radiance scattered by haze in front of the surface, W/(sr m^2)", \
           haze, 610, exact, 0, 0, none, none, 0) \
-    X(44, transmittance, 3, absolute, color, share, both, "transmittance of haze between surface and camera, 0 to 1", \
+    X(44, transmittance, 3, absolute, color, share, both, \
+          "transmittance of haze between surface and camera, 0 to 1", \
           haze, 600, exact, 0, 0, none, none, 0) \
-    X(45, lit_environment, 3, relative, color, any, both, "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)", \
+    X(45, lit_environment, 3, relative, color, any, both, \
+          "environment's contribution to lit_diffuse and lit_specular, W/(sr m^2)", \
           unshadowed, 530, exact, 0, 0, none, none, 0) \
-    X(46, lit_clearcoat, 3, relative, color, any, both, "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
+    X(46, lit_clearcoat, 3, relative, color, any, both, \
+          "clear coat's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
           light, 550, exact, 0, 0, clearcoat, none, 0) \
-    X(47, lit_sheen, 3, relative, color, any, both, "sheen's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
+    X(47, lit_sheen, 3, relative, color, any, both, \
+          "sheen's contribution to lit_specular and lit_ambient, W/(sr m^2)", \
           light, 540, exact, 0, 0, sheen, none, 0) \
+    X(48, lit_transmission, 3, relative, color, any, both, \
+          "radiance through the nearest surface with transmission; elsewhere diffuse transmission's " \
+          "contribution to lit_diffuse and lit_ambient, W/(sr m^2)", \
+          light, 560, exact, 0, 0, transmitted, none, 0) \
     X(50, dielectric_f90, 1, absolute, scalar, share, both, "F90 of the dielectric layer, 0 to 1", \
           surface, 240, unorm, SPECULAR_BITS, SPECULAR_BITS, dielectric, number, 0) \
     X(51, lightmap, 3, relative, color, positive, both, "lightmap irradiance / pi, W/(sr m^2)", \
           surface, 380, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, lightmap, color, 0) \
-    X(52, tangent, 3, absolute, vector, any, forward_only, "tangent of the normal map, world; 0 without a normal map", \
+    X(52, tangent, 3, absolute, vector, any, forward_only, \
+          "tangent of the normal map, world; 0 without a normal map", \
           place, 150, exact, 0, 0, none, none, 0) \
-    X(53, handedness, 1, exact, scalar, any, forward_only, "sign of the bitangent, 1 or -1; 0 without a normal map", \
+    X(53, handedness, 1, exact, scalar, any, forward_only, \
+          "sign of the bitangent, 1 or -1; 0 without a normal map", \
           surface, 160, exact, 0, 0, none, none, 0) \
-    X(54, tangent_normal, 3, absolute, vector, any, forward_only, "normal map's normal, tangent space, unit; 0 without a normal map", \
+    X(54, tangent_normal, 3, absolute, vector, any, forward_only, \
+          "normal map's normal, tangent space, unit; 0 without a normal map", \
           surface, 170, exact, 0, 0, none, direction, 0) \
     X(55, dielectric_f0, 3, absolute, color, share, both, "F0 of the dielectric layer", \
           surface, 230, root, SPECULAR_BITS, SPECULAR_BITS, dielectric, scaled_color, 0) \
-    X(56, lightmapped, 1, exact, scalar, share, both, "1 where the material has a lightmap, which replaces the environment's diffuse light", \
+    X(56, lightmapped, 1, exact, scalar, share, both, \
+          "1 where the material has a lightmap, which replaces the environment's diffuse light", \
           surface, 390, exact, 0, 0, none, none, 0) \
     X(60, clearcoat, 1, absolute, scalar, share, both, "weight of the clear coat, 0 to 1", \
           surface, 330, unorm, CLEARCOAT_BITS, CLEARCOAT_BITS, clearcoat, number, 0) \
-    X(61, clearcoat_roughness, 1, absolute, scalar, share, both, "perceptual roughness of the clear coat, 0 to 1; 0 without one", \
+    X(61, clearcoat_roughness, 1, absolute, scalar, share, both, \
+          "perceptual roughness of the clear coat, 0 to 1; 0 without one", \
           surface, 340, unorm, CLEARCOAT_ROUGHNESS_BITS, CLEARCOAT_ROUGHNESS_BITS, clearcoat, number, 11) \
-    X(62, clearcoat_normal, 3, angular, vector, unit_or_zero, both, "normal of the clear coat, world; 0 without one", \
+    X(62, clearcoat_normal, 3, angular, vector, unit_or_zero, both, \
+          "normal of the clear coat, world; 0 without one", \
           surface, 350, octahedral, CLEARCOAT_NORMAL_BITS, CLEARCOAT_NORMAL_BITS, clearcoat, direction, 10) \
     X(63, anisotropy, 1, absolute, scalar, share, both, "strength of anisotropy, 0 to 1", \
           surface, 260, unorm, ANISOTROPY_BITS, ANISOTROPY_BITS, anisotropy, number, 0) \
-    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both, "direction along which highlights stretch, world, either sign; 0 where isotropic", \
+    X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both, \
+          "direction along which highlights stretch, world, either sign; 0 where isotropic", \
           surface, 270, line, ANISOTROPY_ANGLE_BITS, ANISOTROPY_ANGLE_BITS, anisotropy, line, 0) \
     X(65, sheen_color, 3, absolute, color, share, both, "colour of the sheen, linear Rec.709", \
           surface, 310, root, SHEEN_BITS, SHEEN_BITS, sheen, color, 12) \
-    X(66, sheen_roughness, 1, absolute, scalar, share, both, "perceptual roughness of the sheen, 0 to 1; 0 without one", \
+    X(66, sheen_roughness, 1, absolute, scalar, share, both, \
+          "perceptual roughness of the sheen, 0 to 1; 0 without one", \
           surface, 320, unorm, SHEEN_BITS, SHEEN_BITS, sheen, number, 13) \
     X(67, iridescence, 1, absolute, scalar, share, both, "weight of the thin film, 0 to 1", \
           surface, 280, unorm, IRIDESCENCE_BITS, IRIDESCENCE_BITS, iridescence, number, 14) \
-    X(68, iridescence_ior, 1, absolute, scalar, positive, both, "index of refraction of the thin film; 0 without one", \
+    X(68, iridescence_ior, 1, absolute, scalar, positive, both, \
+          "index of refraction of the thin film; 0 without one", \
           surface, 290, index, IRIDESCENCE_IOR_BITS, IRIDESCENCE_IOR_BITS, iridescence, none, 0) \
-    X(69, iridescence_thickness, 1, relative, scalar, positive, both, "thickness of the thin film, nm; 0 without one", \
-          surface, 300, half, IRIDESCENCE_THICKNESS_BITS, IRIDESCENCE_THICKNESS_BITS, iridescence, thickness, 15)
+    X(69, iridescence_thickness, 1, relative, scalar, positive, both, \
+          "thickness of the thin film, nm; 0 without one", \
+          surface, 300, half, IRIDESCENCE_THICKNESS_BITS, IRIDESCENCE_THICKNESS_BITS, \
+          iridescence, thickness, 15) \
+    X(70, transmission, 1, absolute, scalar, share, both, \
+          "fraction of light that the nearest surface with transmission transmits; 0 without one", \
+          surface, 392, exact, 0, 0, transmission, number, 0) \
+    X(71, transmission_thickness, 1, relative, scalar, positive, both, "its thickness, m; 0: thin wall", \
+          surface, 394, exact, 0, 0, transmission, length, 0) \
+    X(72, attenuation_color, 3, absolute, color, share, both, \
+          "its colour at attenuation_distance, linear Rec.709", \
+          surface, 395, exact, 0, 0, transmission, none, 0) \
+    X(73, attenuation_distance, 1, relative, scalar, positive, both, \
+          "its attenuation distance, m; 0: nothing is absorbed", \
+          surface, 396, exact, 0, 0, transmission, none, 0) \
+    X(74, dispersion, 1, absolute, scalar, positive, both, "its dispersion, 20 / Abbe number", \
+          surface, 398, exact, 0, 0, transmission, none, 0) \
+    X(75, diffuse_transmission, 1, absolute, scalar, share, both, "weight of diffuse transmission, 0 to 1", \
+          surface, 302, unorm, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
+          diffuse_transmission, number, 0) \
+    X(76, diffuse_transmission_color, 3, absolute, color, share, both, \
+          "colour of diffuse transmission, linear Rec.709; 0 without it", \
+          surface, 304, root, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
+          diffuse_transmission, color, 0)
 // clang-format on
 
 // channel  slot (SLOT_* of material.h)  component: the texels that change a channel, each times the
@@ -161,14 +211,19 @@
     X(sheen_color,         sheen_color,         rgb) \
     X(sheen_roughness,     sheen_roughness,     a)   \
     X(iridescence,         iridescence,         r)   \
-    X(iridescence_thickness, iridescence_thickness, g)
+    X(iridescence_thickness, iridescence_thickness, g) \
+    X(transmission,        transmission,        r)   \
+    X(transmission_thickness, thickness,        g)   \
+    X(diffuse_transmission, diffuse_transmission, a) \
+    X(diffuse_transmission_color, diffuse_transmission_color, rgb)
 // clang-format on
 
 // name  image  component: where captures store a channel. Captures render images of four components;
 // component is the channel's first. Images below FIRST_LIT_IMAGE do not depend on lights, so no light is
 // evaluated for them. The channel at component 0 of an image is listed first.
-// lit has an image of its own because it is blended into. So has shaded_samples, which takes the largest
-// sample instead of the first.
+// lit has an image of its own because it is blended into. lit_transmission follows it, to be drawn in the
+// same pass: light through a surface is that of opaque surfaces' lit. So has shaded_samples, which takes the
+// largest sample instead of the first.
 // clang-format off
 #define CAPTURES(X)            \
     X(albedo,             0, 0) \
@@ -204,25 +259,31 @@
     X(iridescence,       14, 1) \
     X(iridescence_ior,   14, 2) \
     X(iridescence_thickness, 14, 3) \
-    X(shaded_samples,    15, 0) \
-    X(lit,               16, 0) \
-    X(lit_diffuse,       17, 0) \
-    X(shadow_visibility, 17, 3) \
-    X(lit_specular,      18, 0) \
-    X(local_visibility,  18, 3) \
-    X(lit_ambient,       19, 0) \
-    X(lit_haze,          20, 0) \
-    X(transmittance,     21, 0) \
-    X(lit_environment,   22, 0) \
-    X(lit_clearcoat,     23, 0) \
-    X(lit_sheen,         24, 0)
+    X(attenuation_color, 15, 0) \
+    X(attenuation_distance, 15, 3) \
+    X(transmission,      16, 0) \
+    X(transmission_thickness, 16, 1) \
+    X(dispersion,        16, 2) \
+    X(diffuse_transmission_color, 17, 0) \
+    X(diffuse_transmission, 17, 3) \
+    X(shaded_samples,    18, 0) \
+    X(lit,               19, 0) \
+    X(lit_transmission,  20, 0) \
+    X(lit_diffuse,       21, 0) \
+    X(shadow_visibility, 21, 3) \
+    X(lit_specular,      22, 0) \
+    X(local_visibility,  22, 3) \
+    X(lit_ambient,       23, 0) \
+    X(lit_haze,          24, 0) \
+    X(transmittance,     25, 0) \
+    X(lit_environment,   26, 0) \
+    X(lit_clearcoat,     27, 0) \
+    X(lit_sheen,         28, 0)
 // clang-format on
 
 CONTRACT_BEGIN
-CONTRACT_CONST(uint, CAPTURE_IMAGES, 25);
-CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 16);
-// Colour attachments of a capture pass; device_support.h requires as many.
-CONTRACT_CONST(uint, CAPTURE_ATTACHMENTS, 8);
+CONTRACT_CONST(uint, CAPTURE_IMAGES, 29);
+CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 19);
 
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
                              standard, compact, part, texels, related)                                   \

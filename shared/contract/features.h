@@ -43,7 +43,7 @@
     X(19, encoded_surface,            pass,    PASS_FORWARD)                                                \
     /* images of CAPTURES (debug_mode.h) that a capture pass draws, one bit each */                         \
     X(20, captures,                   pass,    PASSES_SHADE | PASS_SAMPLES)                                 \
-    X(21, orthographic,               frame,   PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_BACKGROUND) \
+    X(21, orthographic,             frame, PASSES_SURFACE | PASS_LIGHTING | PASS_LISTS | PASS_BACKGROUND)   \
     /* KHR_materials_unlit: emits base colour, reflects nothing */                                          \
     X(22, unlit,                      item,    PASSES_SURFACE)                                              \
     X(23, spot_lights,                frame,   PASSES_SHADE | PASS_LISTS)                                   \
@@ -94,12 +94,12 @@
     X(48, posed_joint_sets,           pass,    PASS_POSING)                                                 \
     X(49, posed_parts,                pass,    PASS_POSING)                                                 \
     /* samples per pixel with MSAA: 4 or 8 */                                                               \
-    X(50, samples,                    frame,   PASSES_DRAW | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS | PASS_SAMPLES)     \
+    X(50, samples,     frame, PASSES_DRAW | PASS_LIGHTING | PASS_LISTS | PASS_SHADOWS | PASS_SAMPLES)       \
     /* EDGES_* of samples.h */                                                                              \
     X(51, sample_edges,               pass,    PASS_LIGHTING)                                               \
     /* the resolve weights a pixel's samples by a tone curve */                                             \
     X(52, tonemapped_resolve,         frame,   PASS_SAMPLES)                                                \
-    /* SPECULAR_AA_* of material.h; a parameter of shaders/lib/surface/specular_aa.glsl, float32 bits */           \
+    /* SPECULAR_AA_* of material.h; a parameter of shaders/lib/surface/specular_aa.glsl, float32 bits */    \
     X(53, specular_aa,                frame,   PASSES_SURFACE)                                              \
     X(54, specular_aa_variance,       amount,  PASSES_SURFACE)                                              \
     /* DEPTH_* of view.h: storage format of the scene's depth */                                            \
@@ -117,7 +117,7 @@
     X(62, clearcoat_roughness_texture, item,   PASSES_SURFACE)                                              \
     X(63, clearcoat_normal_texture,   item,    PASSES_SURFACE)                                              \
     X(64, anisotropy_texture,         item,    PASSES_SURFACE)                                              \
-    /* a sum of LAYER_* of material.h: of the draw; in deferred lighting, of the scene */                   \
+    /* a sum of LAYER_* of material.h: of the draw; in deferred lighting, of the scene or of its tiles */   \
     X(65, layers,                     item,    PASSES_SURFACE | PASS_LIGHTING)                              \
     /* a sum of LAYER_*: those that the G-buffer stores */                                                  \
     X(66, gbuffer_layers,             gbuffer, PASSES_SURFACE | PASS_LIGHTING)                              \
@@ -126,7 +126,13 @@
     X(68, sheen_color_texture,        item,    PASSES_SURFACE)                                              \
     X(69, sheen_roughness_texture,    item,    PASSES_SURFACE)                                              \
     X(70, iridescence_texture,        item,    PASSES_SURFACE)                                              \
-    X(71, iridescence_thickness_texture, item, PASSES_SURFACE)
+    X(71, iridescence_thickness_texture, item, PASSES_SURFACE)                                              \
+    X(72, transmission_texture,       item,    PASS_FORWARD)    /* the G-buffer stores no transmission */   \
+    X(73, thickness_texture,          item,    PASS_FORWARD)                                                \
+    X(74, diffuse_transmission_texture, item,  PASSES_SURFACE)                                              \
+    X(75, diffuse_transmission_color_texture, item, PASSES_SURFACE)                                         \
+    /* the draw or dispatch shades listed tiles of the image: lighting_tiles.h */                           \
+    X(76, lighting_tiles,             pass,    PASS_LIGHTING)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -140,7 +146,7 @@ CONTRACT_CONST(uint, FEATURE_COUNT, 0 FEATURES(DIPTYCH_FEATURE_ONE));
 // Types of passes, by the modules that they use.
 CONTRACT_CONST(uint, PASS_DEPTH, 1);           // depth.vert, surface.vert, depth_mask.frag
 CONTRACT_CONST(uint, PASS_FORWARD, 2);         // surface.vert, forward_*.frag
-CONTRACT_CONST(uint, PASS_GBUFFER, 4);         // surface.vert, gbuffer.frag
+CONTRACT_CONST(uint, PASS_GBUFFER, 4);         // surface.vert, gbuffer*.frag
 CONTRACT_CONST(uint, PASS_LIGHTING, 8);        // deferred lighting and its captures: deferred_*
 CONTRACT_CONST(uint, PASS_LISTS, 16);          // light_*.comp
 CONTRACT_CONST(uint, PASS_SHADOWS, 32);        // shadow moments and depth bounds: shadow_*.comp

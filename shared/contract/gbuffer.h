@@ -13,23 +13,25 @@
 //   ids       R32  (only if 10 bits            R32  (only if 12 bits
 //                   are too few)                   are too few)
 //   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
-//   layers    words in LAYERS to LAYERS_4, four each, only for what materials have:
+//   layers    words in LAYERS to LAYERS_5, four each, only for what materials have:
 //               clear coat: oct 16.16; weight 12, roughness 12, bit 28     normal, weight, roughness
 //               anisotropy: strength 12, angle 16, bit 28                  strength, direction 2
 //               sheen: sqrt 8.8.8, roughness 8                             colour, roughness
 //               iridescence: weight 8, ior 9, thickness 15                 weight, ior, thickness
+//               diffuse transmission: sqrt 8.8.8, weight 8                 colour, weight
 //   shaded    RG32 shading depth (bits of a float) and sample mask (MSAA only)
-//   bytes     12 to 44, + 4 depth          16 to 48, + 4 depth             64 to 156, + 4 depth
+//   bytes     12 to 48, + 4 depth          16 to 52, + 4 depth             64 to 176, + 4 depth
 //
 // sqrt: the square root is stored, so 0.04, the default F0, is exactly 51/255.
 // emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
 // float if radiance exceeds the range of 9.9.9.e5.
 // lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
 // shaders/lib/surface/gbuffer.glsl distinguishes them from black.
-// Bit 28 says that the surface has the layer; a sheen or a film that the surface lacks is a word of 0.
+// Bit 28 says that the surface has the layer; other layers that the surface lacks are words of 0.
 // specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
 // With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
 // pixel: the mean location of the samples that its triangle covers, and the depth there.
+// If there are more than MAX_COLOR_ATTACHMENTS, a second pass draws the last layers.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
 
@@ -50,7 +52,8 @@
     X(8, LAYERS_2, fetched_image, "layers 2")        \
     X(9, LAYERS_3, fetched_image, "layers 3")        \
     X(10, LAYERS_4, fetched_image, "layers 4")       \
-    X(11, SHADED,   fetched_image, "shaded sample locations")
+    X(11, LAYERS_5, fetched_image, "layers 5")       \
+    X(12, SHADED,   fetched_image, "shaded sample locations")
 // clang-format on
 
 CONTRACT_BEGIN
@@ -65,6 +68,8 @@ GBUFFER_BINDINGS(DIPTYCH_GBUFFER_NUMBER)
 #define DIPTYCH_GBUFFER_ONE(number, name, kind, what) +1
 CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 0 GBUFFER_BINDINGS(DIPTYCH_GBUFFER_ONE));
 #undef DIPTYCH_GBUFFER_ONE
+// Most colour attachments of a pass, captures included; device_support.h requires as many.
+CONTRACT_CONST(uint, MAX_COLOR_ATTACHMENTS, 8);
 CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER: an image, after the
                                                            // attachments
 
@@ -95,17 +100,20 @@ CONTRACT_CONST(uint, IRIDESCENCE_BITS, 8);
 CONTRACT_CONST(uint, IRIDESCENCE_IOR_BITS, 9);
 // A half without its sign: 10 bits of mantissa from 2^-14 to 65504 nm.
 CONTRACT_CONST(uint, IRIDESCENCE_THICKNESS_BITS, 15);
+CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_BITS, 8);  // of the roots of its colour, and of its weight
 
 // Words of each layer by encoding; they follow each other in the order of LAYER_*.
 CONTRACT_CONST(uint, CLEARCOAT_WORDS, 2);
 CONTRACT_CONST(uint, ANISOTROPY_WORDS, 1);
 CONTRACT_CONST(uint, SHEEN_WORDS, 1);
 CONTRACT_CONST(uint, IRIDESCENCE_WORDS, 1);
+CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_WORDS, 1);
 CONTRACT_CONST(uint, CLEARCOAT_FULL_WORDS, 5);
 CONTRACT_CONST(uint, ANISOTROPY_FULL_WORDS, 3);
 CONTRACT_CONST(uint, SHEEN_FULL_WORDS, 4);
 CONTRACT_CONST(uint, IRIDESCENCE_FULL_WORDS, 3);
-CONTRACT_CONST(uint, LAYER_WORDS, 16);  // of LAYERS to LAYERS_4
+CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_FULL_WORDS, 4);
+CONTRACT_CONST(uint, LAYER_WORDS, 20);  // of LAYERS to LAYERS_5
 
 // Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
 CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);

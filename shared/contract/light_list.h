@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights a pixel evaluates: the tiles or froxels of an image and their light lists.
+// The lights that a pixel evaluates: the tiles or froxels of an image and their light lists.
 #ifndef DIPTYCH_CONTRACT_LIGHT_LIST_H
 #define DIPTYCH_CONTRACT_LIGHT_LIST_H
 

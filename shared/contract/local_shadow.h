@@ -20,8 +20,7 @@ CONTRACT_CONST(uint, LOCAL_FACES, 6);
 // lights.
 CONTRACT_CONST(uint, MAX_LOCAL_TILES, 256);
 
-// Which lights cast shadows: the first points and the first spots. So they come first in each light type
-// of a list.
+// The first point lights and the first spots cast shadows. So they come first in each light type of a list.
 struct LocalCasters {
     uint point_end;   // casting point lights have an index below it
     uint spot_end;    // casting spots have an index below it

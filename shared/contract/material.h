@@ -23,7 +23,11 @@
     X(12, sheen_color)               \
     X(13, sheen_roughness)           \
     X(14, iridescence)               \
-    X(15, iridescence_thickness)
+    X(15, iridescence_thickness)     \
+    X(16, transmission)              \
+    X(17, thickness)                 \
+    X(18, diffuse_transmission)      \
+    X(19, diffuse_transmission_color)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -50,16 +54,20 @@ CONTRACT_CONST(uint, TEXEL_ALPHAS, 4);
 CONTRACT_CONST(uint, MASK_CUTS, 1);
 CONTRACT_CONST(uint, MASK_COVERS, 2);
 
-// FEATURE_transmission: KHR_materials_transmission as a thin, blended surface. Covers a fraction given by
-// base colour's alpha, as other blended surfaces do, or everything behind it.
+// FEATURE_transmission: KHR_materials_transmission. The surface covers the fraction of what is behind that
+// base colour's alpha gives, or all of it.
 CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
 CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
 
 // FEATURE_layers: a sum of the layers of a draw's material, or of a scene's materials.
-CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);    // KHR_materials_clearcoat
-CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);   // KHR_materials_anisotropy
-CONTRACT_CONST(uint, LAYER_SHEEN, 4);        // KHR_materials_sheen
-CONTRACT_CONST(uint, LAYER_IRIDESCENCE, 8);  // KHR_materials_iridescence
+CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);              // KHR_materials_clearcoat
+CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);             // KHR_materials_anisotropy
+CONTRACT_CONST(uint, LAYER_SHEEN, 4);                  // KHR_materials_sheen
+CONTRACT_CONST(uint, LAYER_IRIDESCENCE, 8);            // KHR_materials_iridescence
+CONTRACT_CONST(uint, LAYER_DIFFUSE_TRANSMISSION, 16);  // KHR_materials_diffuse_transmission
+// KHR_materials_transmission, for a scene's materials alone: no draw has it as a layer and the G-buffer
+// does not store it, because its surfaces are drawn after either path.
+CONTRACT_CONST(uint, LAYER_TRANSMISSION, 32);
 
 // FEATURE_specular_aa filters the screen-space change of the interpolated normal or of the normal-mapped
 // one.
@@ -101,7 +109,14 @@ struct Material {
     float occlusion_strength;
     float alpha_cutoff;
     float lightmap_intensity;
-    float transmission;         // KHR_materials_transmission: transmissionFactor
+    float ior;           // KHR_materials_ior; 0: infinite
+    float transmission;  // KHR_materials_transmission: transmissionFactor
+    float thickness;     // KHR_materials_volume: m in the mesh's space; 0: thin wall
+    vec3 attenuation_color;
+    float attenuation_distance;  // m; 0: infinite, nothing is absorbed
+    float dispersion;            // KHR_materials_dispersion: 20 / Abbe number
+    float diffuse_transmission;  // KHR_materials_diffuse_transmission: weight, 0 to 1
+    vec3 diffuse_transmission_color;
     float clearcoat;            // KHR_materials_clearcoat: the layer's weight, 0 to 1
     float clearcoat_roughness;  // perceptual
     float clearcoat_normal_scale;

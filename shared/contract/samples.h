@@ -44,11 +44,11 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 // number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
-    X(18, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \
-    X(19, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
-    X(20, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
+    X(19, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \
+    X(20, FURTHER_LIST, storage_image, "R32_UINT: groups after the first of their pixel") \
+    X(21, LIT_TARGET, storage_image, "RGBA32F: radiance of each pixel or sample, W/(sr m^2); of a light"  \
                                       " batch in compute the diffuse sum")                     \
-    X(21, SPECULAR_TARGET, storage_image, "RGBA32F: of a light batch in compute the specular sum")
+    X(22, SPECULAR_TARGET, storage_image, "RGBA32F: of a light batch in compute the specular sum")
 // clang-format on
 
 #define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
@@ -59,10 +59,6 @@ CONTRACT_CONST(uint, FURTHER_WIDTH_BITS, 12);
 CONTRACT_CONST(uint, FURTHER_WIDTH, 1 << FURTHER_WIDTH_BITS);
 // Draws that shade them cover at most this many rows of FURTHER_WIDTH fragments.
 CONTRACT_CONST(uint, FURTHER_ROWS, 32);
-
-// Side in pixels of the square that a workgroup of deferred lighting shades. The side of a light list's
-// tile is a multiple of it, so the square lies in one tile.
-CONTRACT_CONST(uint, LIGHTING_GROUP, 8);
 
 CONTRACT_END
 

@@ -24,24 +24,28 @@
     X(9,  dielectric_f0)     \
     X(10, dielectric_f90)    \
     X(11, clearcoat)         \
-    X(13, clearcoat_roughness) \
+    X(12, clearcoat_roughness) \
     X(14, clearcoat_normal)  \
     X(15, anisotropy)        \
-    X(22, anisotropy_direction) \
-    X(23, sheen_color)       \
-    X(24, sheen_roughness)   \
-    X(25, iridescence)       \
-    X(26, iridescence_ior)   \
-    X(27, iridescence_thickness)
+    X(23, anisotropy_direction) \
+    X(24, sheen_color)       \
+    X(25, sheen_roughness)   \
+    X(26, iridescence)       \
+    X(27, iridescence_ior)   \
+    X(28, iridescence_thickness) \
+    X(29, diffuse_transmission) \
+    X(30, diffuse_transmission_color)
 
 // Bindings of SET_GBUFFER after those of samples, for channels alone.
 #define CHANNEL_BINDINGS(X)                                      \
-    X(22, CHANNEL_1, fetched_image, "a channel of a surface")    \
-    X(23, CHANNEL_2, fetched_image, "a channel of a surface")    \
-    X(24, CHANNEL_3, fetched_image, "a channel of a surface")    \
-    X(25, CHANNEL_4, fetched_image, "a channel of a surface")    \
-    X(26, CHANNEL_5, fetched_image, "a channel of a surface")    \
-    X(27, CHANNEL_6, fetched_image, "a channel of a surface")
+    X(23, CHANNEL_1, fetched_image, "a channel of a surface")    \
+    X(24, CHANNEL_2, fetched_image, "a channel of a surface")    \
+    X(25, CHANNEL_3, fetched_image, "a channel of a surface")    \
+    X(26, CHANNEL_4, fetched_image, "a channel of a surface")    \
+    X(27, CHANNEL_5, fetched_image, "a channel of a surface")    \
+    X(28, CHANNEL_6, fetched_image, "a channel of a surface")    \
+    X(29, CHANNEL_7, fetched_image, "a channel of a surface")    \
+    X(30, CHANNEL_8, fetched_image, "a channel of a surface")
 // clang-format on
 
 CONTRACT_BEGIN

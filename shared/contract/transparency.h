@@ -9,23 +9,32 @@
 // number  name  kind  contents
 // clang-format off
 #define TRANSPARENCY_BINDINGS(X)                                                                            \
-    X(13, BLENDED_DEPTHS, fetched_image, "R32F: sums of optical depth")                                             \
-    X(14, BLENDED_MOMENTS, fetched_image, "RGBA32F: sums of optical depth times the first four powers of depth")    \
-    X(15, BLENDED_SUMS, fetched_image, "RGBA32F: sums of weighted radiance, and of weighted opacity")               \
-    X(16, FRAGMENT_KEYS, storage_buffer, "uint64[]: keys, sums, counters: shaders/lib/blending/fragment_list.glsl")  \
-    X(17, FRAGMENTS, storage_buffer, "vec4[layers][pixels]: radiance times opacity, W/(sr m^2), opacity")
+    X(14, BLENDED_DEPTHS, fetched_image, "R32F: sums of optical depth")                                     \
+    X(15, BLENDED_MOMENTS, fetched_image,                                                                   \
+      "RGBA32F: sums of optical depth times the first four powers of depth")                                \
+    X(16, BLENDED_SUMS, fetched_image, "RGBA32F: sums of weighted radiance, and of weighted opacity")       \
+    X(17, FRAGMENT_KEYS, storage_buffer,                                                                    \
+      "uint64[]: keys, sums, counters: shaders/lib/blending/fragment_list.glsl")                            \
+    X(18, FRAGMENTS, storage_buffer, "vec4[layers][pixels]: radiance times opacity, W/(sr m^2), opacity")
+
+// After the channels of surface_channels.h.
+#define BACKDROP_BINDINGS(X) \
+    X(31, BACKDROP, fetched_image, \
+      "RGBA32F, mip-mapped: radiance behind surfaces with transmission, W/(sr m^2)")
 // clang-format on
 
 CONTRACT_BEGIN
 #define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
 TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_NUMBER)
+BACKDROP_BINDINGS(DIPTYCH_BINDING_NUMBER)
 #undef DIPTYCH_BINDING_NUMBER
 
-// Push constants of blended passes, the last members of DrawConstants.
+// Push constants of blended passes and of backdrop.frag, the last members of DrawConstants.
 struct BlendedConstants {
     float nearest;   // view distance of the nearest blended surface, m
     float farthest;  // view distance of the farthest, m
-    // Fragment lists: capacity per pixel, and the rows that the buffers cover.
+    // Fragment lists: capacity per pixel, and the rows that the buffers cover. backdrop.frag: the size of
+    // the level that it draws, as width and rows.
     uint layers;
     uint width;
     uint first_row;

@@ -26,8 +26,20 @@ enum class MadeBy { both, forward_only, deferred_only, paths_only };
 // Columns of DEBUG_MODES, which explains their values.
 enum class ChannelStage { id, place, facet, surface, list, map, visibility, light, unshadowed, haze };
 enum class FieldCode { exact, unorm, root, octahedral, line, radiance, index, half };
-enum class MaterialPart { none, emission, lightmap, dielectric, clearcoat, anisotropy, sheen, iridescence };
-enum class TexelUse { none, number, color, scaled_color, thickness, direction, line };
+enum class MaterialPart {
+    none,
+    emission,
+    lightmap,
+    dielectric,
+    clearcoat,
+    anisotropy,
+    sheen,
+    iridescence,
+    transmission,
+    diffuse_transmission,
+    transmitted,  // either of these two
+};
+enum class TexelUse { none, number, color, scaled_color, thickness, length, direction, line };
 
 // How packed G-buffers store a channel; bits of each component.
 struct ChannelCode {
@@ -59,8 +71,8 @@ const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unkn
 const DebugMode& debugMode(int number);                         // throws std::out_of_range
 std::string_view nameOf(Metric metric);
 
-// What makes a channel, and the part of a material without which it is not stored; of numbers of no channel:
-// surface, none.
+// The stage that makes a channel, and the part of a material without which it is not stored. Numbers of no
+// channel have surface and none.
 #define DIPTYCH_DEBUG_PROPERTY(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
                                standard, compact, part, texels, related)                                   \
     case number:                                                                                           \
@@ -108,7 +120,7 @@ inline constexpr auto litModes = [] {
     return lit;
 }();
 
-// LAYER_* of contract/material.h without which the channel is 0 everywhere; 0: none.
+// A sum of LAYER_* of contract/material.h, without all of which the channel is 0 everywhere; 0: none.
 constexpr gpu::uint layerOf(int mode) {
     switch (sourceOf(mode).part) {
         case MaterialPart::clearcoat:
@@ -119,9 +131,20 @@ constexpr gpu::uint layerOf(int mode) {
             return gpu::LAYER_SHEEN;
         case MaterialPart::iridescence:
             return gpu::LAYER_IRIDESCENCE;
+        case MaterialPart::transmission:
+            return gpu::LAYER_TRANSMISSION;
+        case MaterialPart::diffuse_transmission:
+            return gpu::LAYER_DIFFUSE_TRANSMISSION;
+        case MaterialPart::transmitted:
+            return gpu::LAYER_TRANSMISSION | gpu::LAYER_DIFFUSE_TRANSMISSION;
         default:
             return 0;
     }
+}
+
+// Whether a channel may differ from 0 if the scene's materials have these layers.
+constexpr bool mayShow(int mode, gpu::uint layers) {
+    return layerOf(mode) == 0 || (layerOf(mode) & layers) != 0;
 }
 
 // EXR channel names: R, G, B for lit, Z for depth, and for example "albedo.R", "normals.X", "roughness.Y".

@@ -140,7 +140,9 @@ struct Frame {
     // nearest shadow boundary, perpendicular to the rays, relative to the distance from the light. Second,
     // reflected light without shadows, largest component, W/(sr m^2).
     Image local_shadow_edge;
-    // Reference with blended surfaces, W x H x 1: the fraction of each pixel's background that they hide.
+    // Reference with blended surfaces or glass, W x H x 3: the fraction of each pixel's background that they
+    // hide; and, of rough or refracting glass, the largest component of the fraction of light that passes,
+    // and of the light that passes, W/(sr m^2).
     Image blended;
     // Reference with an environment, if requested, W x H x 9, W/(sr m^2), largest components. Errors of
     // approximations: in lit_diffuse, by IblDiffuse; in lit_specular with --ibl split, by IblDiffuse; with

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which paths support a channel with which Settings.
+// Paths that support a channel, by Settings.
 #pragma once
 
 #include "shared/frame/debug_modes.h"

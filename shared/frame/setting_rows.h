@@ -57,8 +57,9 @@ void Settings::rows(Visit&& visit) {
                 .for_surfaces = "fragment"},
           &Settings::lighting);
     visit(Field{.option = "layers",
-                .help = "clear coats, anisotropy, sheen and iridescence in the deferred path: stored in the "
-                        "G-buffer, or drawn by the forward shader after deferred lighting",
+                .help = "clear coats, anisotropy, sheen, iridescence and diffuse transmission in the "
+                        "deferred path: stored in the G-buffer, or drawn by the forward shader after "
+                        "deferred lighting",
                 .ignored = {.forward_plus = "forward_plus shades what it draws",
                             .reference = "the reference has no G-buffer"},
                 .sweep = "all",
@@ -207,7 +208,7 @@ void Settings::rows(Visit&& visit) {
                 .ignored = {.reference = row::unfiltered, .unless = row::shadesCaptures}},
           &Settings::spec_aa_kernel);
     visit(Field{.option = "transparency",
-                .help = "ordering of blended surfaces; off: they are not drawn",
+                .help = "ordering of blended surfaces; off: neither they nor glass is drawn",
                 .ignored = {.reference = "the reference sorts blended surfaces by depth",
                             .unless = [](const Settings& s) { return s.transparency == Transparency::off; }},
                 .sweep = "sorted,unsorted,triangles,weighted,moments,list",

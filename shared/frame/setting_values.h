@@ -48,8 +48,8 @@ constexpr Path otherPath(Path path) {
     return path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
 }
 
-// What a path can do. All other code asks this row instead of comparing Path values; path_table.h has the
-// functions of those that a device renders.
+// Abilities of a path. All other code asks this row instead of comparing Path values; path_table.h has the
+// functions of paths that a device renders.
 struct PathRow {
     Path path;
     std::string_view side;  // option with the path's own Settings
@@ -262,7 +262,7 @@ template <>
 inline constexpr auto enum_names<MsaaShading> =
     std::to_array<EnumName<MsaaShading>>({{MsaaShading::pixel, "pixel"}, {MsaaShading::sample, "sample"}});
 
-// Which samples of a pixel deferred lighting shades separately: all; samples with different G-buffer bits;
+// Samples of a pixel that deferred lighting shades separately: all; samples with different G-buffer bits;
 // samples that differ visibly; samples of pixels that no triangle covers completely.
 enum class MsaaEdges { all, exact, similar, coverage };
 template <>

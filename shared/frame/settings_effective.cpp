@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings a path reads, and which ones the reference follows.
+// Settings that a path reads, and those that the reference follows.
 #include "shared/frame/settings.h"
 
 #include "shared/frame/setting_rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings can be rendered, and messages why others cannot.
+// Tells Settings that can be rendered from others, with messages why those cannot.
 #include "shared/frame/settings.h"
 
 #include "shared/frame/setting_rows.h"

@@ -20,7 +20,7 @@ namespace {
 
 void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::set<int>& textures) {
     r.alpha_mask |= m.alpha_mode == AlphaMode::mask;
-    r.alpha_blend |= blends(m);
+    r.alpha_blend |= m.alpha_mode == AlphaMode::blend;
     r.double_sided |= m.double_sided;
     r.unlit |= m.unlit;
     r.specular_glossiness |= m.specular_glossiness;
@@ -35,6 +35,10 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
         r.emission = true;
     }
     r.layers |= layersOf(m);
+    if (!blends(m)) r.surface_layers |= layersOf(m);
+    r.volume |= transmits(m) && m.thickness > 0;
+    r.rough_glass |= transmits(m) && m.roughness > 0;
+    r.dispersion |= transmits(m) && m.thickness > 0 && m.dispersion > 0;
     r.normal_maps |= readsSlot(m, gpu::SLOT_normal);
     r.occlusion |= readsSlot(m, gpu::SLOT_occlusion);
     for (std::size_t i = 0; i < materialSlots.size(); ++i) {
@@ -56,6 +60,13 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
     }
 }
 
+// Adds a line: `yes` says why a feature is rendered, `no` why it is omitted.
+auto sayIn(std::vector<Requirements::Line>& lines) {
+    return [&lines](bool modelled, const char* what, std::string yes, std::string no) {
+        lines.push_back({modelled, what, modelled ? std::move(yes) : std::move(no)});
+    };
+}
+
 }  // namespace
 
 Requirements requirements(const Scene& scene, const Pose& pose, const std::vector<Light>& lights) {
@@ -75,6 +86,11 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
         r.vertices += primitive.positions.size();
         r.vertex_colors |= !primitive.colors.empty();
         used[static_cast<std::size_t>(primitive.material)] = true;
+        const Material& material = materialsOf(scene, pose)[static_cast<std::size_t>(primitive.material)];
+        if (readsSlot(material, gpu::SLOT_thickness))
+            r.volume_thickness_range =
+                std::max(r.volume_thickness_range,
+                         static_cast<float>(double{material.thickness} * lengthScale(instance)));
         if (instance.skin >= 0 || instance.weights >= 0) r.deformed_vertices += primitive.positions.size();
         if (instance.skin >= 0) skins.insert(instance.skin);
         r.skinned += instance.skin >= 0 && std::exchange(skinned, instance.node) != instance.node;
@@ -122,13 +138,8 @@ std::string Requirements::deformedInWords() const {
     return words;
 }
 
-std::vector<Requirements::Line> Requirements::lines() const {
-    std::vector<Line> result;
-    const auto say = [&](bool modelled, const char* what, std::string yes, std::string no) {
-        result.push_back({modelled, what, modelled ? std::move(yes) : std::move(no)});
-    };
-    const std::uint32_t local_lights = point_lights + spot_lights;
-
+void Requirements::addMaterialLines(std::vector<Line>& lines) const {
+    const auto say = sayIn(lines);
     say(textures > 0, "textures", fmt::format("the materials in use read {}", textures),
         "no material in use reads a texture");
     say(normal_maps, "normal maps", "a material has a normal texture, which needs tangents",
@@ -139,8 +150,7 @@ std::vector<Requirements::Line> Requirements::lines() const {
         "no texture has KHR_texture_transform");
     say(alpha_mask, "alpha test", "a material has alphaMode MASK",
         "no material has alphaMode MASK: depth passes read only positions");
-    say(alpha_blend, "alpha blending",
-        "a material has alphaMode BLEND or transmission: drawn over opaque surfaces",
+    say(alpha_blend, "alpha blending", "a material has alphaMode BLEND: drawn over opaque surfaces",
         "no material has alphaMode BLEND: no blending pass");
     say(double_sided, "back faces", "a material is double-sided: its back faces are drawn",
         "no material is double-sided: back faces are culled");
@@ -162,6 +172,10 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(dielectric_specular, "dielectric specular",
         "a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
+}
+
+void Requirements::addLayerLines(std::vector<Line>& lines) const {
+    const auto say = sayIn(lines);
     say((layers & gpu::LAYER_CLEARCOAT) != 0, "clear coats",
         "a lit material has clearcoatFactor above 0: a second specular layer over its base",
         "no lit material has KHR_materials_clearcoat with a factor above 0");
@@ -174,6 +188,21 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say((layers & gpu::LAYER_IRIDESCENCE) != 0, "iridescence",
         "a lit material has iridescenceFactor above 0: a thin film colours what its base reflects",
         "no lit material has KHR_materials_iridescence with a factor above 0");
+    say((layers & gpu::LAYER_TRANSMISSION) != 0, "transmission",
+        "a lit material has transmissionFactor above 0: it shows the opaque surfaces behind it",
+        "no lit material has KHR_materials_transmission with a factor above 0");
+    say(volume, "volumes", "a material that transmits light has a thickness: it refracts and absorbs",
+        "no material that transmits light has KHR_materials_volume with a thickness above 0");
+    say(dispersion, "dispersion", "a volume has dispersion above 0: components refract apart",
+        "no volume has KHR_materials_dispersion above 0");
+    say((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0, "diffuse transmission",
+        "a lit material has diffuseTransmissionFactor above 0: light from behind passes it",
+        "no lit material has KHR_materials_diffuse_transmission with a factor above 0");
+}
+
+void Requirements::addMotionAndLightLines(std::vector<Line>& lines) const {
+    const auto say = sayIn(lines);
+    const std::uint32_t local_lights = point_lights + spot_lights;
     say(animations > 0, "animation",
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),
@@ -185,16 +214,23 @@ std::vector<Requirements::Line> Requirements::lines() const {
     say(local_lights > 0, "point and spot lights",
         fmt::format("{} point and {} spot in the scene", point_lights, spot_lights),
         "none in the scene: no light lists");
-    constexpr const char* notYet = "only the reference renders them";
     say(areaLights() > 0, "area lights", areaLightsInWords() + " in the scene",
         "none in the scene: no table of linearly transformed cosines");
-    result.push_back({false, "sun discs",
-                      sun_discs > 0 ? fmt::format("{} in the scene: {}", sun_discs, notYet)
-                                    : "no directional light has an angular size"});
+    lines.push_back({false, "sun discs",
+                     sun_discs > 0
+                         ? fmt::format("{} in the scene: only the reference renders them", sun_discs)
+                         : "no directional light has an angular size"});
     say(!environment.empty(), "environment",
         environment + ": prefiltered maps, spherical harmonics, background",
         "none in the scene: no maps, no pass");
-    return result;
+}
+
+std::vector<Requirements::Line> Requirements::lines() const {
+    std::vector<Line> lines;
+    addMaterialLines(lines);
+    addLayerLines(lines);
+    addMotionAndLightLines(lines);
+    return lines;
 }
 
 }  // namespace diptych

@@ -15,12 +15,18 @@ namespace diptych {
 struct Requirements {
     bool normal_maps = false, alpha_mask = false, alpha_blend = false, double_sided = false;
     bool vertex_colors = false, second_texcoord = false, texture_transform = false;
-    bool occlusion = false;    // an occlusion texture of non-zero strength
-    bool unlit = false;        // KHR_materials_unlit: the surface emits its base colour
-    bool emission = false;     // includes unlit materials
-    std::uint32_t layers = 0;  // a sum of LAYER_* of contract/material.h
+    bool occlusion = false;            // an occlusion texture of non-zero strength
+    bool unlit = false;                // KHR_materials_unlit: the surface emits its base colour
+    bool emission = false;             // includes unlit materials
+    std::uint32_t layers = 0;          // a sum of LAYER_* of contract/material.h
+    std::uint32_t surface_layers = 0;  // those of surfaces that are not seen through, which a G-buffer stores
+    bool volume = false;               // KHR_materials_volume: a thickness of what transmits light
+    bool dispersion = false;           // KHR_materials_dispersion, of a volume
+    bool rough_glass = false;          // a roughness of what transmits light
     // Largest difference between the thicknesses of a film among which a texture chooses, nm.
     float film_thickness_range = 0;
+    // Largest thickness of a volume that a texture scales, m, world.
+    float volume_thickness_range = 0;
     bool lightmap = false;   // a lightmap of non-zero intensity
     float max_lightmap = 0;  // the largest component of any lightmap, W/(sr m^2)
     // KHR_materials_specular or _ior differs from its default, specular-glossiness, or unlit.
@@ -53,6 +59,11 @@ struct Requirements {
         std::string what, why;
     };
     std::vector<Line> lines() const;
+
+private:
+    void addMaterialLines(std::vector<Line>& lines) const;
+    void addLayerLines(std::vector<Line>& lines) const;
+    void addMotionAndLightLines(std::vector<Line>& lines) const;
 };
 
 // `lights` are all lights of the view; without that argument, only the pose's.

@@ -50,6 +50,17 @@ TextureImage floats(const std::string& name, int size, const Texel& texel) {
     return image;
 }
 
+TextureImage ballLight() {
+    TextureImage image{"ball light", 32, 32, {}};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {  // x runs down the ball
+            for (const int top : {200, 215, 235})
+                image.rgba.push_back(static_cast<std::uint8_t>(top - 5 * x));
+            image.rgba.push_back(255);
+        }
+    return image;
+}
+
 // The second UV set is the first, mirrored horizontally and rotated by 90 degrees: use of the wrong set
 // becomes visible.
 Primitive unwrapped(Primitive shape) {
@@ -101,14 +112,7 @@ Scene lightmaps() {
     b.add("wall", unwrapped(quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})), wall, glm::dvec3(0.0));
 
     for (const Ball& ball : balls) {
-        TextureImage image{"ball light", 32, 32, {}};
-        for (int y = 0; y < 32; ++y)
-            for (int x = 0; x < 32; ++x) {  // x runs down the ball
-                for (const int top : {200, 215, 235})
-                    image.rgba.push_back(static_cast<std::uint8_t>(top - 5 * x));
-                image.rgba.push_back(255);
-            }
-        const int material = lit("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.3f}, std::move(image), 1.5f);
+        const int material = lit("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.3f}, ballLight(), 1.5f);
         b.add("ball", unwrapped(sphere(ball.radius)), material, ball.centre);
     }
 

@@ -64,14 +64,14 @@ void Builder::point(const glm::dvec3& position, const glm::vec3& color, float ca
 }
 
 void Builder::spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color,
-                   float candela, float range, double innerDegrees, double outerDegrees) {
+                   float candela, float range, const Cone& cone) {
     point(position, color, candela, range);
     Light& light = scene.lights.back();
     light.name = "spot " + std::to_string(scene.lights.size() - 1);
     light.kind = LightKind::spot;
     light.direction = glm::normalize(target - position);
-    light.inner_cone = static_cast<float>(glm::radians(innerDegrees));
-    light.outer_cone = static_cast<float>(glm::radians(outerDegrees));
+    light.inner_cone = static_cast<float>(glm::radians(cone.inner));
+    light.outer_cone = static_cast<float>(glm::radians(cone.outer));
 }
 
 Light& Builder::rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,

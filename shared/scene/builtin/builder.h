@@ -39,8 +39,11 @@ public:
     // Units: candela, for the sun lux; m; cone half angles in degrees. `direction` need not be normalized.
     void point(const glm::dvec3& position, const glm::vec3& color, float candela,
                float range = std::numeric_limits<float>::infinity());
+    struct Cone {
+        double inner, outer;
+    };
     void spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float candela,
-              float range, double innerDegrees, double outerDegrees);
+              float range, const Cone& cone);
     void sun(const glm::dvec3& direction, const glm::vec3& color, float lux);
     // Adds an area light of 1 m^2 that shines towards `target`. Returns it, so that the caller can change
     // its shape.

@@ -40,6 +40,9 @@ constexpr std::array arrayParameters{
     Parameter{"objects", 100, 10'000'000}, Parameter{"triangles", 20'000, 1'000'000'000},
     Parameter{"meshes", 1, 10'000'000}, Parameter{"materials", 4, 10'000'000},
     Parameter{"texture_mib", 0, 65'536}};
+constexpr std::array coveredParameters{Parameter{"coated", 0, 100}, Parameter{"woven", 0, 100},
+                                       Parameter{"brushed", 0, 100}, Parameter{"glass", 0, 100},
+                                       Parameter{"lights", 64, 0x7fffffffu}};
 
 constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
@@ -61,6 +64,9 @@ constexpr std::array ROWS{
     Row{"layers",
         "clear coats, anisotropy, sheen and iridescence: every factor and texture, alone and combined", TEST,
         builtin::layers},
+    Row{"transmission",
+        "glass, slabs and leaves before a wall: transmission, volume, dispersion, diffuse transmission", TEST,
+        builtin::transmission},
     Row{"cutout",
         "masked, normal-mapped, double-sided cards, some at grazing angles: alpha test in every pass", TEST,
         builtin::cutout},
@@ -111,6 +117,12 @@ constexpr std::array ROWS{
             return builtin::array({n[0], n[1], n[2], n[3], n[4]});
         },
         arrayParameters},
+    Row{"covered", "a wall of tiles, N % of them coated, woven, brushed or glass: cost of layers", TEST,
+        nullptr,
+        [](Numbers n) {
+            return builtin::covered({n[0], n[1], n[2], n[3]}, n[4]);
+        },
+        coveredParameters},
 };
 
 std::vector<std::string> knownNames() {

@@ -129,7 +129,7 @@ Scene calibration() {
     // Dim: an image that clips at 1 could store about three times as much.
     b.sun({0.3, -0.4, -1}, glm::vec3(1), 0.5f);
     b.point({2.6, 0.4, 3}, glm::vec3(1), 2.5f);
-    b.spot({2.6, 0.4, 4}, {2.6, 0.4, 0}, glm::vec3(1), 4, std::numeric_limits<float>::infinity(), 20, 30);
+    b.spot({2.6, 0.4, 4}, {2.6, 0.4, 0}, glm::vec3(1), 4, std::numeric_limits<float>::infinity(), {20, 30});
     b.rect({2.6, 0.4, 3}, {2.6, 0.4, 0}, glm::vec3(1), 2.5f);
     b.scene.environment = sky();
     return std::move(b.scene);

@@ -49,27 +49,27 @@ void lamps(Room& room) {
     Builder& b = room.b;
     for (int i = 0; i < 8; ++i) {  // down the brick wall, up to the beams, and above the arcade
         const double z = NEAR_END - 2.6 - 2.0 * i;
-        b.spot({LEFT + 0.75, CEILING - 0.4, z}, {LEFT, 1.5, z}, WARM, 40, 6, 10, 36);
-        if (i % 2 == 1) b.spot({LEFT + 0.5, 2.4, z}, {LEFT + 2.2, CEILING, z}, WARM, 9, 6, 20, 60);
+        b.spot({LEFT + 0.75, CEILING - 0.4, z}, {LEFT, 1.5, z}, WARM, 40, 6, {10, 36});
+        if (i % 2 == 1) b.spot({LEFT + 0.5, 2.4, z}, {LEFT + 2.2, CEILING, z}, WARM, 9, 6, {20, 60});
         if (i % 2 == 0)
-            b.spot({RIGHT - 0.9, CEILING - 0.4, z - 0.6}, {RIGHT, 1.6, z - 0.6}, COOL, 26, 6, 12, 38);
+            b.spot({RIGHT - 0.9, CEILING - 0.4, z - 0.6}, {RIGHT, 1.6, z - 0.6}, COOL, 26, 6, {12, 38});
         if (i % 2 == 0)
-            b.spot({RIGHT - 0.4, 2.6, z - 0.6}, {RIGHT - 2.2, CEILING, z - 0.6}, COOL, 7, 6, 20, 60);
+            b.spot({RIGHT - 0.4, 2.6, z - 0.6}, {RIGHT - 2.2, CEILING, z - 0.6}, COOL, 7, 6, {20, 60});
     }
     for (int i = 0; i < 4; ++i)  // on the stage: warm from the front, cool from behind
         b.spot({STAGE.x - 2.7 + 1.8 * i, CEILING - 0.5, 0.6}, {STAGE.x - 1.8 + 1.2 * i, 0.9, STAGE.z}, IVORY,
-               44, 9, 12, 26);
+               44, 9, {12, 26});
     for (int i = 0; i < 3; ++i)
-        b.spot({STAGE.x - 2.6 + 2.6 * i, 3.2, -6}, {STAGE.x - 1.8 + 1.8 * i, 1, STAGE.z}, COOL, 40, 8, 14,
-               30);
-    b.spot({KNOT.x - 1.5, CEILING - 0.5, KNOT.z + 2.2}, {KNOT.x, 2.38, KNOT.z}, WARM, 60, 7, 8, 16);
-    b.spot({KNOT.x + 1.6, CEILING - 0.5, KNOT.z + 1.8}, {KNOT.x, 2.38, KNOT.z}, ROSE, 40, 7, 8, 16);
-    b.spot({GEM.x - 1.1, CEILING - 0.6, GEM.z + 1.2}, {GEM.x, 1.1, GEM.z}, IVORY, 34, 6, 6, 13);
-    b.spot({GEM.x + 1.2, 2.6, GEM.z - 1.4}, {GEM.x, 1.1, GEM.z}, CYAN, 16, 4, 10, 20);
-    b.spot({VASE.x - 0.8, CEILING - 0.5, VASE.z + 1.4}, {VASE.x, 1.2, VASE.z}, WARM, 34, 6, 8, 16);
-    b.spot({PLANTER.x + 0.9, CEILING - 0.5, PLANTER.z + 1.0}, {PLANTER.x, 1.1, PLANTER.z}, IVORY, 26, 6, 10,
-           20);
-    b.spot({PLANTER.x + 1.2, 0.4, PLANTER.z + 2.2}, {PLANTER.x, 1.0, PLANTER.z}, IVORY, 6, 5, 10, 24);
+        b.spot({STAGE.x - 2.6 + 2.6 * i, 3.2, -6}, {STAGE.x - 1.8 + 1.8 * i, 1, STAGE.z}, COOL, 40, 8,
+               {14, 30});
+    b.spot({KNOT.x - 1.5, CEILING - 0.5, KNOT.z + 2.2}, {KNOT.x, 2.38, KNOT.z}, WARM, 60, 7, {8, 16});
+    b.spot({KNOT.x + 1.6, CEILING - 0.5, KNOT.z + 1.8}, {KNOT.x, 2.38, KNOT.z}, ROSE, 40, 7, {8, 16});
+    b.spot({GEM.x - 1.1, CEILING - 0.6, GEM.z + 1.2}, {GEM.x, 1.1, GEM.z}, IVORY, 34, 6, {6, 13});
+    b.spot({GEM.x + 1.2, 2.6, GEM.z - 1.4}, {GEM.x, 1.1, GEM.z}, CYAN, 16, 4, {10, 20});
+    b.spot({VASE.x - 0.8, CEILING - 0.5, VASE.z + 1.4}, {VASE.x, 1.2, VASE.z}, WARM, 34, 6, {8, 16});
+    b.spot({PLANTER.x + 0.9, CEILING - 0.5, PLANTER.z + 1.0}, {PLANTER.x, 1.1, PLANTER.z}, IVORY, 26, 6,
+           {10, 20});
+    b.spot({PLANTER.x + 1.2, 0.4, PLANTER.z + 2.2}, {PLANTER.x, 1.0, PLANTER.z}, IVORY, 6, 5, {10, 24});
     for (int i = 0; i < 8; ++i) {  // light emitted by the neon ring
         const double angle = glm::radians(45.0 * i);
         b.point({KNOT.x + 1.45 * std::cos(angle), 2.45 + 1.45 * std::sin(angle), FAR_END + 0.55}, CYAN, 1.8f,
@@ -80,7 +80,7 @@ void lamps(Room& room) {
     for (int i = 0; i < 5; ++i) b.point({STAGE.x - 2 + i, 0.12, STAGE.z + 1.4}, CYAN, 0.16f, 1.4f);
     for (int i = 0; i < 7; ++i)
         b.spot({KNOT.x, CEILING - 0.1, NEAR_END - 2.6 - 2.0 * i}, {KNOT.x, 0, NEAR_END - 2.6 - 2.0 * i},
-               IVORY, 24, 6.5f, 30, 75);
+               IVORY, 24, 6.5f, {30, 75});
     for (int i = 0; i < 5; ++i)
         b.point({RIGHT - 0.35, 0.35, NEAR_END - 3.2 * i}, WARM, 1.6f, 2.8f);  // at the piers' feet
     b.point({3.0, 0.6, -5.2}, WARM, 3.0f, 4);                                 // behind the screen

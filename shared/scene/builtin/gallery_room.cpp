@@ -31,11 +31,11 @@ void addWalls(Room& room) {
     const HeightField tiles = tileHeights(512), bricks = brickHeights(512), plaster = plasterHeights(256);
 
     const TextureSlot tileColor =
-        b.texture(colorMap("tile colour", tiles, {40, 38, 40, 255}, {160, 156, 162, 255}, 4, 4, false, 90));
+        b.texture(colorMap("tile colour", tiles, {40, 38, 40, 255}, {160, 156, 162, 255}, {4, 4, false}, 90));
     const TextureSlot tileNormal = b.texture(normalMap("tile relief", tiles, 3));
     const int floor = room.textured("floor tiles", {vec3(1), 0, 1}, tileColor, tileNormal);
     b.scene.materials.back().metallic_roughness_texture =
-        b.texture(colorMap("tile polish", tiles, {255, 230, 0, 255}, {255, 62, 0, 255}, 4, 4, false, 40));
+        b.texture(colorMap("tile polish", tiles, {255, 230, 0, 255}, {255, 62, 0, 255}, {4, 4, false}, 40));
     b.scene.materials.back().metallic = 0;
     const double length = NEAR_END - FAR_END, width = RIGHT - LEFT;
     Primitive ground = quad({LEFT, 0, NEAR_END}, {width, 0, 0}, {0, 0, -length}, 58, 106);
@@ -43,7 +43,7 @@ void addWalls(Room& room) {
     b.add("floor", scaleTexcoords(std::move(ground), width / 3.2, length / 3.2), floor, dvec3(0.0));
 
     const TextureSlot brickColor = b.texture(
-        colorMap("brick colour", bricks, {110, 100, 94, 255}, {186, 134, 108, 255}, 4, 8, true, 110));
+        colorMap("brick colour", bricks, {110, 100, 94, 255}, {186, 134, 108, 255}, {4, 8, true}, 110));
     const TextureSlot brickNormal = b.texture(normalMap("brick relief", bricks, 9));
     const int wall = room.textured("bricks", {vec3(1), 0, 0.75f}, brickColor, brickNormal);
     b.scene.materials.back().occlusion_texture = b.texture(occlusion("brick depths", bricks));

@@ -38,8 +38,8 @@ Scene rangeEdge() {
     b.point({3, 1, 2.5}, {0.3f, 1.0f, 0.3f}, 5, 0.999f);       // ends a millimetre above it
     b.point({0, 2.2, 7}, {0.5f, 0.6f, 1.0f}, 10, 5);           // contains the camera
     b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 6, 2.0f);  // ends on the foremost point of a ball
-    b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, 15, 25);  // ends on the floor
-    b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, 0, 40);    // ends on the wall
+    b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, {15, 25});  // ends on the floor
+    b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, {0, 40});    // ends on the wall
     return std::move(b.scene);
 }
 
@@ -71,10 +71,10 @@ Scene spots() {
         const double x = 1.5 * (i - 2.5);
         b.spot({x, 2.6, 0.8}, {0.9 * x, 0, 0},
                {1.0f, 0.6f + 0.06f * static_cast<float>(i), 0.4f + 0.1f * static_cast<float>(i)}, 9,
-               i == 3 ? std::numeric_limits<float>::infinity() : 6.0f, cones[i][0], cones[i][1]);
+               i == 3 ? std::numeric_limits<float>::infinity() : 6.0f, {cones[i][0], cones[i][1]});
     }
     // At a grazing angle along the floor.
-    b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, 4, 9);
+    b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, {4, 9});
     return std::move(b.scene);
 }
 

@@ -178,6 +178,71 @@ Primitive bendingLeaf() {
     return leaf;
 }
 
+// Animations of the scene.
+constexpr int figures = 0, surroundings = 1;
+
+void addTentacle(Stage& b) {
+    constexpr AnimatedPart R = AnimatedPart::rotation;
+    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
+    const int skin = b.material("tentacle", {{0.3f, 0.55f, 0.4f}, 0, 0.35f});
+    const int tentacle = b.addChain("tentacle", 8, 0.2, b.addNode("tentacle root", -1, at(-2.1, 0, 0)));
+    b.addSkinned("tentacle",
+                 bound(column(0.16, 1.6, 16), 8, 2,
+                       [](int j, const glm::dvec3& p) {
+                           const double away = (p.y - 0.2 * j - 0.1) / 0.25;
+                           return std::exp(-away * away) + 1e-3;
+                       }),
+                 skin, tentacle);
+    for (std::size_t j = 1; j < 8; ++j)
+        b.animate(
+            figures, b.joint(tentacle, j), R, Interpolation::cubic_spline, {0, 2},
+            {{0, 0, 0, 0}, rotation(0, Z), {0, 0, 0.5f, 0}, {0.5f, 0, 0, 0}, rotation(22, X), {0, 0, 0, 0}});
+}
+
+// Returns the box, to which the flag's mesh belongs.
+int addFlag(Stage& b) {
+    constexpr AnimatedPart R = AnimatedPart::rotation;
+    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
+    const int cloth = b.material("flag", {{0.8f, 0.15f, 0.1f}, 0, 0.7f});
+    b.scene.materials.back().base_color.a = 0.6f;
+    b.scene.materials.back().alpha_mode = AlphaMode::blend;
+    b.scene.materials.back().double_sided = true;
+    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * rotated(-90, Z));  // its +Y points to the right
+    const int flag = b.addChain("flag", 3, 0.45, pole);
+    const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
+    b.scene.nodes.back().mesh =
+        b.addMesh(diptych::box({0.5, 0.5, 0.5}, 0.05), b.material("box", {glm::vec3(0.8f), 0, 0.3f}), "box");
+    b.addSkinned("flag",
+                 bound(quad({0.4, 0, 0}, {0, 1.35, 0}, {-0.8, 0, 0}, 9, 4), 3, 1,
+                       [](int j, const glm::dvec3& p) {
+                           return std::max(1 - std::abs(p.y / 0.45 - j), j == 2 && p.y > 0.9 ? 1.0 : 0.0);
+                       }),
+                 cloth, flag, box);
+    for (std::size_t j = 0; j < 3; ++j)
+        b.animate(
+            figures, b.joint(flag, j), R, Interpolation::linear, {0, 0.5f, 1, 1.5f, 2},
+            {rotation(j == 1 ? 40 : -30, X), rotation(j == 1 ? -25 : 20, X), rotation(j == 1 ? -40 : 30, X),
+             rotation(j == 1 ? 25 : -20, X), rotation(j == 1 ? 40 : -30, X)});
+    return box;
+}
+
+// The sliding box, and a light that circles above.
+void addSurroundings(Stage& b, int box) {
+    constexpr AnimatedPart R = AnimatedPart::rotation;
+    constexpr Interpolation linear = Interpolation::linear;
+    const glm::dvec3 Y(0, 1, 0);
+    b.animate(surroundings, box, AnimatedPart::translation, Interpolation::cubic_spline, {0, 2},
+              {{0, 0, 0}, {-2.6f, 0.3f, 1.7f}, {1, 1, 0}, {1, -1, 0}, {0.2f, 0.3f, 1.7f}, {0, 0, 0}});
+    b.animate(surroundings, box, R, linear, {0, 2}, {rotation(0, Y), rotation(130, Y)});
+    const int orbit = b.addMover("orbit", {.translation = {0, 2.3, 0.6}});
+    b.animate(surroundings, orbit, R, linear, {0, 0.5f, 1, 1.5f, 2},
+              {rotation(0, Y), rotation(90, Y), rotation(180, Y), rotation(270, Y), rotation(360, Y)});
+    const int lamp = b.addNode("lamp", -1, at(2.2, 0, 0), orbit);
+    b.point({0, 0, 0}, {1, 0.75f, 0.45f}, 9, 8);
+    b.scene.lights.back().node = lamp;
+    b.scene.lights.back().shadow = true;
+}
+
 }  // namespace
 
 // From left to right: a column of two bones that bends while its upper half stretches 4:1; a tentacle with
@@ -186,12 +251,10 @@ Primitive bendingLeaf() {
 // that casts a shadow. The flag's mesh is a child of the box in the node tree, which must not move it. A
 // light circles above.
 Scene motion() {
-    constexpr AnimatedPart T = AnimatedPart::translation, R = AnimatedPart::rotation, S = AnimatedPart::scale,
-                           W = AnimatedPart::weights;
+    constexpr AnimatedPart R = AnimatedPart::rotation, S = AnimatedPart::scale, W = AnimatedPart::weights;
     constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
                             cubic = Interpolation::cubic_spline;
-    constexpr int figures = 0, surroundings = 1;
-    const glm::dvec3 X(1, 0, 0), Y(0, 1, 0), Z(0, 0, 1);
+    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     Stage b;
     b.camera("front", {0, 2.6, 8.2}, {0, 0.85, 0}, 34, 0.1, 100);
     b.scene.animations = {{"figures", {}, {}}, {"surroundings", {}, {}}};
@@ -206,20 +269,7 @@ Scene motion() {
     b.animate(figures, b.joint(bones, 1), R, linear, {0, 1, 2},
               {rotation(0, Z), negated(rotation(-60, Z)), rotation(40, X)});
     b.animate(figures, b.joint(bones, 1), S, linear, {0, 0.75f, 2}, {{1, 1, 1}, {0.5f, 2, 0.5f}, {1, 1, 1}});
-
-    const int skin = b.material("tentacle", {{0.3f, 0.55f, 0.4f}, 0, 0.35f});
-    const int tentacle = b.addChain("tentacle", 8, 0.2, b.addNode("tentacle root", -1, at(-2.1, 0, 0)));
-    b.addSkinned("tentacle",
-                 bound(column(0.16, 1.6, 16), 8, 2,
-                       [](int j, const glm::dvec3& p) {
-                           const double away = (p.y - 0.2 * j - 0.1) / 0.25;
-                           return std::exp(-away * away) + 1e-3;
-                       }),
-                 skin, tentacle);
-    for (std::size_t j = 1; j < 8; ++j)
-        b.animate(
-            figures, b.joint(tentacle, j), R, cubic, {0, 2},
-            {{0, 0, 0, 0}, rotation(0, Z), {0, 0, 0.5f, 0}, {0.5f, 0, 0, 0}, rotation(22, X), {0, 0, 0, 0}});
+    addTentacle(b);
 
     const int porcelain = b.material("ball", {glm::vec3(1), 0, 0.4f});
     b.scene.materials.back().normal_texture = weave;
@@ -238,27 +288,7 @@ Scene motion() {
     const int stone = b.material("facets", {{0.3f, 0.45f, 0.7f}, 0.2f, 0.4f});
     const int facets = b.addMorphed("facets", morphingFacets(), stone, {1.6, 0.7, 0});
     b.animate(figures, facets, W, step, {0, 0.5f, 1.25f}, {{0}, {1}, {-0.5f}});
-
-    const int cloth = b.material("flag", {{0.8f, 0.15f, 0.1f}, 0, 0.7f});
-    b.scene.materials.back().base_color.a = 0.6f;
-    b.scene.materials.back().alpha_mode = AlphaMode::blend;
-    b.scene.materials.back().double_sided = true;
-    const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * rotated(-90, Z));  // its +Y points to the right
-    const int flag = b.addChain("flag", 3, 0.45, pole);
-    const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
-    b.scene.nodes.back().mesh =
-        b.addMesh(diptych::box({0.5, 0.5, 0.5}, 0.05), b.material("box", {glm::vec3(0.8f), 0, 0.3f}), "box");
-    b.addSkinned("flag",
-                 bound(quad({0.4, 0, 0}, {0, 1.35, 0}, {-0.8, 0, 0}, 9, 4), 3, 1,
-                       [](int j, const glm::dvec3& p) {
-                           return std::max(1 - std::abs(p.y / 0.45 - j), j == 2 && p.y > 0.9 ? 1.0 : 0.0);
-                       }),
-                 cloth, flag, box);
-    for (std::size_t j = 0; j < 3; ++j)
-        b.animate(
-            figures, b.joint(flag, j), R, linear, {0, 0.5f, 1, 1.5f, 2},
-            {rotation(j == 1 ? 40 : -30, X), rotation(j == 1 ? -25 : 20, X), rotation(j == 1 ? -40 : 30, X),
-             rotation(j == 1 ? 25 : -20, X), rotation(j == 1 ? 40 : -30, X)});
+    const int box = addFlag(b);
 
     const int green = b.material("leaf", {glm::vec3(1), 0, 0.6f});
     b.scene.materials.back().base_color_texture = b.texture(leaf("leaf", 64));
@@ -266,17 +296,7 @@ Scene motion() {
     b.scene.materials.back().double_sided = true;
     const int bending = b.addMorphed("leaf", bendingLeaf(), green, {1.1, 0, 1.3});
     b.animate(figures, bending, W, linear, {0, 1, 2}, {{0}, {1.2f}, {-0.6f}});
-
-    b.animate(surroundings, box, T, cubic, {0, 2},
-              {{0, 0, 0}, {-2.6f, 0.3f, 1.7f}, {1, 1, 0}, {1, -1, 0}, {0.2f, 0.3f, 1.7f}, {0, 0, 0}});
-    b.animate(surroundings, box, R, linear, {0, 2}, {rotation(0, Y), rotation(130, Y)});
-    const int orbit = b.addMover("orbit", {.translation = {0, 2.3, 0.6}});
-    b.animate(surroundings, orbit, R, linear, {0, 0.5f, 1, 1.5f, 2},
-              {rotation(0, Y), rotation(90, Y), rotation(180, Y), rotation(270, Y), rotation(360, Y)});
-    const int lamp = b.addNode("lamp", -1, at(2.2, 0, 0), orbit);
-    b.point({0, 0, 0}, {1, 0.75f, 0.45f}, 9, 8);
-    b.scene.lights.back().node = lamp;
-    b.scene.lights.back().shadow = true;
+    addSurroundings(b, box);
     b.sun({-0.5, -1.2, -0.8}, {0.9f, 0.95f, 1}, 2.5f);
     return std::move(b.scene);
 }

@@ -133,7 +133,7 @@ Scene farAway() {
             here + glm::dvec3(0.9 * (i - 2), 0.35, 0.1 * i));
     }
     b.point(here + glm::dvec3(-1, 1.6, 1), {1.0f, 0.8f, 0.6f}, 5, 6);
-    b.spot(here + glm::dvec3(2, 2.5, 1), here + glm::dvec3(0.5, 0, 0), {0.6f, 0.8f, 1.0f}, 20, 8, 10, 25);
+    b.spot(here + glm::dvec3(2, 2.5, 1), here + glm::dvec3(0.5, 0, 0), {0.6f, 0.8f, 1.0f}, 20, 8, {10, 25});
     b.sun({-0.3, -1, -0.4}, glm::vec3(1), 0.5f);
     return std::move(b.scene);
 }

@@ -20,6 +20,14 @@ struct ArrayCounts {
 // materials <= meshes <= objects.
 Scene array(const ArrayCounts& counts);
 
+// covered.cpp: cost of layers
+struct CoverShares {
+    std::uint32_t coated, woven, brushed,
+        glass;  // clear coat, sheen, anisotropy, transmission; % of the wall
+};
+// The first of the `lights` is a sun. Behind glass is a plain tile.
+Scene covered(const CoverShares& shares, std::uint32_t lights);
+
 // surfaces.cpp: surface properties that a G-buffer must store
 Scene normals();         // seams and steps of normal encodings, in every octant
 Scene emission();        // emission clamped or rescaled, 1e-6 to 1e6
@@ -55,6 +63,10 @@ Scene tangents();  // tangents of untransformed or resting texture coordinates
 // layers.cpp: layers over and within the base
 // coats, sheens, films and directions of highlights lost, shared with the base, or on wrong tangents
 Scene layers();
+
+// transmission.cpp: light through surfaces
+// light through walls and slabs: lost, from another place, of another colour, or from one side alone
+Scene transmission();
 
 // motion.cpp: animation
 Scene motion();  // a pose that is missing, late or incomplete

@@ -213,12 +213,12 @@ Primitive torus(double ring, double radius, int segments, int sides) {
     return tube(circle, radius, segments, sides);
 }
 
-Primitive torusKnot(int p, int q, double ring, double hole, double radius, int segments, int sides) {
+Primitive torusKnot(int p, int q, double ring, double hole, double radius) {
     const auto knot = [=](double s) {
         const double around = TAU * p * s, through = TAU * q * s, r = ring + hole * std::cos(through);
         return dvec3(r * std::cos(around), hole * std::sin(through), r * std::sin(around));
     };
-    return tube(knot, radius, segments, sides);
+    return tube(knot, radius, 256, 20);
 }
 
 Primitive gem(double width, int sides) {

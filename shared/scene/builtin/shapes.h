@@ -32,8 +32,7 @@ Primitive lathe(const std::vector<glm::dvec2>& profile, int segments = 48);
 // around it.
 Primitive tube(const std::function<glm::dvec3(double)>& curve, double radius, int segments, int sides);
 Primitive torus(double ring, double radius, int segments = 64, int sides = 20);  // about +Y
-Primitive torusKnot(int p, int q, double ring, double hole, double radius, int segments = 256,
-                    int sides = 20);
+Primitive torusKnot(int p, int q, double ring, double hole, double radius);
 
 // A gem with an approximate brilliant cut: flat facets, tip at the bottom, height about 0.86 of the width.
 Primitive gem(double width, int sides = 12);

@@ -57,9 +57,9 @@ struct Cell {
     int column, row, edge;
 };
 
-Cell cellAt(int x, int y, int size, int cells, int rows, bool bricks) {
-    const int width = size / cells, height = size / rows, row = y / height;
-    const int shifted = wrap(x + (bricks && row % 2 == 1 ? width / 2 : 0), size);
+Cell cellAt(int x, int y, int size, const Masonry& masonry) {
+    const int width = size / masonry.cells, height = size / masonry.rows, row = y / height;
+    const int shifted = wrap(x + (masonry.bricks && row % 2 == 1 ? width / 2 : 0), size);
     const int dx = shifted % width, dy = y % height;
     return {shifted / width, row, std::min({dx, width - 1 - dx, dy, height - 1 - dy})};
 }
@@ -111,7 +111,7 @@ int HeightField::at(int x, int y) const {
 HeightField brickHeights(int size) {
     return heights(size, [size](int x, int y) {
         // Worn edges: they vary by a few texels.
-        const Cell cell = cellAt(x, y, size, 4, 8, true);
+        const Cell cell = cellAt(x, y, size, {4, 8, true});
         const int worn = cell.edge * 4096 - octaves(x, y, size, 16, 3, 7) / 2;
         const int face = FULL * 3 / 4 + static_cast<int>(hash(cell.column, cell.row, 1) >> 19);
         const int grain = octaves(x, y, size, 32, 3, 11) / 8;
@@ -121,7 +121,7 @@ HeightField brickHeights(int size) {
 
 HeightField tileHeights(int size) {
     return heights(size, [size](int x, int y) {
-        const Cell cell = cellAt(x, y, size, 4, 4, false);
+        const Cell cell = cellAt(x, y, size, {4, 4, false});
         const int edge = smooth((cell.edge - size / 256) * (FULL * 64 / size));
         return blend(octaves(x, y, size, 64, 2, 5) / 8, FULL - octaves(x, y, size, 8, 4, 9) / 24, edge);
     });
@@ -161,10 +161,10 @@ TextureImage normalMap(const std::string& name, const HeightField& field, double
     });
 }
 
-TextureImage colorMap(const std::string& name, const HeightField& field, Rgba8 low, Rgba8 high, int cells,
-                      int rows, bool bricks, int variation) {
+TextureImage colorMap(const std::string& name, const HeightField& field, Rgba8 low, Rgba8 high,
+                      const Masonry& masonry, int variation) {
     return image(name, field.size, [&](int x, int y) {
-        const Cell cell = cellAt(x, y, field.size, cells, rows, bricks);
+        const Cell cell = cellAt(x, y, field.size, masonry);
         const int dark = static_cast<int>(hash(cell.column, cell.row, 33) >> 24) * variation / 255;
         const Rgba8 color = mix(low, high, field.at(x, y));
         return mix(color, {0, 0, 0, color[3]}, dark * FULL / 255);

@@ -29,10 +29,15 @@ HeightField weaveHeights(int size);    // 8 x 8 over-and-under strands
 // A tangent-space normal map; `relief` is the height in texels of the value 65535.
 TextureImage normalMap(const std::string& name, const HeightField& heights, double relief);
 
-// Interpolates from `low` at height 0 to `high` at height 65535. Then darkens each of `cells` x `rows`
-// bricks or tiles by up to `variation` / 255. Bricks: odd rows are shifted by half a brick.
+// Bricks or tiles. Odd rows of bricks are shifted by half a brick.
+struct Masonry {
+    int cells, rows;
+    bool bricks;
+};
+// Interpolates from `low` at height 0 to `high` at height 65535. Then darkens each brick or tile by up to
+// `variation` / 255.
 TextureImage colorMap(const std::string& name, const HeightField& heights, Rgba8 low, Rgba8 high,
-                      int cells = 1, int rows = 1, bool bricks = false, int variation = 0);
+                      const Masonry& masonry, int variation);
 
 TextureImage checker(const std::string& name, int size, int cells, Rgba8 a, Rgba8 b);
 // One green leaf, stem at the bottom; alpha is 0 around it.

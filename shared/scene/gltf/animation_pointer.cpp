@@ -81,6 +81,14 @@ constexpr Pattern pointerPatterns[] = {
      AnimatedPart::iridescence_thickness_least},
     {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum",
      AnimatedPart::iridescence_thickness_most},
+    {"/materials/{}/extensions/KHR_materials_volume/thicknessFactor", AnimatedPart::thickness},
+    {"/materials/{}/extensions/KHR_materials_volume/attenuationDistance", AnimatedPart::attenuation_distance},
+    {"/materials/{}/extensions/KHR_materials_volume/attenuationColor", AnimatedPart::attenuation_color},
+    {"/materials/{}/extensions/KHR_materials_dispersion/dispersion", AnimatedPart::dispersion},
+    {"/materials/{}/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor",
+     AnimatedPart::diffuse_transmission},
+    {"/materials/{}/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor",
+     AnimatedPart::diffuse_transmission_color},
 };
 
 // Paths to a material's textures; one of transformPatterns follows.
@@ -110,6 +118,14 @@ constexpr Pattern texturePatterns[] = {
     {"/materials/{}/extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
      {},
      gpu::SLOT_iridescence_thickness},
+    {"/materials/{}/extensions/KHR_materials_transmission/transmissionTexture", {}, gpu::SLOT_transmission},
+    {"/materials/{}/extensions/KHR_materials_volume/thicknessTexture", {}, gpu::SLOT_thickness},
+    {"/materials/{}/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
+     {},
+     gpu::SLOT_diffuse_transmission},
+    {"/materials/{}/extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
+     {},
+     gpu::SLOT_diffuse_transmission_color},
 };
 constexpr Pattern transformPatterns[] = {
     {"/extensions/KHR_texture_transform/offset", AnimatedPart::texture_offset},
@@ -322,8 +338,16 @@ private:
                 return has("KHR_materials_sheen", "sheenRoughnessTexture");
             case gpu::SLOT_iridescence:
                 return has("KHR_materials_iridescence", "iridescenceTexture");
-            default:
+            case gpu::SLOT_iridescence_thickness:
                 return has("KHR_materials_iridescence", "iridescenceThicknessTexture");
+            case gpu::SLOT_transmission:
+                return has("KHR_materials_transmission", "transmissionTexture");
+            case gpu::SLOT_thickness:
+                return has("KHR_materials_volume", "thicknessTexture");
+            case gpu::SLOT_diffuse_transmission:
+                return has("KHR_materials_diffuse_transmission", "diffuseTransmissionTexture");
+            default:
+                return has("KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture");
         }
     }
 };

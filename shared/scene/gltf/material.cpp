@@ -3,12 +3,11 @@
 
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/texture.h"
+#include "shared/scene/gltf/transmission_notes.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
-#include "shared/text/counted.h"
 #include "shared/text/fail.h"
-#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
@@ -66,6 +65,8 @@ public:
             readAnisotropy(m);
             readSheen(m);
             readIridescence(m);
+            readVolume(m);
+            readDiffuseTransmission(m);
         }
         readLightmap(m);
         return m;
@@ -89,15 +90,26 @@ private:
     static std::size_t slotNumber(std::string_view name) {
         if (name == "diffuseTexture") return gpu::SLOT_base_color;
         if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
-        constexpr std::string_view names[gpu::SLOT_COUNT] = {
-            "baseColorTexture",       "metallicRoughnessTexture",
-            "normalTexture",          "occlusionTexture",
-            "emissiveTexture",        "specularTexture",
-            "specularColorTexture",   lightmapName,
-            "clearcoatTexture",       "clearcoatRoughnessTexture",
-            "clearcoatNormalTexture", "anisotropyTexture",
-            "sheenColorTexture",      "sheenRoughnessTexture",
-            "iridescenceTexture",     "iridescenceThicknessTexture"};
+        constexpr std::string_view names[gpu::SLOT_COUNT] = {"baseColorTexture",
+                                                             "metallicRoughnessTexture",
+                                                             "normalTexture",
+                                                             "occlusionTexture",
+                                                             "emissiveTexture",
+                                                             "specularTexture",
+                                                             "specularColorTexture",
+                                                             lightmapName,
+                                                             "clearcoatTexture",
+                                                             "clearcoatRoughnessTexture",
+                                                             "clearcoatNormalTexture",
+                                                             "anisotropyTexture",
+                                                             "sheenColorTexture",
+                                                             "sheenRoughnessTexture",
+                                                             "iridescenceTexture",
+                                                             "iridescenceThicknessTexture",
+                                                             "transmissionTexture",
+                                                             "thicknessTexture",
+                                                             "diffuseTransmissionTexture",
+                                                             "diffuseTransmissionColorTexture"};
         return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
     }
 
@@ -246,8 +258,41 @@ private:
 
     void readTransmission(Material& m) {
         const auto* e = extension(file_.extensions, "KHR_materials_transmission");
-        if (e)
-            m.transmission = within("transmissionFactor", numberIn(*e, "transmissionFactor", 0, who_), 0, 1);
+        if (!e) return;
+        m.transmission = within("transmissionFactor", numberIn(*e, "transmissionFactor", 0, who_), 0, 1);
+        m.transmission_texture = slotIn(*e, "transmissionTexture");
+    }
+
+    void readVolume(Material& m) {
+        if (const auto* e = extension(file_.extensions, "KHR_materials_volume")) {
+            m.thickness = within("thicknessFactor", numberIn(*e, "thicknessFactor", 0, who_), 0, maxFactor);
+            m.thickness_texture = slotIn(*e, "thicknessTexture");
+            m.attenuation_color = color(*e, "attenuationColor");
+            if (e->Has("attenuationDistance"))
+                m.attenuation_distance =
+                    within("attenuationDistance", numberIn(*e, "attenuationDistance", 0, who_),
+                           minAttenuationDistance, maxFactor);
+        }
+        if (const auto* e = extension(file_.extensions, "KHR_materials_dispersion"))
+            m.dispersion = within("dispersion", numberIn(*e, "dispersion", 0, who_), 0, maxFactor);
+    }
+
+    void readDiffuseTransmission(Material& m) {
+        const auto* e = extension(file_.extensions, "KHR_materials_diffuse_transmission");
+        if (!e) return;
+        m.diffuse_transmission =
+            within("diffuseTransmissionFactor", numberIn(*e, "diffuseTransmissionFactor", 0, who_), 0, 1);
+        m.diffuse_transmission_color = color(*e, "diffuseTransmissionColorFactor");
+        m.diffuse_transmission_texture = slotIn(*e, "diffuseTransmissionTexture");
+        m.diffuse_transmission_color_texture = slotIn(*e, "diffuseTransmissionColorTexture");
+    }
+
+    // 0 to 1; white by default.
+    glm::vec3 color(const tinygltf::Value& object, const char* name) {
+        const std::vector<double> components = numbersIn(object, name, {1, 1, 1}, who_);
+        glm::vec3 result;
+        for (int c = 0; c < 3; ++c) result[c] = within(name, components[static_cast<std::size_t>(c)], 0, 1);
+        return result;
     }
 
     void readClearcoat(Material& m) {
@@ -307,7 +352,7 @@ private:
             if (ior != 0 && ior < 1)
                 scene_.notes.push_back(
                     fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, ior));
-            m.ior = ior == 0 ? 0.0f : static_cast<float>(std::max(ior, 1.0));
+            m.ior = ior == 0 ? 0.0f : within("ior", std::max(ior, 1.0), 1, maxFactor);
         }
         if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
             m.specular = within("specularFactor", numberIn(*e, "specularFactor", 1, who_), 0, 1);
@@ -320,50 +365,6 @@ private:
         }
     }
 };
-
-// Adds the note "3 materials (a, b, c) ..." about those for which `test` is true.
-template <class Test>
-void noteMaterials(const tinygltf::Model& model, const Test& test, const char* what, Scene& scene) {
-    std::string names;
-    int count = 0;
-    for (std::size_t i = 0; i < model.materials.size(); ++i) {
-        if (!test(i)) continue;
-        const std::string& name = model.materials[i].name;
-        names += (count++ ? ", " : "") + (name.empty() ? std::to_string(i) : name);
-    }
-    if (count)
-        scene.notes.push_back(fmt::format(
-            "{} ({}) {}", counted(static_cast<std::uint64_t>(count), "material"), oneLine(names), what));
-}
-
-// Notes once per scene what thin transmission does not model.
-void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene) {
-    std::set<int> begin;  // materials whose transmission is animated
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.part == AnimatedPart::transmission) begin.insert(channel.object);
-    const auto transmits = [&](std::size_t i) {
-        return drawn[i] && (scene.materials[i].transmission > 0 || begin.contains(static_cast<int>(i)));
-    };
-    const auto extensionOf = [&](std::size_t i, const char* name) {
-        return extension(model.materials[i].extensions, name);
-    };
-    noteMaterials(model, transmits,
-                  "with KHR_materials_transmission: blended as thin surfaces; refraction, rough transmission "
-                  "and colour of transmitted light are not modelled",
-                  scene);
-    const auto textured = [&](std::size_t i) {
-        const auto* e = extensionOf(i, "KHR_materials_transmission");
-        return transmits(i) && e && e->Has("transmissionTexture");
-    };
-    noteMaterials(model, textured, "with a transmissionTexture: ignored, only transmissionFactor is used",
-                  scene);
-    const auto thick = [&](std::size_t i) {
-        return drawn[i] && !scene.materials[i].specular_glossiness && extensionOf(i, "KHR_materials_volume");
-    };
-    noteMaterials(model, thick, "with KHR_materials_volume: thickness and attenuation are not modelled",
-                  scene);
-}
 
 std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scene) {
     std::vector<bool> drawn(model.materials.size(), false);

@@ -161,6 +161,12 @@ constexpr Property specularGlossiness[] = {numbers("diffuseFactor", 4), object("
                                            object("specularGlossinessTexture", textureInfo)};
 constexpr Property transmission[] = {number("transmissionFactor"),
                                      object("transmissionTexture", textureInfo)};
+constexpr Property volume[] = {number("thicknessFactor"), object("thicknessTexture", textureInfo),
+                               number("attenuationDistance"), numbers("attenuationColor", 3)};
+constexpr Property dispersion[] = {number("dispersion")};
+constexpr Property diffuseTransmission[] = {
+    number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", textureInfo),
+    numbers("diffuseTransmissionColorFactor", 3), object("diffuseTransmissionColorTexture", textureInfo)};
 constexpr Property clearcoat[] = {
     number("clearcoatFactor"), object("clearcoatTexture", textureInfo), number("clearcoatRoughnessFactor"),
     object("clearcoatRoughnessTexture", textureInfo), object("clearcoatNormalTexture", normalInfo)};
@@ -176,6 +182,8 @@ constexpr Property iridescence[] = {number("iridescenceFactor"),
                                     object("iridescenceThicknessTexture", textureInfo)};
 constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", anisotropy),
                                            object("KHR_materials_clearcoat", clearcoat),
+                                           object("KHR_materials_diffuse_transmission", diffuseTransmission),
+                                           object("KHR_materials_dispersion", dispersion),
                                            object("KHR_materials_emissive_strength", emissiveStrength),
                                            object("KHR_materials_ior", ior),
                                            object("KHR_materials_iridescence", iridescence),
@@ -184,7 +192,7 @@ constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", an
                                            object("KHR_materials_specular", specular),
                                            object("KHR_materials_transmission", transmission),
                                            object("KHR_materials_unlit", {}),
-                                           object("KHR_materials_volume", {})};
+                                           object("KHR_materials_volume", volume)};
 constexpr Property material[] = {name(),
                                  object("pbrMetallicRoughness", metallicRoughness),
                                  object("normalTexture", normalInfo),

@@ -24,6 +24,9 @@ inline constexpr double maxFactor = 1e12;
 // nm: the largest half; packed G-buffers store the thickness as one.
 inline constexpr double maxFilmThickness = 65504;
 
+// m: the least attenuation distance; 0 stands for infinity (Material).
+inline constexpr double minAttenuationDistance = 1e-12;
+
 struct PartFacts {
     // Components per key; for weights, per morph target.
     std::size_t width;
@@ -70,6 +73,8 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {4, 0, 1};
         case AnimatedPart::specular_f0:
         case AnimatedPart::sheen_color:
+        case AnimatedPart::attenuation_color:
+        case AnimatedPart::diffuse_transmission_color:
             return {3, 0, 1};
         case AnimatedPart::emissive:
             return {3, 0, any};
@@ -86,6 +91,7 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::anisotropy:
         case AnimatedPart::sheen_roughness:
         case AnimatedPart::iridescence:
+        case AnimatedPart::diffuse_transmission:
             return {1, 0, 1};
         case AnimatedPart::iridescence_ior:
             return {1, 1, maxFactor};
@@ -96,9 +102,13 @@ constexpr PartFacts factsOf(AnimatedPart part) {
         case AnimatedPart::clearcoat_normal_scale:
             return {1, -maxFactor, maxFactor};
         case AnimatedPart::alpha_cutoff:
+        case AnimatedPart::thickness:
+        case AnimatedPart::dispersion:
             return {1, 0, maxFactor};
+        case AnimatedPart::attenuation_distance:
+            return {1, minAttenuationDistance, maxFactor};
         case AnimatedPart::ior:  // valid: 0, or at least 1
-            return {1, 0, any};
+            return {1, 0, maxFactor};
         case AnimatedPart::texture_offset:
         case AnimatedPart::texture_scale:
             return {2, -maxFactor, maxFactor};

@@ -32,6 +32,10 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::sheen_roughness_texture, true},  // alpha, often of the colour's image
     {&Material::iridescence_texture, false},
     {&Material::iridescence_thickness_texture, false},
+    {&Material::transmission_texture, false},
+    {&Material::thickness_texture, false},
+    {&Material::diffuse_transmission_texture, true},  // alpha, often of the colour's image
+    {&Material::diffuse_transmission_color_texture, true},
 }};
 
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
@@ -61,6 +65,13 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
         case gpu::SLOT_iridescence:
         case gpu::SLOT_iridescence_thickness:
             return material.iridescence != 0;
+        case gpu::SLOT_transmission:
+            return material.transmission != 0;
+        case gpu::SLOT_thickness:
+            return material.transmission != 0 && material.thickness != 0;
+        case gpu::SLOT_diffuse_transmission:
+        case gpu::SLOT_diffuse_transmission_color:
+            return material.diffuse_transmission != 0;
         default:
             return true;
     }

@@ -137,6 +137,12 @@ enum class AnimatedPart {
     iridescence_ior,
     iridescence_thickness_least,
     iridescence_thickness_most,
+    thickness,
+    attenuation_distance,
+    attenuation_color,
+    dispersion,
+    diffuse_transmission,
+    diffuse_transmission_color,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale

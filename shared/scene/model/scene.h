@@ -82,7 +82,13 @@ struct Material {
     float specular = 1;  // KHR_materials_specular
     glm::vec3 specular_color{1, 1, 1};
     float lightmap_intensity = 1;  // see contract/material.h
-    float transmission = 0;        // KHR_materials_transmission, infinitely thin
+    float transmission = 0;        // KHR_materials_transmission
+    // KHR_materials_volume: m in the mesh's space, 0: thin wall; distance in m, 0: infinite
+    float thickness = 0, attenuation_distance = 0;
+    glm::vec3 attenuation_color{1, 1, 1};
+    float dispersion = 0;            // KHR_materials_dispersion: 20 / Abbe number
+    float diffuse_transmission = 0;  // KHR_materials_diffuse_transmission
+    glm::vec3 diffuse_transmission_color{1, 1, 1};
     float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;  // KHR_materials_clearcoat
     float anisotropy = 0, anisotropy_rotation = 0;  // KHR_materials_anisotropy; rad, tangent to bitangent
     glm::vec3 sheen_color{0, 0, 0};                 // KHR_materials_sheen
@@ -100,7 +106,8 @@ struct Material {
     TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
         emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,
         clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture, sheen_color_texture,
-        sheen_roughness_texture, iridescence_texture, iridescence_thickness_texture;
+        sheen_roughness_texture, iridescence_texture, iridescence_thickness_texture, transmission_texture,
+        thickness_texture, diffuse_transmission_texture, diffuse_transmission_color_texture;
 };
 
 // Values that Material stores combined, split into the parts that animations replace.
@@ -110,9 +117,14 @@ struct MaterialParts {
     std::array<TextureTransform, gpu::SLOT_COUNT> transforms;  // by SLOT_*
 };
 
+// Whether it transmits light without diffusion: KHR_materials_transmission.
+inline bool transmits(const Material& m) {
+    return m.transmission > 0 && !m.unlit;
+}
+
 // Whether the surface behind it remains visible.
 inline bool blends(const Material& m) {
-    return m.alpha_mode == AlphaMode::blend || (m.transmission > 0 && !m.unlit);
+    return m.alpha_mode == AlphaMode::blend || transmits(m);
 }
 
 // A sum of LAYER_* of contract/material.h.
@@ -120,7 +132,9 @@ inline std::uint32_t layersOf(const Material& m) {
     if (m.unlit) return 0;
     return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0) |
            (m.sheen_color != glm::vec3(0) ? gpu::LAYER_SHEEN : 0) |
-           (m.iridescence > 0 ? gpu::LAYER_IRIDESCENCE : 0);
+           (m.iridescence > 0 ? gpu::LAYER_IRIDESCENCE : 0) |
+           (m.diffuse_transmission > 0 ? gpu::LAYER_DIFFUSE_TRANSMISSION : 0) |
+           (transmits(m) ? gpu::LAYER_TRANSMISSION : 0);
 }
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct Instance {
     bool deformed() const { return skin >= 0 || weights >= 0 || map_rotated; }
     bool operator==(const Instance&) const = default;
 };
+
+// World units per unit of the mesh, by which its nodes scale a volume's thickness: the cube root of their
+// |determinant|. 1 for a skinned mesh, whose joints place its vertices.
+inline double lengthScale(const Instance& instance) {
+    return instance.skin >= 0 ? 1
+                              : std::cbrt(std::abs(glm::determinant(glm::dmat3(instance.world_from_object))));
+}
 
 // Bounds and storage of a deformed instance's vertices.
 struct PosedBox {

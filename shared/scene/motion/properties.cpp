@@ -87,6 +87,43 @@ void move(Camera& camera, const Values& values) {
                                      : std::numeric_limits<double>::infinity();
 }
 
+// Properties that are members of Material.
+template <class Value>
+struct MaterialMember {
+    AnimatedPart part;
+    Value Material::*member;
+};
+constexpr MaterialMember<float> materialNumbers[] = {
+    {AnimatedPart::metallic, &Material::metallic},
+    {AnimatedPart::roughness, &Material::roughness},
+    {AnimatedPart::normal_scale, &Material::normal_scale},
+    {AnimatedPart::occlusion_strength, &Material::occlusion_strength},
+    {AnimatedPart::alpha_cutoff, &Material::alpha_cutoff},
+    {AnimatedPart::specular, &Material::specular},
+    {AnimatedPart::transmission, &Material::transmission},
+    {AnimatedPart::clearcoat, &Material::clearcoat},
+    {AnimatedPart::clearcoat_roughness, &Material::clearcoat_roughness},
+    {AnimatedPart::clearcoat_normal_scale, &Material::clearcoat_normal_scale},
+    {AnimatedPart::anisotropy, &Material::anisotropy},
+    {AnimatedPart::anisotropy_rotation, &Material::anisotropy_rotation},
+    {AnimatedPart::sheen_roughness, &Material::sheen_roughness},
+    {AnimatedPart::iridescence, &Material::iridescence},
+    {AnimatedPart::iridescence_ior, &Material::iridescence_ior},
+    {AnimatedPart::iridescence_thickness_least, &Material::iridescence_thickness_least},
+    {AnimatedPart::iridescence_thickness_most, &Material::iridescence_thickness_most},
+    {AnimatedPart::thickness, &Material::thickness},
+    {AnimatedPart::attenuation_distance, &Material::attenuation_distance},
+    {AnimatedPart::dispersion, &Material::dispersion},
+    {AnimatedPart::diffuse_transmission, &Material::diffuse_transmission},
+};
+constexpr MaterialMember<glm::vec3> materialColors[] = {
+    {AnimatedPart::specular_color, &Material::specular_color},
+    {AnimatedPart::specular_f0, &Material::specular_color},
+    {AnimatedPart::sheen_color, &Material::sheen_color},
+    {AnimatedPart::attenuation_color, &Material::attenuation_color},
+    {AnimatedPart::diffuse_transmission_color, &Material::diffuse_transmission_color},
+};
+
 // A material, and the parts of its combined values.
 class MovedMaterial {
 public:
@@ -99,15 +136,13 @@ public:
 
     void set(AnimatedPart part, int element, const std::vector<double>& v) {
         const auto number = static_cast<float>(v[0]);
+        for (const auto& row : materialNumbers)
+            if (row.part == part) m_.*row.member = number;
+        for (const auto& row : materialColors)
+            if (row.part == part) m_.*row.member = rgb(v);
         switch (part) {
             case AnimatedPart::base_color:
                 m_.base_color = glm::vec4(rgb(v), static_cast<float>(v[3]));
-                break;
-            case AnimatedPart::metallic:
-                m_.metallic = number;
-                break;
-            case AnimatedPart::roughness:
-                m_.roughness = number;
                 break;
             case AnimatedPart::emissive:
                 parts_.emissive = {v[0], v[1], v[2]};
@@ -117,63 +152,11 @@ public:
                 parts_.emissive_strength = v[0];
                 emit();
                 break;
-            case AnimatedPart::normal_scale:
-                m_.normal_scale = number;
-                break;
-            case AnimatedPart::occlusion_strength:
-                m_.occlusion_strength = number;
-                break;
-            case AnimatedPart::alpha_cutoff:
-                m_.alpha_cutoff = number;
-                break;
             case AnimatedPart::ior:
                 m_.ior = number == 0 ? 0 : std::max(number, 1.0f);
                 break;
-            case AnimatedPart::specular:
-                m_.specular = number;
-                break;
-            case AnimatedPart::specular_color:
-            case AnimatedPart::specular_f0:
-                m_.specular_color = rgb(v);
-                break;
             case AnimatedPart::glossiness:
                 m_.roughness = static_cast<float>(1 - v[0]);
-                break;
-            case AnimatedPart::transmission:
-                m_.transmission = number;
-                break;
-            case AnimatedPart::clearcoat:
-                m_.clearcoat = number;
-                break;
-            case AnimatedPart::clearcoat_roughness:
-                m_.clearcoat_roughness = number;
-                break;
-            case AnimatedPart::clearcoat_normal_scale:
-                m_.clearcoat_normal_scale = number;
-                break;
-            case AnimatedPart::anisotropy:
-                m_.anisotropy = number;
-                break;
-            case AnimatedPart::anisotropy_rotation:
-                m_.anisotropy_rotation = number;
-                break;
-            case AnimatedPart::sheen_color:
-                m_.sheen_color = rgb(v);
-                break;
-            case AnimatedPart::sheen_roughness:
-                m_.sheen_roughness = number;
-                break;
-            case AnimatedPart::iridescence:
-                m_.iridescence = number;
-                break;
-            case AnimatedPart::iridescence_ior:
-                m_.iridescence_ior = number;
-                break;
-            case AnimatedPart::iridescence_thickness_least:
-                m_.iridescence_thickness_least = number;
-                break;
-            case AnimatedPart::iridescence_thickness_most:
-                m_.iridescence_thickness_most = number;
                 break;
             case AnimatedPart::texture_offset:
                 transform(element).offset = {v[0], v[1]};
@@ -187,7 +170,7 @@ public:
                 transform(element).scale = {v[0], v[1]};
                 place(element);
                 break;
-            default:  // parts of nodes, lights and cameras
+            default:  // above, or parts of nodes, lights and cameras
                 break;
         }
     }

@@ -160,6 +160,66 @@ TEST(SceneGltf, TexturesOfSheensAndFilmsKeepTheirPlaces) {
     EXPECT_NEAR(same->iridescence_thickness_texture.u.x, 5, 1e-6);
 }
 
+// Every factor and texture of light that passes; a distance of 0, infinity, is not written.
+TEST(SceneGltf, TransmissionIsReadBackAsItIs) {
+    Scene scene = loadScene("builtin:gallery");
+    Material& m = scene.materials.at(static_cast<std::size_t>(scene.meshes.at(0).primitives.at(0).material));
+    m.transmission = 0.25f;
+    m.ior = 1.75f;
+    m.thickness = 2;
+    m.attenuation_color = {0.5f, 0.25f, 0.125f};
+    m.dispersion = 0.75f;
+    m.diffuse_transmission = 0.375f;
+    m.diffuse_transmission_color = {0.75f, 0.5f, 0.25f};
+    m.transmission_texture = {0, 0, {2, 0, 0}, {0, 1, 0}};
+    m.thickness_texture = {0, 1, {3, 0, 0}, {0, 1, 0}};
+    m.diffuse_transmission_texture = {0, 0, {4, 0, 0}, {0, 1, 0}};
+    m.diffuse_transmission_color_texture = {0, 0, {5, 0, 0}, {0, 1, 0}};
+    for (const float distance : {0.0f, 3.0f}) {
+        m.attenuation_distance = distance;
+        const Scene back = readBack(sceneGltf(scene, viewAt(scene, 0), SkinNormals::joints).glb);
+        const auto same = std::ranges::find(back.materials, m.name, &Material::name);
+        ASSERT_NE(same, back.materials.end());
+        for (float Material::*factor :
+             {&Material::transmission, &Material::ior, &Material::thickness, &Material::attenuation_distance,
+              &Material::dispersion, &Material::diffuse_transmission})
+            EXPECT_EQ((*same).*factor, m.*factor);
+        EXPECT_EQ(same->attenuation_color, m.attenuation_color);
+        EXPECT_EQ(same->diffuse_transmission_color, m.diffuse_transmission_color);
+        EXPECT_NEAR(same->transmission_texture.u.x, 2, 1e-6);
+        EXPECT_NEAR(same->thickness_texture.u.x, 3, 1e-6);
+        EXPECT_EQ(same->thickness_texture.texcoord, 1);
+        EXPECT_NEAR(same->diffuse_transmission_texture.u.x, 4, 1e-6);
+        EXPECT_NEAR(same->diffuse_transmission_color_texture.u.x, 5, 1e-6);
+    }
+}
+
+// Thickness is in units of the mesh, which nodes scale; the copy of a posed mesh is in world space.
+TEST(SceneGltf, VolumesOfPosedMeshesKeepTheirThickness) {
+    Scene scene = loadScene("builtin:motion");
+    for (Material& m : scene.materials) m.transmission = m.thickness = 0.5f;
+    SceneView view = viewAt(scene, 0.7);
+    std::vector<Instance> passed;
+    for (Instance& instance : view.pose.instances) {
+        if (primitiveOf(scene, instance).indices.empty()) continue;
+        if (instance.skin < 0) instance.world_from_object *= glm::dmat4(glm::dmat3(3.0));
+        passed.push_back(instance);
+    }
+    const Scene back = readBack(sceneGltf(scene, view, SkinNormals::joints).glb);
+    const Pose pose = poseAt(back, 0);
+    ASSERT_EQ(pose.instances.size(), passed.size());
+    int scaled = 0;
+    for (std::size_t i = 0; i < passed.size(); ++i) {
+        EXPECT_NEAR(lengthScale(pose.instances[i]), lengthScale(passed[i]), 1e-9) << i;
+        scaled += passed[i].deformed() && passed[i].skin < 0;
+        const std::vector<glm::dvec3> a = middlesOf(scene, view.pose, passed[i]),
+                                      b = middlesOf(back, pose, pose.instances[i]);
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t t = 0; t < a.size(); ++t) EXPECT_LT(glm::distance(a[t], b[t]), 1e-5) << i;
+    }
+    EXPECT_GT(scaled, 0);
+}
+
 // In its own extension: no other states F0, glossiness and diffuse in the same textures.
 TEST(SceneGltf, SpecularGlossinessIsReadBackAsItIs) {
     Scene scene = loadScene("builtin:gallery");

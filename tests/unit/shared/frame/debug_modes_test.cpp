@@ -125,12 +125,27 @@ TEST(DebugModes, LayersHaveTheirChannels) {
     for (const DebugMode& mode : debugModes()) {
         const std::string name(mode.name);
         const auto names = [&](const char* word) { return name.find(word) != std::string::npos; };
-        const gpu::uint layer = names("clearcoat")     ? gpu::LAYER_CLEARCOAT
-                                : names("anisotropy")  ? gpu::LAYER_ANISOTROPY
-                                : names("sheen")       ? gpu::LAYER_SHEEN
-                                : names("iridescence") ? gpu::LAYER_IRIDESCENCE
-                                                       : 0u;
+        const gpu::uint layer =
+            names("clearcoat")              ? gpu::LAYER_CLEARCOAT
+            : names("anisotropy")           ? gpu::LAYER_ANISOTROPY
+            : names("sheen")                ? gpu::LAYER_SHEEN
+            : names("iridescence")          ? gpu::LAYER_IRIDESCENCE
+            : names("diffuse_transmission") ? gpu::LAYER_DIFFUSE_TRANSMISSION
+            : name == "lit_transmission"    ? gpu::LAYER_TRANSMISSION | gpu::LAYER_DIFFUSE_TRANSMISSION
+            : names("transmission") || names("attenuation") || names("dispersion") ? gpu::LAYER_TRANSMISSION
+                                                                                   : 0u;
         EXPECT_EQ(layerOf(mode.number), layer) << name;
+    }
+}
+
+// A channel of several layers is shown if a scene has any of them.
+TEST(DebugModes, ScenesShowTheChannelsOfTheirLayers) {
+    for (const DebugMode& mode : debugModes()) {
+        const gpu::uint layers = layerOf(mode.number);
+        EXPECT_EQ(mayShow(mode.number, 0), layers == 0) << mode.name;
+        for (gpu::uint layer = 1; layer <= gpu::LAYER_TRANSMISSION; layer *= 2) {
+            EXPECT_EQ(mayShow(mode.number, layer), layers == 0 || (layers & layer) != 0) << mode.name;
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <functional>
 
@@ -80,7 +81,7 @@ TEST(Requirements, EachFeatureAsksForItself) {
         {"normal", [](Material& m) { m.normal_texture.texture = 0; }, &Requirements::normal_maps},
         {"mask", [](Material& m) { m.alpha_mode = AlphaMode::mask; }, &Requirements::alpha_mask},
         {"blend", [](Material& m) { m.alpha_mode = AlphaMode::blend; }, &Requirements::alpha_blend},
-        {"transmission", [](Material& m) { m.transmission = 0.5f; }, &Requirements::alpha_blend},
+        {"transmission", [](Material& m) { m.transmission = 0.5f; }, &Requirements::rough_glass},
         {"two sides", [](Material& m) { m.double_sided = true; }, &Requirements::double_sided},
         {"uv set",
          [](Material& m) {
@@ -147,6 +148,55 @@ TEST(Requirements, LayersOfDrawnLitMaterialsAreSummed) {
     EXPECT_EQ(of(scene).layers, 0u);
 }
 
+// Thickness and dispersion count only where light passes.
+TEST(Requirements, VolumesOfTransmittingMaterials) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.thickness = m.dispersion = 0.5f;
+    EXPECT_FALSE(of(scene).volume || of(scene).dispersion);
+    for (const char* name : {"transmission", "volumes", "dispersion", "diffuse transmission"})
+        EXPECT_FALSE(line(of(scene).lines(), name).modelled) << name;
+    m.transmission = 0.5f;
+    EXPECT_EQ(of(scene).layers, gpu::LAYER_TRANSMISSION);
+    EXPECT_TRUE(of(scene).rough_glass);
+    EXPECT_FALSE(of(scene).alpha_blend || line(of(scene).lines(), "alpha blending").modelled);
+    m.roughness = 0;
+    EXPECT_FALSE(of(scene).rough_glass);
+    EXPECT_EQ(of(scene).surface_layers, 0u) << "the G-buffer stores none of it";
+    for (const char* name : {"transmission", "volumes", "dispersion"})
+        EXPECT_TRUE(line(of(scene).lines(), name).modelled) << name;
+    m.diffuse_transmission = 0.5f;
+    EXPECT_EQ(of(scene).layers, gpu::LAYER_TRANSMISSION | gpu::LAYER_DIFFUSE_TRANSMISSION);
+    EXPECT_TRUE(line(of(scene).lines(), "diffuse transmission").modelled);
+    m.thickness = 0;
+    EXPECT_FALSE(of(scene).volume || of(scene).dispersion);
+    m.thickness = 1;
+    m.unlit = true;
+    EXPECT_FALSE(of(scene).volume || of(scene).dispersion);
+    EXPECT_EQ(of(scene).layers, 0u);
+}
+
+// The G-buffer stores layers of opaque surfaces alone.
+TEST(Requirements, LayersOfSurfacesThatAreSeenThroughAreNotStored) {
+    for (const bool first : {false, true}) {
+        Scene scene = plainScene();
+        scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
+        scene.meshes[0].primitives[1].material = 1;
+        Material &glass = scene.materials[first ? 0 : 1], &solid = scene.materials[first ? 1 : 0];
+        glass.transmission = glass.clearcoat = 1;
+        solid.diffuse_transmission = 1;
+        constexpr gpu::uint both = gpu::LAYER_CLEARCOAT | gpu::LAYER_DIFFUSE_TRANSMISSION;
+        EXPECT_EQ(of(scene).layers, both | gpu::LAYER_TRANSMISSION);
+        EXPECT_EQ(of(scene).surface_layers, gpu::LAYER_DIFFUSE_TRANSMISSION);
+        glass.transmission = 0;
+        EXPECT_EQ(of(scene).surface_layers, both);
+        glass.alpha_mode = AlphaMode::blend;
+        EXPECT_EQ(of(scene).surface_layers, gpu::LAYER_DIFFUSE_TRANSMISSION);
+        solid.clearcoat = 1;
+        EXPECT_EQ(of(scene).surface_layers, both) << "an opaque surface has one, too";
+    }
+}
+
 TEST(Requirements, TexturesOfALayerAreReadWhereItIs) {
     Scene scene = plainScene();
     scene.textures.resize(2);
@@ -183,6 +233,21 @@ TEST(Requirements, AThicknessTextureChoosesInARange) {
     EXPECT_EQ(of(scene).film_thickness_range, 300);
     scene.materials[0].iridescence = 0;
     EXPECT_EQ(of(scene).film_thickness_range, 0) << "without a film";
+}
+
+// In world units: the largest node counts.
+TEST(Requirements, AVolumesTextureScalesItsThickness) {
+    Scene scene = plainScene();
+    Material& m = scene.materials[0];
+    m.transmission = 1;
+    m.thickness = 0.5f;
+    EXPECT_EQ(of(scene).volume_thickness_range, 0) << "without a texture";
+    m.thickness_texture.texture = 0;
+    EXPECT_EQ(of(scene).volume_thickness_range, 0.5f);
+    scene.nodes[1].parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(-8, 1, 1));
+    EXPECT_NEAR(of(scene).volume_thickness_range, 1, 1e-6);
+    m.transmission = 0;
+    EXPECT_EQ(of(scene).volume_thickness_range, 0);
 }
 
 TEST(Requirements, UnlitAsksForEmissionAndSpecularAlone) {

@@ -27,7 +27,7 @@ TEST(GltfAnimationPointer, FaultyPointersAreLeftOut) {
         {"/nodes//scale", nothing},
         {"/nodes/99999999999999999999/scale", nothing},
         {"/nodes/0/matrix", nothing},
-        {"/materials/0/extensions/KHR_materials_dispersion/dispersion", nothing},
+        {"/materials/0/extensions/KHR_materials_unlit/unlit", nothing},
         {"/materials/0/doubleSided", nothing},
         {"/materials/0/extras/a", nothing},
         {"/nodes/3/scale", "the file has 3"},

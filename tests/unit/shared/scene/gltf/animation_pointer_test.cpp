@@ -98,6 +98,16 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
          material(&Material::iridescence_thickness_least)},
         {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1,
          material(&Material::iridescence_thickness_most)},
+        {m + "extensions/KHR_materials_volume/thicknessFactor", 1, material(&Material::thickness)},
+        {m + "extensions/KHR_materials_volume/attenuationDistance", 1,
+         material(&Material::attenuation_distance)},
+        {m + "extensions/KHR_materials_volume/attenuationColor", 3,
+         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).attenuation_color); }},
+        {m + "extensions/KHR_materials_dispersion/dispersion", 1, material(&Material::dispersion)},
+        {m + "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", 1,
+         material(&Material::diffuse_transmission)},
+        {m + "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor", 3,
+         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).diffuse_transmission_color); }},
     };
     for (const auto& [pointer, width, read] : cases) {
         PointerFile f;
@@ -180,7 +190,13 @@ TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
         {"extensions/KHR_materials_sheen/sheenRoughnessTexture", &Material::sheen_roughness_texture},
         {"extensions/KHR_materials_iridescence/iridescenceTexture", &Material::iridescence_texture},
         {"extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
-         &Material::iridescence_thickness_texture}};
+         &Material::iridescence_thickness_texture},
+        {"extensions/KHR_materials_transmission/transmissionTexture", &Material::transmission_texture},
+        {"extensions/KHR_materials_volume/thicknessTexture", &Material::thickness_texture},
+        {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
+         &Material::diffuse_transmission_texture},
+        {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
+         &Material::diffuse_transmission_color_texture}};
     for (const auto& [slot, member] : slots) {
         const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
         PointerFile f;
@@ -286,6 +302,9 @@ TEST(GltfAnimationPointer, KeysBeyondTheRangeAreNoted) {
     EXPECT_EQ(poseAt(scene, 1).materials.at(0).roughness, 1);
     EXPECT_EQ(poseAt(scene, 0).materials.at(0).ior, 1);
     EXPECT_EQ(poseAt(scene, 1).materials.at(0).ior, 2);
+    PointerFile endless;
+    endless.channel("/materials/0/extensions/KHR_materials_ior/ior", {1, 1e30f});
+    EXPECT_EQ(poseAt(endless.load(), 1).materials.at(0).ior, 1e12f);
 }
 
 TEST(GltfAnimationPointer, FilmsStayWithinTheirRange) {
@@ -328,11 +347,12 @@ TEST(GltfAnimationPointer, WhatAFactorSwitchesOnIsNeeded) {
     const Scene scene = f.load();
     const Requirements start = requirements(scene, poseAt(scene, 0)),
                        end = requirements(scene, poseAt(scene, 1));
-    EXPECT_FALSE(start.emission || start.alpha_blend || start.normal_maps || start.texture_transform);
-    EXPECT_TRUE(end.emission && end.alpha_blend && end.normal_maps && end.texture_transform);
+    EXPECT_FALSE(start.emission || start.rough_glass || start.normal_maps || start.texture_transform);
+    EXPECT_TRUE(end.emission && end.rough_glass && end.normal_maps && end.texture_transform);
     EXPECT_EQ(end.max_emission, 0.5f);
     EXPECT_EQ(materialsThatBlend(scene), (std::vector<bool>{true}));
-    EXPECT_TRUE(mentions(scene.notes, "1 material (0) with KHR_materials_transmission: blended"));
+    EXPECT_EQ(start.layers, 0u);
+    EXPECT_EQ(end.layers, gpu::LAYER_TRANSMISSION);
 }
 
 }  // namespace

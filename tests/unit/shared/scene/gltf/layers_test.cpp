@@ -409,7 +409,8 @@ TEST(GltfLayers, RealFilesHaveTheirLayers) {
           Row{"AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 0, 42, 0, 0, gpu::LAYER_ANISOTROPY},
           // 4 x 4 balls, colour 0 in the first row
           Row{"SheenTestGrid/SheenTestGrid.glb", 0, 0, 12, 0, gpu::LAYER_SHEEN},
-          Row{"IridescenceLamp/IridescenceLamp.gltf", 0, 0, 0, 2, gpu::LAYER_IRIDESCENCE}}) {
+          Row{"IridescenceLamp/IridescenceLamp.gltf", 0, 0, 0, 2,
+              gpu::LAYER_IRIDESCENCE | gpu::LAYER_TRANSMISSION}}) {
         const Scene scene = loadScene((assets / row.file).string());
         std::size_t coats = 0, anisotropic = 0, sheens = 0, films = 0;
         for (const Material& m : scene.materials) {

@@ -39,7 +39,11 @@ struct PointerFile : GltfFile {
                {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}},
                {"KHR_materials_sheen", {{"sheenColorTexture", texture}, {"sheenRoughnessTexture", texture}}},
                {"KHR_materials_iridescence",
-                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}}}}}};
+                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}},
+               {"KHR_materials_transmission", {{"transmissionTexture", texture}}},
+               {"KHR_materials_volume", {{"thicknessTexture", texture}}},
+               {"KHR_materials_diffuse_transmission",
+                {{"diffuseTransmissionTexture", texture}, {"diffuseTransmissionColorTexture", texture}}}}}}};
         json["images"] = {{{"uri", pointedPixel}}};
         json["textures"] = {{{"source", 0}}};
         json["cameras"] = {{{"type", "perspective"},

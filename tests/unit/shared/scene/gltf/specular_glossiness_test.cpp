@@ -111,7 +111,9 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
     more["KHR_materials_specular"] = {
         {"specularFactor", 0.5}, {"specularColorFactor", {0, 0, 0}}, {"specularTexture", {{"index", 0}}}};
     more["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
-    more["KHR_materials_volume"] = Json::object();
+    more["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    more["KHR_materials_dispersion"] = {{"dispersion", 1}};
+    more["KHR_materials_diffuse_transmission"] = {{"diffuseTransmissionFactor", 1}};
     more["KHR_materials_clearcoat"] = {{"clearcoatFactor", 0.5}, {"clearcoatTexture", {{"index", 0}}}};
     more["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}, {"anisotropyTexture", {{"index", 0}}}};
     more["KHR_materials_sheen"] = {{"sheenColorFactor", {1, 1, 1}}, {"sheenColorTexture", {{"index", 0}}}};
@@ -123,16 +125,18 @@ TEST(GltfSpecularGlossiness, ExtensionsOfTheOtherModelAreIgnoredWithANote) {
     EXPECT_EQ(m.specular_color, glm::vec3(0.5f));
     EXPECT_EQ(m.specular_texture.texture, -1);
     EXPECT_EQ(m.transmission, 0);
+    EXPECT_EQ(m.thickness, 0);
+    EXPECT_EQ(m.dispersion, 0);
     EXPECT_EQ(layersOf(m), 0u);
     EXPECT_EQ(m.clearcoat_texture.texture, -1);
     EXPECT_EQ(m.anisotropy_texture.texture, -1);
     EXPECT_EQ(m.sheen_color_texture.texture, -1);
     EXPECT_EQ(m.iridescence_texture.texture, -1);
-    for (const char* name :
-         {"ior", "specular", "transmission", "volume", "clearcoat", "anisotropy", "sheen", "iridescence"})
+    for (const char* name : {"ior", "specular", "transmission", "volume", "dispersion",
+                             "diffuse_transmission", "clearcoat", "anisotropy", "sheen", "iridescence"})
         EXPECT_TRUE(mentions(scene.notes, std::string("material 0: KHR_materials_") + name +
                                               " beside KHR_materials_pbrSpecularGlossiness: ignored"));
-    EXPECT_EQ(scene.notes.size(), 8u);
+    EXPECT_EQ(scene.notes.size(), 10u);
 }
 
 // KHR_materials_unlit shows the base colour of pbrMetallicRoughness.

@@ -110,6 +110,28 @@ const SlotCase slotCases[] = {
              {"extensions", {{"KHR_materials_iridescence", {{"iridescenceThicknessTexture", info}}}}}};
      },
      &Material::iridescence_thickness_texture},
+    {"transmissionTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_transmission", {{"transmissionTexture", info}}}}}};
+     },
+     &Material::transmission_texture},
+    {"thicknessTexture",
+     [](Json info) {
+         return Json{{"extensions", {{"KHR_materials_volume", {{"thicknessTexture", info}}}}}};
+     },
+     &Material::thickness_texture},
+    {"diffuseTransmissionTexture",
+     [](Json info) {
+         return Json{{"extensions",
+                      {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionTexture", info}}}}}};
+     },
+     &Material::diffuse_transmission_texture},
+    {"diffuseTransmissionColorTexture",
+     [](Json info) {
+         return Json{{"extensions",
+                      {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionColorTexture", info}}}}}};
+     },
+     &Material::diffuse_transmission_color_texture},
 };
 
 Json transformed(Json transform, int texcoord = 0) {

@@ -36,7 +36,8 @@ std::string lightsFault(const std::string& text) {
 TEST(LightsJson, EveryField) {
     const auto lights =
         read(R"({"type": "spot", "name": "lamp", "position": [1, 2, 3], "direction": [0, -2, 0],
-        "color": [1, 0.5, 0], "intensity": 40, "range": 6, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}})");
+        "color": [1, 0.5, 0], "intensity": 40, "range": 6,
+        "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}})");
     ASSERT_EQ(lights.size(), 1u);
     const Light& l = lights[0];
     EXPECT_EQ(l.kind, LightKind::spot);
