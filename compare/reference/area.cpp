@@ -74,7 +74,7 @@ void addTube(std::vector<Patch>& patches, const Emitter& light, const glm::dvec3
     // The origin sees the side within acos(radius / distance) of the direction towards it.
     const glm::dvec3 x = towards / distance;
     const double half = std::acos(radius / distance);
-    patches.push_back(Patch::cylinder(centre, axis, x, glm::cross(axis, x), radius, length, -half, half, n));
+    patches.push_back(Patch::tube(light, centre, x, half, n));
 }
 
 }  // namespace
@@ -112,14 +112,13 @@ Patch Patch::disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec
     return patch;
 }
 
-Patch Patch::cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
-                      const glm::dvec3& y, double radius, double length, double from, double to,
-                      const glm::dvec3& n) {
-    Patch patch = disc(centre, x, y, axis, radius, 0);
-    patch.shape_ = Shape::cylinder;
-    patch.length_ = length;
-    patch.a_ = from;
-    patch.b_ = to;
+Patch Patch::tube(const Emitter& light, const glm::dvec3& centre, const glm::dvec3& x, double half,
+                  const glm::dvec3& n) {
+    Patch patch = disc(centre, x, glm::cross(light.axis, x), light.axis, light.radius, 0);
+    patch.shape_ = Shape::tube;
+    patch.length_ = light.length;
+    patch.a_ = -half;
+    patch.b_ = half;
     patch.n_ = n;
     return patch;
 }
@@ -136,7 +135,7 @@ Patch::Point Patch::at(double u, double v) const {
             return {origin_ + (x_ * std::sin(t) + y_ * (cosine * (2 * v - 1))) * radius_, normal_,
                     (b_ - a_) * 2 * radius_ * radius_ * cosine * cosine};
         }
-        case Shape::cylinder:
+        case Shape::tube:
             break;
     }
     // Along the axis from one end to the other, clipped by the horizon.

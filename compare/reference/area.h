@@ -10,6 +10,17 @@
 
 namespace diptych::reference {
 
+// A rectangle, disc or tube; or the disc of a directional light with an angular size, always one metre
+// away.
+struct Emitter {
+    LightKind shape = LightKind::rect;  // rect, disc or tube
+    bool far = false;                   // a directional light: `centre` is relative to the lit surface
+    bool two_sided = false;
+    glm::dvec3 centre{0}, direction{0, 0, -1}, axis{1, 0, 0};
+    double width = 0, height = 0, radius = 0, length = 0, range = 0;  // m
+    glm::dvec3 radiance{0};  // W/(sr m^2), before the factor rangeWindow()
+};
+
 // The part of a light's surface above the horizon of the lit surface. Positions are relative to the lit
 // surface.
 class Patch {
@@ -29,27 +40,15 @@ public:
     // whole disc.
     static Patch disc(const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y,
                       const glm::dvec3& normal, double radius, double from);
-    // The part of a cylinder's side between two angles around `axis`, where n.p > 0.
-    static Patch cylinder(const glm::dvec3& centre, const glm::dvec3& axis, const glm::dvec3& x,
-                          const glm::dvec3& y, double radius, double length, double from, double to,
-                          const glm::dvec3& n);
+    // The part of a tube's side within the angle `half` around its axis from `x`, where n.p > 0.
+    static Patch tube(const Emitter& light, const glm::dvec3& centre, const glm::dvec3& x, double half,
+                      const glm::dvec3& n);
 
 private:
-    enum class Shape { triangle, parallelogram, disc, cylinder };
+    enum class Shape { triangle, parallelogram, disc, tube };
     Shape shape_ = Shape::triangle;
     glm::dvec3 origin_{0}, x_{0}, y_{0}, normal_{0}, n_{0};
     double a_ = 0, b_ = 0, radius_ = 0, length_ = 0;
-};
-
-// A rectangle, disc or tube; or the disc of a directional light with an angular size, always one metre
-// away.
-struct Emitter {
-    LightKind shape = LightKind::rect;  // rect, disc or tube
-    bool far = false;                   // a directional light: `centre` is relative to the lit surface
-    bool two_sided = false;
-    glm::dvec3 centre{0}, direction{0, 0, -1}, axis{1, 0, 0};
-    double width = 0, height = 0, radius = 0, length = 0, range = 0;  // m
-    glm::dvec3 radiance{0};  // W/(sr m^2), before the factor rangeWindow()
 };
 
 // Positions become relative to `origin`. A sun's radiance L follows from its illuminance E on a surface

@@ -11,11 +11,6 @@
 namespace diptych::reference {
 namespace {
 
-// The bounds of the material model (README.md of this folder, "The model"), restated independently. A
-// perfect mirror under a punctual light is a delta function that cannot be sampled. A normal map may turn
-// a visible surface away from the viewer.
-constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
-
 double square(double x) {
     return x * x;
 }
@@ -103,6 +98,20 @@ double coatWeight(const Surface& s) {
     return s.clearcoat * (0.04 + 0.96 * schlick(std::abs(glm::dot(s.clearcoat_normal, s.to_viewer))));
 }
 
+glm::dvec3 emitted(const Surface& s) {
+    return s.emission * (1 - coatWeight(s));
+}
+
+Surface behind(const Surface& surface) {
+    Surface s = surface;
+    s.normal = -surface.normal;
+    s.geometric_normal = -surface.geometric_normal;
+    s.to_viewer = surface.to_viewer - surface.normal * (2 * glm::dot(surface.normal, surface.to_viewer));
+    s.albedo = surface.diffuse_transmission_color;
+    s.diffuse_transmission = 1 - surface.diffuse_transmission;
+    return s;
+}
+
 Brdf::Brdf(const Surface& s, const Compensation& compensation)
     : compensation_(compensation),
       normal_(s.normal),
@@ -111,8 +120,10 @@ Brdf::Brdf(const Surface& s, const Compensation& compensation)
       dielectric_f0_(s.dielectric_f0),
       base_layer_(s.base_layer),
       metallic_(s.metallic),
-      scattered_(1 - s.transmission),
       dielectric_f90_(s.dielectric_f90),
+      scattered_(s.albedo * ((1 - s.metallic) * (1 - s.transmission) * (1 - s.diffuse_transmission))),
+      from_behind_(s.diffuse_transmission_color *
+                   ((1 - s.metallic) * (1 - s.transmission) * s.diffuse_transmission)),
       film_(filmOf(s)),
       sheen_color_(s.sheen_color),
       widths_(widthsOf(s)),
@@ -130,10 +141,9 @@ Reflected Brdf::operator()(const glm::dvec3& to_light) const {
 
 Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     const double n_dot_l = std::min(glm::dot(normal_, to_light), 1.0);
+    if (n_dot_l < 0 && transmits()) return {glm::dvec3(0), glm::dvec3(0), transmit(to_light, n_dot_l)};
     if (!(n_dot_l > 0)) return {};
-    const glm::dvec3 sum = to_light + to_viewer_;
-    const double length = glm::length(sum);
-    const glm::dvec3 half = length > 1e-12 ? sum / length : normal_;
+    const glm::dvec3 half = halfway(to_light);
     const double n_dot_h = std::min(glm::dot(normal_, half), 1.0);
     if (sheen_) return {glm::dvec3(0), sheen_color_ * (*sheen_)(n_dot_l, n_dot_h)};
     const double v_dot_h = compensation_.film_cosine.value_or(glm::dot(to_viewer_, half));
@@ -144,12 +154,28 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     glm::dvec3 layer(0), metal(0);
     if (metallic_ < 1) layer = fresnel(film_, dielectric_f0_, dielectric_f90_, v_dot_h);
     if (metallic_ > 0) metal = fresnel(film_, albedo_, 1, v_dot_h);
-    // A dielectric's Lambertian base receives the light that its specular layer does not reflect.
-    const glm::dvec3 base = compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
     const glm::dvec3 mixed =
         layer * compensation_.dielectric * (1 - metallic_) + metal * compensation_.metal * metallic_;
-    return {albedo_ * base * ((1 - metallic_) * scattered_ * n_dot_l / std::numbers::pi),
-            mixed * (lobe * n_dot_l)};
+    return {scattered_ * baseUnder(layer) * (n_dot_l / std::numbers::pi), mixed * (lobe * n_dot_l)};
+}
+
+glm::dvec3 Brdf::halfway(const glm::dvec3& to_light) const {
+    const glm::dvec3 sum = to_light + to_viewer_;
+    const double length = glm::length(sum);
+    return length > 1e-12 ? sum / length : normal_;
+}
+
+// A dielectric's Lambertian base receives the light that its specular layer does not reflect.
+glm::dvec3 Brdf::baseUnder(const glm::dvec3& layer) const {
+    return compensation_.base.value_or(1.0 - lostToLayer(base_layer_, layer));
+}
+
+// The extension's diffuse_btdf, under the layer. `n_dot_l`: below 0.
+glm::dvec3 Brdf::transmit(const glm::dvec3& to_light, double n_dot_l) const {
+    const glm::dvec3 half = halfway(to_light - normal_ * (2 * n_dot_l));
+    const double v_dot_h = compensation_.film_cosine.value_or(glm::dot(to_viewer_, half));
+    const glm::dvec3 layer = fresnel(film_, dielectric_f0_, dielectric_f90_, v_dot_h);
+    return from_behind_ * baseUnder(layer) * (-n_dot_l / std::numbers::pi);
 }
 
 glm::dvec3 transmitted(const Surface& s) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The material model in double, from its definition: Khronos, glTF 2.0 Specification, 2021, appendix B,
-// KHR_materials_ior, _specular, _clearcoat,
-// _anisotropy, _sheen and _iridescence.
+// KHR_materials_ior, _specular, _clearcoat, _anisotropy, _sheen, _iridescence, _transmission and
+// _diffuse_transmission.
 #pragma once
 
 #include "compare/reference/sheen.h"
@@ -47,18 +47,26 @@ Surface isotropic(const Surface& surface, double width);
 Surface coatOf(const Surface& surface);
 // Fraction of light that the clear coat reflects instead of the material; 0 without a coat.
 double coatWeight(const Surface& surface);
+// Radiance of the material's emission through its clear coat, W/(sr m^2). A sheen does not dim it.
+glm::dvec3 emitted(const Surface& surface);
 
 // Fraction of light from straight behind a thin surface that reaches the viewer, for each component. It is
 // the light that the layer admits and the base neither scatters nor absorbs (KHR_materials_transmission
 // without its roughness), and lets through a sheen and a clear coat.
 glm::dvec3 transmitted(const Surface& surface);
 
-// Reflection by one layer: a sheen (sheenOf()), or a surface without one. Ignores a clear coat.
+// The surface seen from behind whose diffuse lobe is what diffuse transmission sends to the viewer: the
+// layer takes as much of the light as of light mirrored to the front.
+Surface behind(const Surface& surface);
+
+// Reflection by one layer: a sheen (sheenOf()), or a surface without one, and diffuse transmission. Ignores
+// a clear coat.
 class Brdf {
 public:
     explicit Brdf(const Surface& surface, const Compensation& compensation = {});
 
-    // f(l, v) n.l of each lobe, 1/sr; 0 for light below the shading normal's horizon. `to_light`: unit.
+    // f(l, v) |n.l| of each lobe, 1/sr. Light below the shading normal's horizon is only transmitted.
+    // `to_light`: unit.
     Reflected operator()(const glm::dvec3& to_light) const;
     // The GGX or sheen lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
@@ -68,15 +76,21 @@ public:
     // Widths of the GGX lobe; 1 for a sheen.
     const Widths& widths() const { return widths_; }
     bool isSheen() const { return sheen_.has_value(); }
+    bool transmits() const { return from_behind_ != glm::dvec3(0); }
 
 private:
     Reflected evaluate(const glm::dvec3& to_light) const;
+    glm::dvec3 transmit(const glm::dvec3& to_light, double n_dot_l) const;
+    glm::dvec3 halfway(const glm::dvec3& to_light) const;
+    glm::dvec3 baseUnder(const glm::dvec3& layer) const;
 
     Compensation compensation_;
     glm::dvec3 normal_, to_viewer_;
     glm::dvec3 albedo_, dielectric_f0_;
     BaseLayer base_layer_;
-    double metallic_, scattered_, dielectric_f90_;
+    double metallic_, dielectric_f90_;
+    // Albedos of the base: of light from the front, and of light from behind.
+    glm::dvec3 scattered_, from_behind_;
     ThinFilm film_;
     glm::dvec3 sheen_color_;
     std::optional<SheenLobe> sheen_;

@@ -6,6 +6,7 @@
 #include "shared/scene/model/axes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -16,99 +17,87 @@ glm::dvec3 specularColor(const Surface& s) {
     return s.dielectric_f0 * (1 - s.metallic) + s.albedo * s.metallic;
 }
 
+// A number fills all components. 0 in the background.
+template <auto member>
+glm::dvec3 ofSurface(const Pixel& p) {
+    return p.surface ? glm::dvec3((*p.surface).*member) : glm::dvec3(0);
+}
+
+// The same of the nearest surface with transmission; 0 without one, or where a texture removes it.
+template <auto member>
+glm::dvec3 ofPane(const Pixel& p) {
+    return p.pane && p.pane->transmission > 0 ? glm::dvec3((*p.pane).*member) : glm::dvec3(0);
+}
+
+struct ChannelRow {
+    gpu::uint mode;
+    glm::dvec3 (*value)(const Pixel&);
+};
+constexpr ChannelRow channelRows[] = {
+    // Light is the mean over the pixel's area, even if the centre shows background.
+    {gpu::DEBUG_lit, [](const Pixel& p) { return p.lit; }},
+    {gpu::DEBUG_lit_diffuse,
+     [](const Pixel& p) { return p.shading.reflected.diffuse + p.shading.reflected.transmitted; }},
+    {gpu::DEBUG_lit_specular, [](const Pixel& p) { return p.shading.reflected.specular; }},
+    {gpu::DEBUG_lit_ambient, [](const Pixel& p) { return p.shading.ambient; }},
+    {gpu::DEBUG_lit_environment, [](const Pixel& p) { return p.shading.environment.sum(); }},
+    {gpu::DEBUG_lit_clearcoat, [](const Pixel& p) { return p.shading.clearcoat; }},
+    {gpu::DEBUG_lit_sheen, [](const Pixel& p) { return p.shading.sheen; }},
+    {gpu::DEBUG_lit_transmission, [](const Pixel& p) { return p.transmitted; }},
+    {gpu::DEBUG_lit_haze, [](const Pixel& p) { return p.haze.scattered; }},
+    {gpu::DEBUG_shadow_visibility, [](const Pixel& p) { return glm::dvec3(p.sun_visibility); }},
+    {gpu::DEBUG_local_visibility, [](const Pixel& p) { return glm::dvec3(p.local_visibility); }},
+
+    {gpu::DEBUG_transmission, ofPane<&Surface::transmission>},
+    {gpu::DEBUG_transmission_thickness, ofPane<&Surface::thickness>},
+    {gpu::DEBUG_attenuation_color, ofPane<&Surface::attenuation_color>},
+    {gpu::DEBUG_attenuation_distance, ofPane<&Surface::attenuation_distance>},
+    {gpu::DEBUG_dispersion, ofPane<&Surface::dispersion>},
+
+    {gpu::DEBUG_depth, [](const Pixel& p) { return glm::dvec3(p.surface ? p.depth : 0); }},
+    {gpu::DEBUG_transmittance,
+     [](const Pixel& p) { return p.surface ? p.haze.transmittance : glm::dvec3(0); }},
+    {gpu::DEBUG_specular,
+     [](const Pixel& p) { return p.surface ? specularColor(*p.surface) : glm::dvec3(0); }},
+    {gpu::DEBUG_material_id, [](const Pixel& p) { return glm::dvec3(p.surface ? p.surface->material : -1); }},
+    {gpu::DEBUG_texcoords,
+     [](const Pixel& p) { return p.surface ? glm::dvec3(p.surface->texcoord, 0) : glm::dvec3(0); }},
+    {gpu::DEBUG_albedo, ofSurface<&Surface::albedo>},
+    {gpu::DEBUG_normals, ofSurface<&Surface::normal>},
+    {gpu::DEBUG_metallic, ofSurface<&Surface::metallic>},
+    {gpu::DEBUG_roughness, ofSurface<&Surface::roughness>},
+    {gpu::DEBUG_emission, ofSurface<&Surface::emission>},
+    {gpu::DEBUG_occlusion, ofSurface<&Surface::occlusion>},
+    {gpu::DEBUG_position, ofSurface<&Surface::position>},
+    {gpu::DEBUG_geometric_normal, ofSurface<&Surface::geometric_normal>},
+    {gpu::DEBUG_dielectric_f0, ofSurface<&Surface::dielectric_f0>},
+    {gpu::DEBUG_dielectric_f90, ofSurface<&Surface::dielectric_f90>},
+    {gpu::DEBUG_lightmap, ofSurface<&Surface::lightmap>},
+    {gpu::DEBUG_lightmapped, ofSurface<&Surface::lightmapped>},
+    {gpu::DEBUG_tangent, ofSurface<&Surface::tangent>},
+    {gpu::DEBUG_handedness, ofSurface<&Surface::handedness>},
+    {gpu::DEBUG_tangent_normal, ofSurface<&Surface::tangent_normal>},
+    {gpu::DEBUG_clearcoat, ofSurface<&Surface::clearcoat>},
+    {gpu::DEBUG_clearcoat_roughness, ofSurface<&Surface::clearcoat_roughness>},
+    {gpu::DEBUG_clearcoat_normal, ofSurface<&Surface::clearcoat_normal>},
+    {gpu::DEBUG_anisotropy, ofSurface<&Surface::anisotropy>},
+    {gpu::DEBUG_anisotropy_direction, ofSurface<&Surface::anisotropy_direction>},
+    {gpu::DEBUG_sheen_color, ofSurface<&Surface::sheen_color>},
+    {gpu::DEBUG_sheen_roughness, ofSurface<&Surface::sheen_roughness>},
+    {gpu::DEBUG_iridescence, ofSurface<&Surface::iridescence>},
+    {gpu::DEBUG_iridescence_ior, ofSurface<&Surface::iridescence_ior>},
+    {gpu::DEBUG_iridescence_thickness, ofSurface<&Surface::iridescence_thickness>},
+    {gpu::DEBUG_diffuse_transmission, ofSurface<&Surface::diffuse_transmission>},
+    {gpu::DEBUG_diffuse_transmission_color, ofSurface<&Surface::diffuse_transmission_color>},
+};
+
 }  // namespace
 
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
-    // Light is the mean over the pixel's area, even if the centre shows background.
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_lit:
-            return pixel.lit;
-        case gpu::DEBUG_lit_diffuse:
-            return pixel.shading.reflected.diffuse;
-        case gpu::DEBUG_lit_specular:
-            return pixel.shading.reflected.specular;
-        case gpu::DEBUG_lit_ambient:
-            return pixel.shading.ambient;
-        case gpu::DEBUG_lit_environment:
-            return pixel.shading.environment.diffuse + pixel.shading.environment.specular;
-        case gpu::DEBUG_lit_clearcoat:
-            return pixel.shading.clearcoat;
-        case gpu::DEBUG_lit_sheen:
-            return pixel.shading.sheen;
-        case gpu::DEBUG_lit_haze:
-            return pixel.haze.scattered;
-        case gpu::DEBUG_shadow_visibility:
-            return glm::dvec3(pixel.sun_visibility);
-        case gpu::DEBUG_local_visibility:
-            return glm::dvec3(pixel.local_visibility);
-        default:
-            break;
-    }
-    if (!pixel.surface) return glm::dvec3(mode == static_cast<int>(gpu::DEBUG_material_id) ? -1 : 0);
-    const Surface& s = *pixel.surface;
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_albedo:
-            return s.albedo;
-        case gpu::DEBUG_normals:
-            return s.normal;
-        case gpu::DEBUG_metallic:
-            return glm::dvec3(s.metallic);
-        case gpu::DEBUG_roughness:
-            return glm::dvec3(s.roughness);
-        case gpu::DEBUG_emission:
-            return s.emission;
-        case gpu::DEBUG_occlusion:
-            return glm::dvec3(s.occlusion);
-        case gpu::DEBUG_specular:
-            return specularColor(s);
-        case gpu::DEBUG_material_id:
-            return glm::dvec3(s.material);
-        case gpu::DEBUG_texcoords:
-            return glm::dvec3(s.texcoord, 0);
-        case gpu::DEBUG_depth:
-            return glm::dvec3(pixel.depth);
-        case gpu::DEBUG_transmittance:
-            return pixel.haze.transmittance;
-        case gpu::DEBUG_position:
-            return s.position;
-        case gpu::DEBUG_geometric_normal:
-            return s.geometric_normal;
-        case gpu::DEBUG_dielectric_f90:
-            return glm::dvec3(s.dielectric_f90);
-        case gpu::DEBUG_lightmap:
-            return s.lightmap;
-        case gpu::DEBUG_tangent:
-            return s.tangent;
-        case gpu::DEBUG_handedness:
-            return glm::dvec3(s.handedness);
-        case gpu::DEBUG_tangent_normal:
-            return s.tangent_normal;
-        case gpu::DEBUG_dielectric_f0:
-            return s.dielectric_f0;
-        case gpu::DEBUG_lightmapped:
-            return glm::dvec3(s.lightmapped);
-        case gpu::DEBUG_clearcoat:
-            return glm::dvec3(s.clearcoat);
-        case gpu::DEBUG_clearcoat_roughness:
-            return glm::dvec3(s.clearcoat_roughness);
-        case gpu::DEBUG_clearcoat_normal:
-            return s.clearcoat_normal;
-        case gpu::DEBUG_anisotropy:
-            return glm::dvec3(s.anisotropy);
-        case gpu::DEBUG_anisotropy_direction:
-            return s.anisotropy_direction;
-        case gpu::DEBUG_sheen_color:
-            return s.sheen_color;
-        case gpu::DEBUG_sheen_roughness:
-            return glm::dvec3(s.sheen_roughness);
-        case gpu::DEBUG_iridescence:
-            return glm::dvec3(s.iridescence);
-        case gpu::DEBUG_iridescence_ior:
-            return glm::dvec3(s.iridescence_ior);
-        case gpu::DEBUG_iridescence_thickness:
-            return glm::dvec3(s.iridescence_thickness);
-    }
-    throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
+    const auto row = std::ranges::find(channelRows, static_cast<gpu::uint>(mode), &ChannelRow::mode);
+    if (row == std::end(channelRows))
+        throw std::logic_error("the reference lacks a channel: " + std::string(debugMode(mode).name));
+    return row->value(pixel);
 }
 
 Surface Captured::surface(std::size_t pixel, const PixelRays& rays, int material) const {
@@ -144,6 +133,10 @@ Surface Captured::surface(std::size_t pixel, const PixelRays& rays, int material
         s.iridescence = value(gpu::DEBUG_iridescence, pixel).x;
         s.iridescence_ior = value(gpu::DEBUG_iridescence_ior, pixel).x;
         s.iridescence_thickness = value(gpu::DEBUG_iridescence_thickness, pixel).x;
+    }
+    if (isCaptured(gpu::DEBUG_diffuse_transmission)) {
+        s.diffuse_transmission = value(gpu::DEBUG_diffuse_transmission, pixel).x;
+        s.diffuse_transmission_color = value(gpu::DEBUG_diffuse_transmission_color, pixel);
     }
     return s;
 }

@@ -284,6 +284,15 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
                          largest(lobe) * (means.uncertainty + filtered) + largest(between) * open;
         apart = std::max(apart, largest(taken - means.irradiance) + open);
     }
+    if (surface.diffuse_transmission > 0) {
+        const Surface back = behind(surface);
+        const Means about = meansOf(back.normal, back.normal, 1, streamOf(seed, 2));
+        const glm::dvec3 albedo = albedosOf(back, isotropic(back), compensation).base;
+        for (std::size_t i = 0; i < costs.diffuse.size(); ++i) {
+            const auto [taken, open] = takenAs(static_cast<IblDiffuse>(i), back.normal, about);
+            costs.diffuse[i] += largest(albedo * taken - exact.transmitted) + largest(albedo) * open;
+        }
+    }
     costs.wider = largest(lobe) * largest(means.wider - means.mirrored);
     costs.sampled = largest(lobe) * coarse;
     if (largest(between) > 0) costs.sampled += largest(between) * (apart + means.uncertainty);

@@ -19,7 +19,8 @@ namespace diptych::reference {
 // Errors at one surface, largest components, W/(sr m^2). Each includes the 99.9 % confidence interval of
 // sampled values, and the error of maps with the environment's own resolution.
 struct EnvironmentCosts {
-    // By IblDiffuse. `diffuse`: irradiance times the base's albedo under uniform light. `split`: the split
+    // By IblDiffuse. `diffuse`: irradiance times the base's albedo under uniform light, on each side that
+    // light passes. `split`: the split
     // sum, with the Lambertian lobe of multiple scattering lit by that irradiance, or the sheen.
     std::array<double, 3> diffuse{}, split{};
     double sampled = 0;  // replaces `split` where the lobe is sampled; a sheen is not

@@ -40,6 +40,23 @@ double all(const glm::dvec3& v) {
     return v.x + v.y + v.z;
 }
 
+// The length of the panel of a ray at `height` and `depth`: at most `step`, one scale height of either kind,
+// and one optical depth of a visible component.
+double panelFrom(const Air& air, double height, double up, double step, const glm::dvec3& depth) {
+    const glm::dvec3 here = extinctionOf(air, height);
+    for (int c = 0; c < 3; ++c)
+        if (here[c] > 0 && depth[c] < opaque) step = std::min(step, 1 / here[c]);
+    const bool molecules_last = air.molecules.scale > air.aerosols.scale;
+    for (const bool first : {true, false}) {
+        const AirKind& kind = first == molecules_last ? air.molecules : air.aerosols;
+        const double low = height + std::min(up, 0.0) * std::min(step, 1e300);
+        const double there = most(kind.extinction) * densityOf(kind, low);
+        if (up != 0 && (std::isinf(step) || there * step > no_depth))
+            step = std::min(step, kind.scale / std::abs(up));
+    }
+    return step;
+}
+
 }  // namespace
 
 Haze::Haze(const Air& air, const glm::dvec3& eye) : air_(air), eye_height_(eye.y - air.ground) {
@@ -81,27 +98,10 @@ Hazed Haze::along(const glm::dvec3& origin, const glm::dvec3& away, double reach
         if (!dimmed) return sunlight_;
         return glm::exp(-glm::max((overhead - depth * up) / sun_up_, glm::dvec3(0)));
     };
-    // The length of the next panel: at most one scale height of either kind, and one optical depth of a
-    // visible component.
-    const auto panelFrom = [&](double t, const glm::dvec3& depth) {
-        double step = reach - t;
-        const glm::dvec3 here = extinctionOf(air_, start + up * t);
-        for (int c = 0; c < 3; ++c)
-            if (here[c] > 0 && depth[c] < opaque) step = std::min(step, 1 / here[c]);
-        const bool molecules_last = air_.molecules.scale > air_.aerosols.scale;
-        for (const bool first : {true, false}) {
-            const AirKind& kind = first == molecules_last ? air_.molecules : air_.aerosols;
-            const double low = start + up * t + std::min(up, 0.0) * std::min(step, 1e300);
-            const double there = most(kind.extinction) * densityOf(kind, low);
-            if (up != 0 && (std::isinf(step) || there * step > no_depth))
-                step = std::min(step, kind.scale / std::abs(up));
-        }
-        return step;
-    };
 
     glm::dvec3 depth(0), scattered(0);
     for (double t = 0; t < reach;) {
-        const double step = panelFrom(t, depth);
+        const double step = panelFrom(air_, start + up * t, up, reach - t, depth);
         if (std::isinf(step)) break;  // there is no air
         glm::dvec3 here(0);
         for (std::size_t i = 0; i < gauss_nodes; ++i) {

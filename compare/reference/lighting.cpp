@@ -42,6 +42,7 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
         std::max(from(cell.u0, v), from(cell.u1, v)) >= std::max(from(u, cell.v0), from(u, cell.v1));
     const auto split = [&](bool wanted) { return !wanted ? Split::none : u_is_wider ? Split::u : Split::v; };
     if (radius > 0.5) return split(true);
+    if (glm::dot(brdf.normal(), middle) < -radius) return Split::none;  // behind, where the lobe is diffuse
     const glm::dvec3 sum = middle + brdf.toViewer();
     const double length = glm::length(sum);
     if (!(length > 1e-9)) return split(radius > 0.1);
@@ -122,24 +123,22 @@ private:
 
 }  // namespace
 
-Lighting::Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-                   const glm::dvec3& eye, const glm::dvec3& ambient, std::span<const std::size_t> casters,
-                   bool shadowed_environment, Multiscatter multiscatter, double environment_rotation,
-                   const Falloff& falloff)
-    : ambient_(ambient),
-      shadowed_environment_(shadowed_environment),
-      multiscatter_(multiscatter),
-      falloff_(falloff) {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const Light& light = lights[i];
-        const bool casts = std::ranges::find(casters, i) != casters.end();
+Lighting::Lighting(const LightingInputs& inputs)
+    : ambient_(inputs.ambient),
+      shadowed_environment_(inputs.shadowed_environment),
+      multiscatter_(inputs.multiscatter),
+      falloff_(inputs.falloff) {
+    for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
+        const Light& light = inputs.lights[i];
+        const bool casts = std::ranges::find(inputs.casters, i) != inputs.casters.end();
         if (glm::dvec3(light.color) * double{light.intensity} == glm::dvec3(0)) continue;
         if (isArea(light.kind) || (light.kind == LightKind::directional && light.angle > 0))
-            emitters_.push_back({emitterOf(light, eye), casts});
+            emitters_.push_back({emitterOf(light, inputs.eye), casts});
         else
-            punctual_.push_back({light, light.position - eye, casts});
+            punctual_.push_back({light, light.position - inputs.eye, casts});
     }
-    if (environment) environment_.emplace(*environment, environment_factor, environment_rotation);
+    if (inputs.environment)
+        environment_.emplace(*inputs.environment, inputs.environment_factor, inputs.environment_rotation);
     if (environment_ && environment_->black()) environment_.reset();
 }
 
@@ -210,34 +209,59 @@ Shading Lighting::layer(const Surface& surface, Multiscatter multiscatter, const
     // it.
     if (ambient_ + surface.lightmap != glm::dvec3(0))
         sum.ambient = diffuseAlbedo(surface, compensation) * (ambient_ + surface.lightmap);
+    if (ambient_ != glm::dvec3(0) && brdf.transmits())
+        sum.from_behind = diffuseAlbedo(behind(surface), compensation) * ambient_;
+    sum.ambient += sum.from_behind;
     const glm::dvec3 base = sum.ambient;
     if (ambient_ != glm::dvec3(0)) sum.ambient += specularAlbedo(surface, compensation) * ambient_;
     if (multiscatter == Multiscatter::walk) {
         const MoreReflections more = between(surface, visible, sum.all(), streamOf(seed, betweenStream));
         sum += more.shading;
-        sum.reflected.diffuse *= more.base;
-        sum.environment.diffuse *= more.base;
+        for (Reflected* const part : {&sum.reflected, &sum.environment}) {
+            part->diffuse *= more.base;
+            part->transmitted *= more.base;
+        }
         sum.ambient -= base * (1.0 - more.base);
+        sum.from_behind *= more.base;
     }
     sum.ambient *= surface.occlusion;
+    sum.from_behind = sum.from_behind * surface.occlusion + sum.reflected.transmitted;
     return sum;
 }
 
-Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibility& visible,
-                                            const glm::dvec3& single, std::uint64_t seed) const {
-    // All paths share one visibility test per punctual light.
-    std::vector<Incident> directions;
+struct Lighting::Shining {
+    std::vector<Patch> patches;
+    glm::dvec3 radiance;
+    bool casts, far;
+
+    // Adds the light of one random point of each patch.
+    void add(Random& random, const Visibility& visible, const Between::Add& add) const {
+        for (const Patch& patch : patches) {
+            const double u = random();
+            const Patch::Point point = patch.at(u, random());
+            const double distance = glm::length(point.place);
+            if (!(distance > 0) || !(point.area > 0)) continue;
+            const glm::dvec3 to_light = point.place / distance;
+            const double angle =
+                std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / (distance * distance);
+            if (!casts || !visible || visible(to_light, far ? infinity : distance))
+                add(to_light, radiance * angle);
+        }
+    }
+};
+
+std::vector<Incident> Lighting::incidentOn(const Surface& surface, const Visibility& visible) const {
+    std::vector<Incident> lights;
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position, falloff_);
         if (glm::dot(light.to_light, surface.normal) > 0 && light.irradiance != glm::dvec3(0) &&
             (!p.casts || !visible || visible(light.to_light, light.distance)))
-            directions.push_back(light);
+            lights.push_back(light);
     }
-    struct Shining {
-        std::vector<Patch> patches;
-        glm::dvec3 radiance;
-        bool casts, far;
-    };
+    return lights;
+}
+
+std::vector<Lighting::Shining> Lighting::shiningOn(const Surface& surface) const {
     std::vector<Shining> shining;
     for (const auto& [emitter, casts] : emitters_) {
         const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - surface.position;
@@ -246,6 +270,14 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
             shining.push_back({visiblePatches(emitter, centre, surface.normal), emitter.radiance * window,
                                casts, emitter.far});
     }
+    return shining;
+}
+
+Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibility& visible,
+                                            const glm::dvec3& single, std::uint64_t seed) const {
+    // All paths share one visibility test per punctual light.
+    const std::vector<Incident> directions = incidentOn(surface, visible);
+    const std::vector<Shining> shining = shiningOn(surface);
     const Between paths(surface);
     const double share = paths.share();
     glm::dvec3 layer(0), sky(0);
@@ -254,18 +286,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
         Random random(streamOf(streamOf(seed, round), index));
         const Between::Path path = paths.path(random, [&](const Between::Add& add) {
             for (const Incident& light : directions) add(light.to_light, light.irradiance);
-            for (const Shining& light : shining)
-                for (const Patch& patch : light.patches) {
-                    const double u = random();
-                    const Patch::Point point = patch.at(u, random());
-                    const double distance = glm::length(point.place);
-                    if (!(distance > 0) || !(point.area > 0)) continue;
-                    const glm::dvec3 to_light = point.place / distance;
-                    const double angle =
-                        std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / (distance * distance);
-                    if (!light.casts || !visible || visible(to_light, light.far ? infinity : distance))
-                        add(to_light, light.radiance * angle);
-                }
+            for (const Shining& light : shining) light.add(random, visible, add);
         });
         layer += path.layer * share;
         ++walked;
@@ -301,7 +322,9 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, c
     const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
     const double window = rangeWindow(glm::length(centre), emitter.range, falloff_.window);
     if (!(window > 0)) return {};
-    const std::vector<Patch> patches = visiblePatches(emitter, centre, brdf.normal());
+    std::vector<Patch> patches = visiblePatches(emitter, centre, brdf.normal());
+    if (brdf.transmits())
+        for (const Patch& patch : visiblePatches(emitter, centre, -brdf.normal())) patches.push_back(patch);
     std::vector<Leaves> leaves;
     Integral whole;
     for (const Patch& patch : patches) {
@@ -339,7 +362,8 @@ Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visib
     const LobeSampler lobes(brdf);
     const EnvironmentLight::Sampler bright(*environment_, [&](const glm::dvec3& middle, double reach) {
         // If the horizon or a lobe crosses a block, other directions may reflect more than its middle.
-        const double cosine = std::max(glm::dot(brdf.normal(), middle) + reach, 0.0);
+        const double n_dot_l = glm::dot(brdf.normal(), middle),
+                     cosine = std::max((brdf.transmits() ? std::abs(n_dot_l) : n_dot_l) + reach, 0.0);
         return brdf(middle).size() + 0.02 * cosine;
     });
     const auto value = [&](const glm::dvec3& l) -> Reflected {

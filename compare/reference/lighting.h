@@ -28,17 +28,19 @@ namespace diptych::reference {
 inline constexpr double quadratureError = 2e-6;
 
 struct Shading {
-    Reflected reflected;     // from lights and environment, towards the viewer, W/(sr m^2)
+    // From lights and environment towards the viewer, W/(sr m^2).
+    Reflected reflected;
     double uncertainty = 0;  // 95 % confidence, of the largest component of `reflected`, W/(sr m^2)
-    glm::dvec3 ambient{0};   // reflected ambient light, W/(sr m^2); neither includes emission
+    // Ambient light, reflected and from behind, W/(sr m^2); neither includes emission.
+    glm::dvec3 ambient{0};
     // Only if requested.
     EnvironmentCosts costs{};
     Surroundings surroundings{};
     Reflected environment{};  // the environment's part of `reflected`
-    // parts of `reflected` and `ambient`: the clear coat's, and the sheen's
-    glm::dvec3 clearcoat{0}, sheen{0};
+    // Parts of `reflected` and `ambient`: the clear coat's, the sheen's, and that of light from behind.
+    glm::dvec3 clearcoat{0}, sheen{0}, from_behind{0};
 
-    glm::dvec3 all() const { return reflected.diffuse + reflected.specular + ambient; }
+    glm::dvec3 all() const { return reflected.sum() + ambient; }
     Shading& operator+=(const Shading& other) {
         reflected += other.reflected;
         uncertainty += other.uncertainty;
@@ -48,23 +50,32 @@ struct Shading {
         environment += other.environment;
         clearcoat += other.clearcoat;
         sheen += other.sheen;
+        from_behind += other.from_behind;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b,    a.uncertainty * b, a.ambient * b,   a.costs * b,
-                a.surroundings * b, a.environment * b, a.clearcoat * b, a.sheen * b};
+        return {a.reflected * b,   a.uncertainty * b, a.ambient * b, a.costs * b,      a.surroundings * b,
+                a.environment * b, a.clearcoat * b,   a.sheen * b,   a.from_behind * b};
     }
+};
+
+// Everything that lights a surface.
+struct LightingInputs {
+    std::span<const Light> lights = {};        // in world space
+    const Environment* environment = nullptr;  // must outlive the Lighting
+    double environment_factor = 1;
+    double environment_rotation = 0;            // about +Y, counter-clockwise seen from above, rad
+    glm::dvec3 eye{0};                          // positions become relative to it
+    glm::dvec3 ambient{0};                      // uniform radiance, W/(sr m^2)
+    std::span<const std::size_t> casters = {};  // indices of shadow-casting `lights`
+    bool shadowed_environment = false;
+    Multiscatter multiscatter = Multiscatter::off;
+    Falloff falloff = {};
 };
 
 class Lighting {
 public:
-    // `lights` are in world space; `environment` must outlive this; positions become relative to `eye`;
-    // `ambient` is uniform radiance; `casters` are the indices of the shadow-casting lights.
-    Lighting(std::span<const Light> lights, const Environment* environment, double environment_factor,
-             const glm::dvec3& eye, const glm::dvec3& ambient = glm::dvec3(0),
-             std::span<const std::size_t> casters = {}, bool shadowed_environment = false,
-             Multiscatter multiscatter = Multiscatter::off, double environment_rotation = 0,
-             const Falloff& falloff = {});
+    explicit Lighting(const LightingInputs& inputs);
 
     // After these calls Shading has costs (unless Multiscatter::walk is used) or surroundings (if
     // `visible` is not empty).
@@ -113,6 +124,11 @@ private:
     };
     MoreReflections between(const Surface& surface, const Visibility& visible, const glm::dvec3& single,
                             std::uint64_t seed) const;
+    // Punctual lights that reach the surface.
+    std::vector<Incident> incidentOn(const Surface& surface, const Visibility& visible) const;
+    // Area lights and sun discs above the surface's horizon.
+    struct Shining;
+    std::vector<Shining> shiningOn(const Surface& surface) const;
 
     std::vector<Punctual> punctual_;
     std::vector<Emitting> emitters_;

@@ -16,7 +16,7 @@
 namespace diptych::reference {
 
 // Samples reflected directions, with half vectors distributed as D (n.h); Walter et al. 2007, equation 35.
-// Of a sheen, whose lobe is wide but often at the horizon: all directions above the horizon, denser there.
+// A sheen's lobe is wide but often at the horizon: samples all directions above it, denser near it.
 class LobeSampler {
 public:
     // An isotropic lobe. `normal`, `to_viewer`: unit; `alpha`: GGX's width.

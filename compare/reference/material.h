@@ -22,9 +22,14 @@ inline bool hasLightmap(const Material& m) {
     return !m.unlit && m.lightmap_texture.texture >= 0 && m.lightmap_intensity != 0;
 }
 
-// Whether it is blended over the surfaces behind it.
+// Whether it transmits light without diffusion.
+inline bool letsThrough(const Material& m) {
+    return !m.unlit && m.transmission > 0;
+}
+
+// Whether surfaces behind it are visible: it blends or transmits light.
 inline bool isSeenThrough(const Material& m) {
-    return m.alpha_mode == AlphaMode::blend || (!m.unlit && m.transmission > 0);
+    return m.alpha_mode == AlphaMode::blend || letsThrough(m);
 }
 
 class Materials {
@@ -42,8 +47,13 @@ public:
 
     Surface surface(const Hit& hit, const PixelRay& ray) const;
 
-    // Whether it is blended over the surfaces behind it.
+    // Whether surfaces behind it are visible: it blends or transmits light.
     bool blends(const Hit& hit) const;
+    bool transmits(const Hit& hit) const;
+    // Whether it bounds a volume; otherwise it is a thin wall.
+    bool isThick(const Hit& hit) const;
+    // Whether a mask cuts out the hit; the side does not matter.
+    bool isHole(const Hit& hit) const;
     // The base colour's alpha if the material's mode is BLEND, otherwise 1.
     double coverage(const Hit& hit, const PixelRay& ray) const;
 
@@ -72,6 +82,8 @@ private:
     void stretch(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
     void sheen(const Hit& hit, const PixelRay& ray, Surface& s) const;
     void film(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    void transmit(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    void transmitDiffusely(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;
     const std::vector<Material>& materials_;

@@ -43,8 +43,10 @@ public:
     template <class Visit>
     glm::dvec3 trace(const glm::dvec3& from, Random& random, const Visit& visit) const;
 
-private:
+    // The normal of a random facet among those that are visible from a direction.
     glm::dvec3 facet(const glm::dvec3& seen_from, Random& random) const;
+
+private:
     double lambda(const glm::dvec3& w) const;
     // The height of the next facet: the logarithm of the fraction of the surface below it. Above 0: the
     // path leaves.

@@ -3,6 +3,7 @@
 
 #include "compare/reference/key.h"
 #include "compare/reference/material.h"
+#include "compare/reference/pixel_renderer.h"
 #include "compare/reference/request.h"
 #include "shared/scene/model/material_slots.h"
 
@@ -16,54 +17,61 @@
 namespace diptych::reference {
 namespace {
 
+void addPrimitive(Key& key, const Primitive& p) {
+    key.addAll(p.positions);
+    key.addAll(p.normals);
+    key.addAll(p.tangents);
+    key.addAll(p.texcoords[0]);
+    key.addAll(p.texcoords[1]);
+    key.addAll(p.colors);
+    key.addAll(p.indices);
+    key.add(glm::ivec2(p.material, p.flat));
+    key.addAll(p.tangent_groups.corners);
+    for (const JointSet& set : p.joint_sets) {
+        key.addAll(set.joints);
+        key.addAll(set.weights);
+    }
+    for (const MorphTarget& target : p.targets) {
+        key.addAll(target.positions);
+        key.addAll(target.normals);
+        key.addAll(target.tangents);
+        key.addAll(target.texcoords[0]);
+        key.addAll(target.texcoords[1]);
+        key.addAll(target.colors);
+    }
+}
+
+void addMaterial(Key& key, const Material& m) {
+    key.add(m.base_color);
+    key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
+    key.add(glm::vec4(m.emissive, m.ior));
+    key.add(glm::vec4(m.specular_color, m.specular));
+    key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, m.specular_glossiness));
+    key.add(m.alpha_cutoff);
+    key.add(m.transmission);
+    key.add(m.lightmap_intensity);
+    key.add(glm::vec3(m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale));
+    key.add(glm::vec2(m.anisotropy, m.anisotropy_rotation));
+    key.add(glm::vec4(m.sheen_color, m.sheen_roughness));
+    key.add(glm::vec4(m.iridescence, m.iridescence_ior, m.iridescence_thickness_least,
+                      m.iridescence_thickness_most));
+    key.add(glm::vec4(m.attenuation_color, m.attenuation_distance));
+    key.add(glm::vec2(m.thickness, m.dispersion));
+    key.add(glm::vec4(m.diffuse_transmission_color, m.diffuse_transmission));
+    for (const MaterialSlot& slot : materialSlots) {
+        const TextureSlot& s = m.*slot.texture;
+        key.add(s.texture);
+        key.add(s.texcoord);
+        key.add(s.u);
+        key.add(s.v);
+    }
+}
+
 void addScene(Key& key, const Request& request) {
     const Scene& scene = request.scene;
     for (const Mesh& mesh : scene.meshes)
-        for (const Primitive& p : mesh.primitives) {
-            key.addAll(p.positions);
-            key.addAll(p.normals);
-            key.addAll(p.tangents);
-            key.addAll(p.texcoords[0]);
-            key.addAll(p.texcoords[1]);
-            key.addAll(p.colors);
-            key.addAll(p.indices);
-            key.add(glm::ivec2(p.material, p.flat));
-            key.addAll(p.tangent_groups.corners);
-            for (const JointSet& set : p.joint_sets) {
-                key.addAll(set.joints);
-                key.addAll(set.weights);
-            }
-            for (const MorphTarget& target : p.targets) {
-                key.addAll(target.positions);
-                key.addAll(target.normals);
-                key.addAll(target.tangents);
-                key.addAll(target.texcoords[0]);
-                key.addAll(target.texcoords[1]);
-                key.addAll(target.colors);
-            }
-        }
-    const auto addSlot = [&](const TextureSlot& slot) {
-        key.add(slot.texture);
-        key.add(slot.texcoord);
-        key.add(slot.u);
-        key.add(slot.v);
-    };
-    for (const Material& m : materialsOf(scene, request.pose)) {
-        key.add(m.base_color);
-        key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
-        key.add(glm::vec4(m.emissive, m.ior));
-        key.add(glm::vec4(m.specular_color, m.specular));
-        key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, m.specular_glossiness));
-        key.add(m.alpha_cutoff);
-        key.add(m.transmission);
-        key.add(m.lightmap_intensity);
-        key.add(glm::vec3(m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale));
-        key.add(glm::vec2(m.anisotropy, m.anisotropy_rotation));
-        key.add(glm::vec4(m.sheen_color, m.sheen_roughness));
-        key.add(glm::vec4(m.iridescence, m.iridescence_ior, m.iridescence_thickness_least,
-                          m.iridescence_thickness_most));
-        for (const MaterialSlot& slot : materialSlots) addSlot(m.*slot.texture);
-    }
+        for (const Primitive& p : mesh.primitives) addPrimitive(key, p);
+    for (const Material& m : materialsOf(scene, request.pose)) addMaterial(key, m);
     for (const Texture& texture : scene.textures) {
         key.add(texture.image);
         key.add(glm::ivec4(static_cast<int>(texture.sampler.wrap_s), static_cast<int>(texture.sampler.wrap_t),
@@ -83,11 +91,36 @@ void addScene(Key& key, const Request& request) {
     for (const std::vector<double>& weights : request.pose.weights) key.addAll(weights);
 }
 
+void addLight(Key& key, const Light& l) {
+    key.add(glm::vec4(l.color, l.intensity));
+    key.add(glm::vec4(l.range, l.inner_cone, l.outer_cone, l.angle));
+    key.add(glm::vec4(l.width, l.height, l.radius, l.length));
+    key.add(glm::ivec2(static_cast<int>(l.kind), l.two_sided));
+    key.add(l.position);
+    key.add(l.direction);
+    key.add(l.axis);
+}
+
+void addAir(Key& key, const Air& air) {
+    for (const AirKind& kind : {air.molecules, air.aerosols}) {
+        key.add(kind.scattering);
+        key.add(kind.extinction);
+        key.add(kind.scale);
+    }
+    key.add(glm::dvec2(air.g, air.ground));
+    key.add(air.uniform);
+    key.add(air.ambient);
+    key.add(air.sun != nullptr);
+    if (!air.sun) return;
+    key.add(glm::vec4(air.sun->color, air.sun->intensity));
+    key.add(air.sun->direction);
+}
+
 }  // namespace
 
 // Increase the version number whenever the reference itself renders differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 16;
+    constexpr int version = 18;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));
@@ -99,15 +132,7 @@ std::uint64_t keyOf(const Request& request) {
     key.add(glm::ivec4(view.camera.orthographic, request.shadowed_environment, request.environment_costs,
                        request.surroundings | 2 * request.blended | 4 * request.shadow_edges));
     key.addAll(request.casters);
-    for (const Light& l : request.lights) {
-        key.add(glm::vec4(l.color, l.intensity));
-        key.add(glm::vec4(l.range, l.inner_cone, l.outer_cone, l.angle));
-        key.add(glm::vec4(l.width, l.height, l.radius, l.length));
-        key.add(glm::ivec2(static_cast<int>(l.kind), l.two_sided));
-        key.add(l.position);
-        key.add(l.direction);
-        key.add(l.axis);
-    }
+    for (const Light& l : request.lights) addLight(key, l);
     key.add(request.environment_factor);
     key.add(request.environment_rotation);
     key.add(request.ambient);
@@ -117,22 +142,7 @@ std::uint64_t keyOf(const Request& request) {
     key.add(request.falloff.window);
     key.add(request.falloff.cone);
     key.add(request.air.has_value());
-    if (request.air) {
-        const Air& air = *request.air;
-        for (const AirKind& kind : {air.molecules, air.aerosols}) {
-            key.add(kind.scattering);
-            key.add(kind.extinction);
-            key.add(kind.scale);
-        }
-        key.add(glm::dvec2(air.g, air.ground));
-        key.add(air.uniform);
-        key.add(air.ambient);
-        key.add(air.sun != nullptr);
-        if (air.sun) {
-            key.add(glm::vec4(air.sun->color, air.sun->intensity));
-            key.add(air.sun->direction);
-        }
-    }
+    if (request.air) addAir(key, *request.air);
     if (request.residual) key.addAll(request.residual->radiance.data);
     if (request.scene.environment) {
         const Image& sky = request.scene.environment->radiance;
@@ -143,7 +153,10 @@ std::uint64_t keyOf(const Request& request) {
     for (const auto* channels : {request.surfaces, request.decoded})
         if (channels)
             for (const auto& [mode, image] : *channels) key.addAll(image.data);
-    if (request.mode == ReferenceMode::scene || request.shadows()) addScene(key, request);
+    // Rays hit it: the camera's, those to lights, or those through what is not opaque.
+    if (request.mode == ReferenceMode::scene || request.shadows() ||
+        (request.blended && blendsSomewhere(request)))
+        addScene(key, request);
     return key.value();
 }
 

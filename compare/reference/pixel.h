@@ -16,9 +16,14 @@ namespace diptych::reference {
 // Without a surface it is background.
 struct Pixel {
     std::optional<Surface> surface;
-    Shading shading;    // of the nearest opaque surface
-    Shading blended;    // of the blended surfaces in front of it, as visible
+    std::optional<Surface> pane;  // the nearest surface with transmission in front of it
+    Shading shading;              // of the nearest opaque surface
+    Shading blended;              // of the pane and the blended surfaces in front of it, as visible
+    // Light that passes the pane with its haze, or else the opaque surface without, W/(sr m^2).
+    glm::dvec3 transmitted{0};
     double hidden = 0;  // fraction of the opaque surface that they hide
+    // Largest component of the fraction of light behind that passes a pane, if that is rough or refracts.
+    double bent = 0;
     glm::dvec3 lit{0}, unblended{0};
     double sun_visibility = 0;
     double edge_distance = std::numeric_limits<double>::infinity(), sun_radiance = 0, sun_irradiance = 0;

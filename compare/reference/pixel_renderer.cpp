@@ -26,9 +26,17 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// Radiance of the material's emission through its clear coat, W/(sr m^2). A sheen does not dim it.
-glm::dvec3 emitted(const Surface& s) {
-    return s.emission * (1 - coatWeight(s));
+LightingInputs lightingInputs(const Request& request, const glm::dvec3& eye) {
+    return {.lights = request.lights,
+            .environment = request.environment(),
+            .environment_factor = request.environment_factor,
+            .environment_rotation = request.environment_rotation,
+            .eye = eye,
+            .ambient = request.ambient,
+            .casters = request.casters,
+            .shadowed_environment = request.shadowed_environment,
+            .multiscatter = request.multiscatter,
+            .falloff = request.falloff};
 }
 
 }  // namespace
@@ -47,9 +55,8 @@ PixelRenderer::PixelRenderer(const Request& request)
       rays_(request.view),
       geometry_(request.scene, request.pose, eye_, request.skin_normals == SkinNormals::blended),
       materials_(request.scene, request.pose, geometry_),
-      lighting_(request.lights, request.environment(), request.environment_factor, eye_, request.ambient,
-                request.casters, request.shadowed_environment, request.multiscatter,
-                request.environment_rotation, request.falloff),
+      mesh_paths_(geometry_, materials_),
+      lighting_(lightingInputs(request, eye_)),
       blends_(request.blended && blendsSomewhere(request)),
       scene_radius_(worldBounds(request.scene, request.pose).radius()) {
     if (request.air) haze_.emplace(*request.air, eye_);
@@ -77,6 +84,7 @@ Pixel PixelRenderer::withDecoded(int x, int y, Pixel pixel) const {
     Visibility visible;
     if (request_.shadows() || request_.surroundings) visible = visibilityFrom(standing->foot);
     pixel.shading = lighting_(s, visible, seed);
+    if (!pixel.pane) pixel.transmitted = pixel.shading.from_behind;
     pixel.lit += (pixel.shading.all() + emitted(s) - own) * pixel.haze.transmittance * (1 - pixel.hidden);
     return pixel;
 }
@@ -92,21 +100,25 @@ void PixelRenderer::takeTerms(int x, int y, PixelLight& pixel) const {
                                                  : tracedAt(rays_.through(x + 0.5, y + 0.5));
     if (!standing) return;
     const Visibility visible = visibilityFrom(standing->foot);
-    const auto shade = [&](std::span<const Light> lights, const Environment* environment,
-                           const glm::dvec3& ambient, std::span<const std::size_t> casters) {
-        return Lighting(lights, environment, request_.environment_factor, eye_, ambient, casters,
-                        request_.shadowed_environment, request_.multiscatter, request_.environment_rotation,
-                        request_.falloff)(standing->surface, visible, seedOf(x, y));
+    const auto shade = [&](const LightingInputs& inputs) {
+        return Lighting(inputs)(standing->surface, visible, seedOf(x, y));
     };
+    LightingInputs one = lightingInputs(request_, eye_);
+    one.environment = nullptr;
+    one.ambient = glm::dvec3(0);
     constexpr std::size_t first = 0;
     for (std::size_t i = 0; i < request_.lights.size(); ++i) {
         const bool casts = std::ranges::find(request_.casters, i) != request_.casters.end();
-        Shading shading =
-            shade(request_.lights.subspan(i, 1), nullptr, glm::dvec3(0), std::span(&first, casts ? 1 : 0));
+        one.lights = request_.lights.subspan(i, 1);
+        one.casters = std::span(&first, casts ? 1 : 0);
+        Shading shading = shade(one);
         shading.ambient = glm::dvec3(0);  // a lightmap's, which would be added to every light
         pixel.lights.push_back(shading);
     }
-    pixel.without_lights = shade({}, request_.environment(), request_.ambient, {});
+    LightingInputs others = lightingInputs(request_, eye_);
+    others.lights = {};
+    others.casters = {};
+    pixel.without_lights = shade(others);
 }
 
 std::uint64_t PixelRenderer::seedOf(int x, int y) const {
@@ -118,7 +130,7 @@ Visibility PixelRenderer::visibilityFrom(const Foot& foot) const {
     if (!request_.shadows() && !request_.surroundings) return {};
     const double from = foot.offset * glm::length(foot.place);
     return [this, foot, from](const glm::dvec3& to_light, double distance) {
-        if (!(glm::dot(foot.geometric_normal, to_light) > 0)) return false;
+        if (!foot.normalTowards(to_light)) return false;
         const Ray ray{foot.place, to_light, from, distance * (1 - lightOffset), foot.without};
         return !geometry_.meets(ray, [this](const Hit& hit) { return materials_.throwsShadow(hit); });
     };
@@ -152,13 +164,15 @@ void PixelRenderer::takeShadow(Pixel& pixel, const Surface& s, const Foot& foot,
         return visibilityFrom(there)(to_light, std::numeric_limits<double>::infinity());
     };
     pixel.sun_visibility = sun_->angle > 0 ? seenOfDisc(foot, seed) : sees(foot.place) ? 1 : 0;
-    if (!(glm::dot(foot.geometric_normal, to_light) > 0)) return;
+    const std::optional<glm::dvec3> normal = foot.normalTowards(to_light);
+    if (!normal) return;
     const bool partly = pixel.sun_visibility > 0 && pixel.sun_visibility < 1;
-    pixel.edge_distance =
-        partly ? 0 : edgeDistance(sees, foot.place, foot.geometric_normal, to_light, 2 * scene_radius_);
+    pixel.edge_distance = partly ? 0 : edgeDistance(sees, foot.place, *normal, to_light, 2 * scene_radius_);
     const glm::dvec3 irradiance = incident(*sun_, {}, {}).irradiance;
     pixel.sun_radiance = (lighting_.reflectance(s, to_light) * irradiance).size();
-    pixel.sun_irradiance = std::max(glm::dot(s.normal, to_light), 0.0) * luminance(irradiance);
+    const double n_dot_l = glm::dot(s.normal, to_light);
+    pixel.sun_irradiance =
+        std::max(foot.both_sides ? std::abs(n_dot_l) : n_dot_l, 0.0) * luminance(irradiance);
 }
 
 void PixelRenderer::takeLocalShadows(Pixel& pixel, const Surface& s, const Foot& foot) const {
@@ -178,9 +192,9 @@ void PixelRenderer::takeLocalShadows(Pixel& pixel, const Surface& s, const Foot&
         };
         all += weight;
         if (sees(foot.place)) seen += weight;
-        if (!(glm::dot(foot.geometric_normal, here.to_light) > 0)) continue;
-        const double edge =
-            edgeDistance(sees, foot.place, foot.geometric_normal, here.to_light, here.distance);
+        const std::optional<glm::dvec3> normal = foot.normalTowards(here.to_light);
+        if (!normal) continue;
+        const double edge = edgeDistance(sees, foot.place, *normal, here.to_light, here.distance);
         pixel.local_edge = std::min(pixel.local_edge, edge / here.distance);
         pixel.local_radiance += (lighting_.reflectance(s, here.to_light) * here.irradiance).size();
     }
@@ -227,12 +241,13 @@ std::optional<PixelRenderer::Standing> PixelRenderer::capturedAt(int x, int y) c
     Surface s = captured.surface(pixel, rays_, captured.material(pixel));
     s.base_layer = request_.base_layer;
     const double depth = captured.depth(pixel);
-    Foot foot{s.position, s.geometric_normal, {}, capturedOffset};
+    const bool both_sides = s.diffuse_transmission > 0;
+    Foot foot{s.position, s.geometric_normal, {}, capturedOffset, both_sides};
     if (request_.shadows() || request_.surroundings) {
         // Recovers the exact position if the camera ray hits a surface at the captured depth.
         const std::optional<Hit> hit = nearest(rays_.through(x + 0.5, y + 0.5));
         if (hit && std::abs(hit->t - depth) <= 1e-4 * depth)
-            foot = {hit->position, s.geometric_normal, hit->id, exactOffset};
+            foot = {hit->position, s.geometric_normal, hit->id, exactOffset, both_sides};
     }
     return Standing{s, foot, depth};
 }
@@ -246,7 +261,7 @@ PixelRenderer::Standing PixelRenderer::standingAt(const Hit& hit, const PixelRay
     Surface s = materials_.surface(hit, ray);
     s.base_layer = request_.base_layer;
     s.to_viewer = rays_.toViewer(s.position);
-    return {s, Foot{s.position, s.geometric_normal, hit.id, exactOffset}, hit.t};
+    return {s, Foot{s.position, s.geometric_normal, hit.id, exactOffset, s.diffuse_transmission > 0}, hit.t};
 }
 
 Pixel PixelRenderer::renderCaptured(int x, int y, std::uint64_t seed) const {
@@ -266,6 +281,7 @@ Pixel PixelRenderer::renderCaptured(int x, int y, std::uint64_t seed) const {
         takeShadows(pixel, s, foot, seed);
     }
     pixel.shading = lighting_(s, visible, seed);
+    pixel.transmitted = pixel.shading.from_behind;
     pixel.lit = pixel.shading.all() + emitted(s);
     takeHaze(pixel, s);
     pixel.surface = s;
@@ -278,6 +294,7 @@ Pixel PixelRenderer::shaded(const Hit& hit, const PixelRay& ray, std::uint64_t s
     const auto [s, foot, depth] = standingAt(hit, ray);
     pixel.depth = depth;
     pixel.shading = lighting_(s, visibilityFrom(foot), seed);
+    pixel.transmitted = pixel.shading.from_behind;
     takeShadows(pixel, s, foot, seed);
     pixel.lit = pixel.shading.all() + emitted(s);
     takeHaze(pixel, s);
@@ -295,7 +312,8 @@ std::vector<Hit> PixelRenderer::blendedHits(double end, const PixelRay& ray) con
     Ray search = cameraRay(ray, 0);
     search.to = std::min(search.to, end);
     geometry_.meets(search, [&](const Hit& hit) {
-        if (materials_.blends(hit) && materials_.isThere(hit, &ray)) hits.push_back(hit);
+        if (materials_.blends(hit) && !materials_.transmits(hit) && materials_.isThere(hit, &ray))
+            hits.push_back(hit);
         return false;  // continue the ray
     });
     const auto place = [](const Hit& hit) { return std::tuple(hit.t, ~hit.id.instance, ~hit.id.triangle); };
@@ -316,10 +334,9 @@ double PixelRenderer::blendedBefore(double end, const PixelRay& ray, std::uint64
         const double covered = through * materials_.coverage(hit, ray);
         if (covered > 0) {
             const Pixel here = shaded(hit, ray, streamOf(seed, layer));
-            const double share = covered * (1 - std::clamp(luminance(transmitted(*here.surface)), 0.0, 1.0));
-            pixel.lit += (here.lit - here.haze.scattered) * covered + here.haze.scattered * share;
+            pixel.lit += here.lit * covered;
             pixel.blended += here.shading * covered;
-            through -= share;
+            through -= covered;
         }
         ++layer;
     }
@@ -338,11 +355,15 @@ Pixel PixelRenderer::alongRay(const PixelRay& ray, std::uint64_t seed) const {
 
 Pixel PixelRenderer::withBlended(Pixel pixel, double end, const PixelRay& ray, std::uint64_t seed) const {
     if (!blends_) return pixel;
+    pixel.unblended = pixel.lit;
+    end *= 1 + 1e-6;
+    const double through_pane = withPane(pixel, end, ray, streamOf(seed, paneStream));
     const glm::dvec3 behind = std::exchange(pixel.lit, glm::dvec3(0));
-    const double through = blendedBefore(end * (1 + 1e-6), ray, ~seed, pixel);
+    const Shading pane = std::exchange(pixel.blended, Shading{});
+    const double through = blendedBefore(end, ray, ~seed, pixel);
     pixel.lit += behind * through;
-    pixel.unblended = behind;
-    pixel.hidden = 1 - through;
+    pixel.blended += pane * through;
+    pixel.hidden = 1 - through * through_pane;
     return pixel;
 }
 

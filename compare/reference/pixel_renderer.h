@@ -6,9 +6,11 @@
 #include "compare/reference/haze.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/material.h"
+#include "compare/reference/mesh_path.h"
 #include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
 #include "compare/reference/request.h"
+#include "compare/reference/transmission.h"
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +19,7 @@
 namespace diptych::reference {
 
 bool isLocal(const Light& light);
-// Whether any material blends.
+// Whether any material blends or transmits light.
 bool blendsSomewhere(const Request& request);
 
 class PixelRenderer {
@@ -44,12 +46,23 @@ private:
     // Minimum number of directions to a sun's disc, and their random stream, which no light has.
     static constexpr int leastDiscSamples = 64;
     static constexpr std::uint64_t discStream = ~std::uint64_t{0};
+    // The random stream of light through the pane.
+    static constexpr std::uint64_t paneStream = ~std::uint64_t{6};
 
-    // Light from behind the triangle does not reach it, whatever the shading normal.
+    // Light from behind the triangle does not reach it, whatever the shading normal, unless the surface
+    // transmits it.
     struct Foot {
         glm::dvec3 place, geometric_normal;
         TriangleId without;
         double offset;
+        bool both_sides = false;
+
+        // The normal on the side of the light; empty if no light arrives from there.
+        std::optional<glm::dvec3> normalTowards(const glm::dvec3& to_light) const {
+            const double cosine = glm::dot(geometric_normal, to_light);
+            if (cosine > 0) return geometric_normal;
+            return both_sides && cosine < 0 ? std::optional(-geometric_normal) : std::nullopt;
+        }
     };
     Visibility visibilityFrom(const Foot& foot) const;
 
@@ -91,6 +104,42 @@ private:
     Pixel shaded(const Hit& hit, const PixelRay& ray, std::uint64_t seed) const;
     static bool isOnEdge(const Hit& hit);
 
+    // The nearest surface with transmission in front of `end`.
+    std::optional<Hit> paneBefore(double end, const PixelRay& ray) const;
+
+    // Radiance that an opaque surface or the background sends against a ray, through the haze between,
+    // W/(sr m^2).
+    struct Sent {
+        glm::dvec3 radiance{0};
+        double uncertainty = 0;
+    };
+    Sent sentAlong(const PixelRay& ray, const Ray& search, std::uint64_t seed) const;
+
+    // Light that passes a pane: its radiance behind the haze, and the fraction of light from behind that
+    // passes; `uncertainty`: of the radiance, as in Shading.
+    struct Passed {
+        glm::dvec3 radiance{0}, share{0};
+        double uncertainty = 0;
+    };
+    // The way of light to a surface with transmission, seen along the pixel's ray.
+    struct Pane {
+        const Hit& hit;
+        const Pixel& pixel;  // its surface and haze
+        const PixelRay& ray;
+        glm::dvec3 tint;  // transmitted()
+    };
+    Passed passedThrough(const Pane& pane, std::uint64_t seed) const;
+    // Whether light is traced through the closed mesh.
+    bool goesThroughMesh(const Hit& hit) const;
+    // In one direction of the lobe, with a component's index; through a mesh, along one path.
+    Passed passedAs(const Pane& pane, int component, const TransmittedLobe::Sample& lobe,
+                    std::uint64_t seed) const;
+    Passed passedMesh(const Pane& pane, int component, std::uint64_t seed) const;
+
+    // Draws the nearest surface with transmission over lit. Returns the fraction of what is behind that
+    // remains visible, and moves `end` to it: it hides what blends behind it.
+    double withPane(Pixel& pixel, double& end, const PixelRay& ray, std::uint64_t seed) const;
+
     // Blended surfaces in front of `end`, front to back. At equal depth, the one later in the scene is in
     // front.
     std::vector<Hit> blendedHits(double end, const PixelRay& ray) const;
@@ -101,10 +150,11 @@ private:
     // background has its own.
     double blendedBefore(double end, const PixelRay& ray, std::uint64_t seed, Pixel& pixel) const;
 
-    // Channels other than lit show the nearest opaque surface.
+    // Channels other than lit and those of the pane show the nearest opaque surface.
     Pixel alongRay(const PixelRay& ray, std::uint64_t seed) const;
 
-    // Blends surfaces over the pixel, including those that lie on it: `end` has float32 precision.
+    // Draws the pane and blends surfaces over the pixel, including those that lie on it: `end` has float32
+    // precision.
     Pixel withBlended(Pixel pixel, double end, const PixelRay& ray, std::uint64_t seed) const;
 
     // With several samples, light is their mean over the pixel; other channels show the centre.
@@ -115,6 +165,7 @@ private:
     const PixelRays rays_;
     const Geometry geometry_;
     const Materials materials_;
+    const MeshPaths mesh_paths_;
     Lighting lighting_;
     std::optional<EnvironmentLight> background_;  // set if another environment lights the scene
     std::optional<Haze> haze_;

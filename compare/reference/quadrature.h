@@ -27,7 +27,7 @@ struct Cell {
 
 struct Integral {
     Reflected value;
-    // Of value.size(): differences that remained at the limit on cells or depth.
+    // Error of value.size(): differences that remained at the limit on cells or depth.
     double error = 0;
 };
 

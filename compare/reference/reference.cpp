@@ -78,7 +78,7 @@ public:
             picture_.environment_costs = Image(request.view.width, request.view.height, 9);
         if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
         if (request.blended && blendsSomewhere(request)) {
-            picture_.blended = Image(request.view.width, request.view.height, 1);
+            picture_.blended = Image(request.view.width, request.view.height, 3);
             picture_.unblended = Image(request.view.width, request.view.height, 3);
         }
         for (const Image* image : besides(picture_)) floats_ += image->components;
@@ -173,7 +173,9 @@ private:
             take(picture_.environment_costs, {c.diffuse[0], c.diffuse[1], c.diffuse[2], c.split[0],
                                               c.split[1], c.split[2], c.sampled, c.wider, c.lobe});
             take(picture_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
-            take(picture_.blended, {pixel.hidden});
+            const glm::dvec3& t = pixel.transmitted;
+            take(picture_.blended,
+                 {pixel.hidden, pixel.bent, pixel.bent > 0 ? std::max({t.x, t.y, t.z}) : 0.0});
             take(picture_.unblended, {pixel.unblended.x, pixel.unblended.y, pixel.unblended.z});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
@@ -205,7 +207,7 @@ private:
 std::vector<int> surfaceChannels(std::uint32_t layers) {
     std::vector<int> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isShaded(mode.number) && isMadeByReference(mode) && (layerOf(mode.number) & ~layers) == 0)
+        if (!isShaded(mode.number) && isMadeByReference(mode) && mayShow(mode.number, layers))
             modes.push_back(mode.number);
     return modes;
 }

@@ -30,7 +30,8 @@ struct Picture {
     // fraction of the distance from the light. Then the sum of their unshadowed reflected radiance, as
     // above.
     Image local_shadow_edge;
-    // If materials blend, W x H x 1: the fraction of the background that blended surfaces hide.
+    // If materials blend or transmit, W x H x 3: the fraction of the background that these surfaces hide,
+    // Pixel::bent, and, where that is not 0, the largest component of Pixel::transmitted.
     Image blended;
     // If materials blend, W x H x 3: lit without blended surfaces.
     Image unblended;

@@ -35,6 +35,7 @@ void ResolvedLight::add(const Pixel& sample) {
     sum_.lit += sample.lit * share;
     sum_.shading += sample.shading * share;
     sum_.haze.scattered += sample.haze.scattered * share;
+    sum_.transmitted += sample.transmitted * share;
     sum_.blended += sample.blended * share;
     sum_.unblended += sample.unblended * unblended;
     weights_ += share;
@@ -48,12 +49,14 @@ void ResolvedLight::put(Pixel& pixel) const {
     pixel.lit = sum_.lit;
     pixel.unblended = sum_.unblended;
     pixel.haze.scattered = sum_.haze.scattered;
+    pixel.transmitted = sum_.transmitted;
     pixel.shading = sum_.shading;
     pixel.blended = sum_.blended;
     if (resolve_ == Resolve::linear) return;  // the shares' sum is 1
     pixel.lit /= weights_;
     pixel.unblended /= unblended_weights_;
     pixel.haze.scattered /= weights_;
+    pixel.transmitted /= weights_;
     pixel.shading = pixel.shading * (1 / weights_);
     pixel.blended = pixel.blended * (1 / weights_);
     const double slope = (1 + largestComponent(pixel.lit)) / weights_;

@@ -41,7 +41,7 @@ void Rounds::add(const Reflected& estimate) {
     const Reflected deviation = estimate - mean_;
     mean_ += deviation * (1.0 / count_);
     const Reflected after = estimate - mean_;
-    squares_ += (deviation.diffuse + deviation.specular) * (after.diffuse + after.specular);
+    squares_ += deviation.sum() * after.sum();
 }
 
 double Rounds::halfWidth() const {

@@ -44,7 +44,7 @@ public:
 private:
     std::uint32_t count_ = 0;
     Reflected mean_;
-    glm::dvec3 squares_{0};  // sums of squared deviations (Welford 1962) of the sum of both lobes
+    glm::dvec3 squares_{0};  // sums of squared deviations (Welford 1962) of the sum of all lobes
 };
 
 }  // namespace diptych::reference

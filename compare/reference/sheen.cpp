@@ -10,13 +10,6 @@
 #include <numbers>
 
 namespace diptych::reference {
-namespace {
-
-// The bounds of the material model (README.md of this folder, "The model").
-constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
-
-}  // namespace
-
 Surface sheenOf(const Surface& s) {
     Surface sheen;
     sheen.position = s.position;

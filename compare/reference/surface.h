@@ -15,6 +15,11 @@
 
 namespace diptych::reference {
 
+// Bounds of the material model (README.md of this folder, "The model"), restated independently. A perfect
+// mirror under a punctual light is a delta function that cannot be sampled. A normal map may turn a visible
+// surface away from the viewer.
+inline constexpr double least_roughness = 0.045, least_n_dot_v = 1e-4;
+
 struct Surface {
     glm::dvec3 position{0};
     glm::dvec3 to_viewer{0, 0, 1};         // unit
@@ -41,6 +46,14 @@ struct Surface {
     double sheen_roughness = 0;
     // KHR_materials_iridescence: weight, index and thickness (nm) of the thin film; 0 without one.
     double iridescence = 0, iridescence_ior = 0, iridescence_thickness = 0;
+    // KHR_materials_transmission's slab: KHR_materials_ior (0: infinite), thickness (m, world; 0: a thin
+    // wall), KHR_materials_volume's colour and distance (m; 0: nothing is absorbed), 20 / Abbe number.
+    double ior = 1.5, thickness = 0;
+    glm::dvec3 attenuation_color{1};
+    double attenuation_distance = 0, dispersion = 0;
+    // KHR_materials_diffuse_transmission: weight and colour; 0 without it.
+    double diffuse_transmission = 0;
+    glm::dvec3 diffuse_transmission_color{0};
     BaseLayer base_layer = BaseLayer::max;
     int material = -1;
     glm::dvec2 texcoord{0};
@@ -65,26 +78,29 @@ inline glm::dvec3 lostToLayer(BaseLayer rule, const glm::dvec3& layer) {
     return glm::min(lost, glm::dvec3(1));
 }
 
-// A quantity for each of the two lobes: radiance, W/(sr m^2), or a factor of it.
+// A quantity for each lobe: radiance, W/(sr m^2), or a factor of it. `transmitted`: of light from behind, by
+// diffuse transmission.
 struct Reflected {
-    glm::dvec3 diffuse{0}, specular{0};
+    glm::dvec3 diffuse{0}, specular{0}, transmitted{0};
 
+    glm::dvec3 sum() const { return diffuse + specular + transmitted; }
     Reflected& operator+=(const Reflected& other) {
         diffuse += other.diffuse;
         specular += other.specular;
+        transmitted += other.transmitted;
         return *this;
     }
     friend Reflected operator+(Reflected a, const Reflected& b) { return a += b; }
     friend Reflected operator-(const Reflected& a, const Reflected& b) { return a + b * -1.0; }
-    friend Reflected operator*(const Reflected& a, double b) { return {a.diffuse * b, a.specular * b}; }
+    friend Reflected operator*(const Reflected& a, double b) { return a * glm::dvec3(b); }
     friend Reflected operator*(const Reflected& a, const glm::dvec3& b) {
-        return {a.diffuse * b, a.specular * b};
+        return {a.diffuse * b, a.specular * b, a.transmitted * b};
     }
 
     // The largest component of the sum, by magnitude; errors are relative to it.
     double size() const {
-        const glm::dvec3 sum = glm::abs(diffuse + specular);
-        return std::max({sum.x, sum.y, sum.z});
+        const glm::dvec3 all = glm::abs(sum());
+        return std::max({all.x, all.y, all.z});
     }
 };
 

@@ -23,7 +23,7 @@ namespace {
 CaptureRequest everyChannel(const Settings& settings, gpu::uint layers) {
     CaptureRequest request;
     for (const DebugMode& mode : debugModes()) {
-        if (!notMadeBecause(settings, mode).empty() || (layerOf(mode.number) & ~layers) != 0) continue;
+        if (!notMadeBecause(settings, mode).empty() || !mayShow(mode.number, layers)) continue;
         request.modes.push_back(mode.number);
         if (shadesFragments(settings.path) && isLit(mode.number))
             request.through_gbuffer.push_back(mode.number);

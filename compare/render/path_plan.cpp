@@ -4,10 +4,13 @@
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
+#include "shared/material/gbuffer_layout.h"
 #include "shared/scene/lights/casters.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace diptych {
 
@@ -22,6 +25,31 @@ SampledBytes bytesOf(Device& device, SharedResources& shared, SceneViews& views,
     PassList passes(device, plannedSize, plannedSize);
     const PixelBytes bytes = pixelBytes(passes, functionsOf(settings.path).add(passes, view.inputs));
     return {settings.msaa, bytes.geometry, bytes.all};
+}
+
+constexpr std::pair<const char*, gpu::uint> layerNames[]{
+    {"clear coats", gpu::LAYER_CLEARCOAT},
+    {"anisotropy", gpu::LAYER_ANISOTROPY},
+    {"sheen", gpu::LAYER_SHEEN},
+    {"iridescence", gpu::LAYER_IRIDESCENCE},
+    {"diffuse transmission", gpu::LAYER_DIFFUSE_TRANSMISSION},
+};
+
+// Cost of a layer in images of both paths.
+std::string layerCost(gpu::uint layer, const Requirements& needs, const Settings& settings) {
+    if ((needs.surface_layers & layer) == 0) return "only blended surfaces and glass have it: no G-buffer";
+    if (settings.layers == Layers::forward) return "--layers forward: no G-buffer";
+    return fmt::format("{} bytes per pixel in deferred's G-buffer, none in forward_plus",
+                       layerBytes(layer, settings.gbuffer) * static_cast<gpu::uint>(settings.msaa));
+}
+
+std::string transmissionCost(const Requirements& needs, const Settings& settings) {
+    if (settings.transparency == Transparency::off) return "--transparency off: not drawn";
+    constexpr double texel = 16;
+    const bool blurs = needs.rough_glass || settings.spec_aa;
+    return fmt::format("both paths copy depth and the picture, {:.2f} MiB {} mip chain",
+                       texel * settings.size.width * settings.size.height * (blurs ? 4.0 / 3 : 1.0) / 0x1p20,
+                       blurs ? "with its" : "without");
 }
 
 Requirements::Line shadowLine(const SceneView& view, const Settings& settings) {
@@ -50,6 +78,10 @@ std::vector<Requirements::Line> planLines(const SceneView& view, const Settings&
             line.why += settings.skinning == Skinning::compute
                             ? ", deformed once per frame by compute shaders"
                             : ", deformed by the vertex shader of every draw";
+        if (line.modelled && line.what == "transmission")
+            line.why += "; " + transmissionCost(view.needs, settings);
+        for (const auto& [name, layer] : layerNames)
+            if (line.modelled && line.what == name) line.why += "; " + layerCost(layer, view.needs, settings);
     }
     lines.push_back(shadowLine(view, settings));
     lines.push_back({settings.haze, "haze",

@@ -12,8 +12,8 @@
 namespace diptych {
 
 // Features that the view's scene needs and features that are omitted, each with its reason. The default
-// light of an unlit scene does not count as the scene's. `settings` choose the skinning method, shadows
-// and haze.
+// light of an unlit scene does not count as the scene's. `settings` choose the skinning method, shadows,
+// haze, and the cost of layers and transmission.
 std::vector<Requirements::Line> planLines(const SceneView& view, const Settings& settings);
 
 // Bytes of images per pixel, for a number of samples.

@@ -12,11 +12,11 @@ namespace diptych {
 namespace {
 
 const PathFunctions paths[] = {
-    {Path::deferred, [](FrameInputs&, const Settings&) { return std::vector<std::string>{}; }, addDeferred,
-     addDeferredCapture,
+    {Path::deferred, prepareDeferred, addDeferred, addDeferredCapture,
      [](Shader fragment) {
-         return fragment == Shader::gbuffer_frag || fragment == Shader::deferred_shade_frag ||
-                fragment == Shader::deferred_light_batch_frag || fragment == Shader::deferred_capture_frag;
+         return fragment == Shader::gbuffer_frag || fragment == Shader::gbuffer_layers_frag ||
+                fragment == Shader::deferred_shade_frag || fragment == Shader::deferred_light_batch_frag ||
+                fragment == Shader::deferred_capture_frag;
      }},
     {Path::forward_plus, prepareForwardPlus, addForwardPlus, addForwardPlusCapture,
      [](Shader fragment) {

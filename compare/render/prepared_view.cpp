@@ -120,19 +120,8 @@ namespace {
 // Requirements of the surfaces that the G-buffer stores.
 Requirements storedNeeds(const Requirements& needs, const Settings& settings) {
     Requirements stored = needs;
-    if (settings.layers == Layers::forward) stored.layers = 0;
+    if (settings.layers == Layers::forward) stored.surface_layers = 0;
     return stored;
-}
-
-void checkAttachments(const Device& device, const GBufferLayout& gbuffer, const Settings& settings) {
-    const auto needed =
-        std::ranges::count_if(gbuffer.formats, [](VkFormat f) { return f != VK_FORMAT_UNDEFINED; });
-    const std::uint32_t most = std::min(device.limits().maxColorAttachments, gpu::CAPTURE_ATTACHMENTS);
-    if (hasGBuffer(settings.path) && needed > most)
-        throw std::runtime_error(
-            fmt::format("the G-buffer of this scene needs {} attachments, and {} draws to {} at once; use "
-                        "--gbuffer standard or --layers forward",
-                        needed, device.info().name, most));
 }
 
 }  // namespace
@@ -146,16 +135,17 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       lights(lightsOf(scene, settings)),
       draws(makeDrawList(scene.pose, shared.geometry, materials, scene.view, settings.transparency,
                          hasGBuffer(settings.path) && settings.layers == Layers::forward)),
-      culling(device, shared.pipelines, shared.layouts, shared.geometry, scene.pose, scene.view,
-              settings.msaa, settings.cull, draws),
+      culling(device, shared.pipelines, shared.layouts, shared.geometry,
+              {scene.pose, scene.view, settings.msaa, settings.cull}, draws),
       posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),
-      buffers(device, shared.uploader, shared.layouts, scene.view, draws, lights,
-              {{listsOf(settings.assign), kernelOf(settings.light_kernel, device), !draws.blended().empty()},
-               objectPixelLights(settings),
-               readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::table,
-               (scene.needs.layers & gpu::LAYER_SHEEN) != 0,
-               settings.spec_aa_limit}),
-      environment(device, shared.uploader, shared.environments, scene.environment, scene.background,
+      buffers(
+          device, shared.uploader, shared.layouts, {scene.view, draws, lights},
+          {{listsOf(settings.assign), kernelOf(settings.light_kernel, device), !draws.seenThrough().empty()},
+           objectPixelLights(settings),
+           readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::table,
+           (scene.needs.layers & gpu::LAYER_SHEEN) != 0,
+           settings.spec_aa_limit}),
+      environment(device, shared.uploader, shared.environments, {scene.environment, scene.background},
                   buffers.sets(), settings),
       haze(device, shared.uploader, settings, sunOf(scene.lights), scene.view.eye(), buffers.sets()),
       shadow(device, shared.uploader,
@@ -181,11 +171,12 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .variant = sceneVariant(storedNeeds(scene.needs, settings), lights, scene.view, gbuffer, settings),
           .gbuffer = gbuffer,
           .lighting = settings.lighting,
-          .layers = scene.needs.layers,
+          .layers = scene.needs.surface_layers,
           .depth = depthStorage(settings.depth_format),
           .lit_format = litFormatOf(settings.lit_format),
           .shadow = shadow,
           .transparency = settings.transparency,
+          .blurred_backdrop = scene.needs.rough_glass || settings.spec_aa,
           .blended = blendedRange(draws, scene.view),
           .fragments = &fragments,
           .samples = static_cast<VkSampleCountFlagBits>(settings.msaa),
@@ -194,7 +185,6 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
           .alpha_to_coverage = settings.alpha_to_coverage,
       } {
     if (const auto problem = drawingProblem(device, settings)) throw std::runtime_error(*problem);
-    checkAttachments(device, gbuffer, settings);
     inputs.variant.set(gpu::FEATURE_depth_format, inputs.depth.kind);
     shadow.prepare(inputs, shared.uploader, shared.clipmaps, scene.pose, scene.view,
                    castingSun(scene.lights, lights, settings));
@@ -265,7 +255,7 @@ FrameBytes bytesOf(const PreparedFrame& prepared, const SharedResources& shared)
                 prepared.view.materials.bufferBytes() + prepared.view.buffers.bytes() +
                 prepared.view.culling.bytes() + prepared.view.shadow.bytes() +
                 prepared.view.environment.bytes() + prepared.view.haze.bytes() +
-                prepared.view.fragments.bytes(),
+                prepared.view.fragments.bytes() + (prepared.images.tiles ? prepared.images.tiles->size() : 0),
             pixel.geometry, pixel.all * pixels};
 }
 

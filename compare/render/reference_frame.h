@@ -46,9 +46,15 @@ public:
     // Creates the parent folders of an output that is a folder, as is done for the output itself.
     KeptReferences(const std::filesystem::path& output, bool isFolder);
 
-    // Opens a checkpoint for one more reference, for reference::Request::keep; lives as long as this
-    // object. Throws std::runtime_error naming the file if it cannot be written.
+    // Opens a checkpoint for one more reference; lives as long as this object. Throws std::runtime_error
+    // naming the file if it cannot be written.
     reference::Checkpoint& open(std::uint64_t key, std::size_t floats);
+    // The same for RenderOptions::keep.
+    auto opener() {
+        return [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
+            return open(key, floats);
+        };
+    }
 
     void remove();  // call when the output is complete
 

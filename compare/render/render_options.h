@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What to render and measure for a Frame.
+// Options for rendering and measuring a Frame.
 #pragma once
 
 #include "compare/run/progress.h"
@@ -59,7 +59,7 @@ struct RenderOptions {
 // Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
 inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, int mode) {
     const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
-    return (layerOf(mode) & ~layers) != 0 && !asked;
+    return !mayShow(mode, layers) && !asked;
 }
 inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
     std::erase_if(options.channels,

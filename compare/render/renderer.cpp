@@ -84,14 +84,21 @@ private:
     void goOn() {
         options_.progress.at(std::min(1.0, framesDone_ / framesIn(options_)), frame_.name + ": " + doing_);
     }
-    // Whether the capture also renders lit; without other channels there is nothing to verify.
+    // Whether the capture also renders lit: to verify other channels, or for light through surfaces.
     bool rechecks() const {
         const auto isOther = [](int mode) { return mode != lit; };
+        if (isThroughRequested()) return true;
         return options_.recheck && (std::ranges::any_of(options_.channels, isOther) ||
                                     options_.through_gbuffer || options_.twice != Twice::none);
     }
     bool isRequested(int mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
+    }
+
+    // Light through surfaces is that of the capture's lit.
+    bool isThroughRequested() const {
+        constexpr auto through = static_cast<int>(gpu::DEBUG_lit_transmission);
+        return isRequested(through) && !isLeftOut(options_, prepared_.view.scene.needs.layers, through);
     }
 
     // Renders with the timed pipelines, which contain no debug code.
@@ -115,7 +122,8 @@ private:
         request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && shadesFragments(settings_.path))
             for (const int mode : litModes)
-                if (isRequested(mode) && !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
+                if ((isRequested(mode) || (mode == lit && isThroughRequested())) &&
+                    !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                     request.through_gbuffer.push_back(mode);
         return request;
     }
@@ -177,7 +185,9 @@ private:
                              if (read.mode != lit) addNoise(read.mode, image);
                          });
         }
-        if (!isRequested(lit)) frame_.channels.erase(lit);
+        if (isRequested(lit)) return;
+        frame_.channels.erase(lit);
+        frame_.through_gbuffer.erase(lit);
     }
 
     // Runs the capture's passes group by group, beginning at pass `first`. Passes each group's channels to

@@ -128,7 +128,7 @@ TEST(ReferenceAmbient, OcclusionDimsItAndNothingElse) {
     s.occlusion = 0.25;
     const Light sun = lightOf(LightKind::directional, {0, 0, 0});
     const glm::dvec3 ambient(1, 2, 4);
-    const Shading shading = Lighting(std::span(&sun, 1), nullptr, 1, {0, 0, 0}, ambient)(s, {}, 1);
+    const Shading shading = Lighting({.lights = std::span(&sun, 1), .ambient = ambient})(s, {}, 1);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(shading.ambient[c], ambient[c] / 4, 1e-12);
     EXPECT_NEAR(shading.reflected.diffuse.g, 1 / pi, 1e-12);
     EXPECT_EQ(shadedBy(std::span(&sun, 1), s).ambient, glm::dvec3(0));

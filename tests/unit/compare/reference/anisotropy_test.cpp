@@ -242,8 +242,8 @@ TEST(ReferenceAnisotropy, AnEvenSkyIsAmbientLight) {
     const Environment sky{"sky", Image(8, 4, 3, 1.0f)};
     for (const double angle : {0.0, 1.2}) {
         const Surface s = stretchedMirror(0.2, 0.7, angle, 0.5);
-        const Shading shading = Lighting({}, &sky, 1, {0, 0, 0})(s, {}, 3);
-        const double ambient = Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1))(s, {}, 3).ambient.g;
+        const Shading shading = Lighting({.environment = &sky})(s, {}, 3);
+        const double ambient = Lighting({.ambient = glm::dvec3(1)})(s, {}, 3).ambient.g;
         EXPECT_NEAR(ambient, specularAlbedo(s).g, 1e-12);
         EXPECT_NEAR(shading.reflected.specular.g, ambient, 2 * samplingError * ambient);
     }
@@ -252,7 +252,7 @@ TEST(ReferenceAnisotropy, AnEvenSkyIsAmbientLight) {
 // ---- what the split sum costs ------------------------------------------------------------------------
 
 EnvironmentCosts splitCosts(const Environment& sky, const Surface& s, double& exact) {
-    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    Lighting lighting({.environment = &sky});
     lighting.takeCosts();
     const Shading shading = lighting(s, {}, 5);
     exact = shading.reflected.specular.g;

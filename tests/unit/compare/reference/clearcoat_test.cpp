@@ -41,7 +41,10 @@ Shading underEverything(const Surface& s, Multiscatter multiscatter = Multiscatt
     Light point = lightOf(LightKind::point, {0.5, 0, 2}), rect = lightOf(LightKind::rect, {-1, 0, 1});
     rect.width = rect.height = 1;
     const std::vector<Light> lights{point, rect};
-    Lighting lighting(lights, &whiteSky(), 1, {0, 0, 0}, glm::dvec3(0.5), {}, false, multiscatter);
+    Lighting lighting({.lights = lights,
+                       .environment = &whiteSky(),
+                       .ambient = glm::dvec3(0.5),
+                       .multiscatter = multiscatter});
     lighting.takeCosts();
     lighting.takeSurroundings();
     return lighting(
@@ -81,8 +84,8 @@ TEST(ReferenceClearcoat, TheWhiteFurnace) {
                 s.to_viewer = {std::sin(angle), 0, std::cos(angle)};
                 const double w = clearcoat * coatsFresnel(std::cos(angle)),
                              albedo = specularAlbedo(mirror(roughness, angle)).g;
-                const Shading shading = Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1))(
-                    coated(s, clearcoat, roughness), {}, 1);
+                const Shading shading =
+                    Lighting({.ambient = glm::dvec3(1)})(coated(s, clearcoat, roughness), {}, 1);
                 EXPECT_NEAR(shading.ambient.g, 1 - w + w * albedo, 1e-9) << angle << " " << roughness;
                 EXPECT_LE(shading.ambient.g, 1 + 1e-5);
                 EXPECT_NEAR(shading.clearcoat.g, w * albedo, 1e-12);
@@ -98,7 +101,7 @@ TEST(ReferenceClearcoat, TheHighlightOfASun) {
     EXPECT_NEAR(shading.reflected.diffuse.g, (1 - w) / pi, 1e-12);
     EXPECT_NEAR(shading.reflected.specular.g, w * highlight, 1e-9);
     EXPECT_NEAR(shading.clearcoat.g, w * highlight, 1e-9);
-    const Reflected factor = Lighting({}, nullptr, 1, {0, 0, 0}).reflectance(s, {0, 0, 1});
+    const Reflected factor = Lighting({}).reflectance(s, {0, 0, 1});
     EXPECT_NEAR(factor.diffuse.g, shading.reflected.diffuse.g, 1e-15);
     EXPECT_NEAR(factor.specular.g, shading.reflected.specular.g, 1e-12);
 }
@@ -149,15 +152,15 @@ TEST(ReferenceClearcoat, EveryPartIsWeightedAlike) {
 
 TEST(ReferenceClearcoat, AnEvenSkyIsAmbientLight) {
     const Surface s = coated(lacquer(1.2), 1, 0.2);
-    const Shading sky = Lighting({}, &whiteSky(), 1, {0, 0, 0})(s, {}, 3),
-                  ambient = Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1))(s, {}, 3);
+    const Shading sky = Lighting({.environment = &whiteSky()})(s, {}, 3),
+                  ambient = Lighting({.ambient = glm::dvec3(1)})(s, {}, 3);
     EXPECT_NEAR(sky.all().g, ambient.all().g, 0.02 * ambient.all().g);
     EXPECT_NEAR(sky.clearcoat.g, ambient.clearcoat.g, 0.02 * ambient.clearcoat.g);
 }
 
 TEST(ReferenceClearcoat, OcclusionDimsItsAmbientLight) {
     Surface s = coated(lacquer(0.5), 1, 0.2);
-    const Lighting lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1));
+    const Lighting lighting({.ambient = glm::dvec3(1)});
     const double open = lighting(s, {}, 1).clearcoat.g;
     s.occlusion = 0.25;
     EXPECT_NEAR(lighting(s, {}, 1).clearcoat.g, open / 4, 1e-12);
@@ -168,7 +171,7 @@ TEST(ReferenceClearcoat, ALightmapIsUnderIt) {
     Surface s = coated(lambertian(), 1, 0.2);
     s.lightmap = glm::dvec3(3);
     s.lightmapped = true;
-    const Shading shading = Lighting({}, nullptr, 1, {0, 0, 0})(s, {}, 1);
+    const Shading shading = Lighting({})(s, {}, 1);
     EXPECT_NEAR(shading.ambient.g, 3 * 0.96, 1e-9);
     EXPECT_EQ(shading.clearcoat.g, 0);
 }
@@ -176,7 +179,7 @@ TEST(ReferenceClearcoat, ALightmapIsUnderIt) {
 TEST(ReferenceClearcoat, OnlyTheBaseIsCompensated) {
     Surface s = mirror(0.8, 0.5);
     const double w = 0.5 * coatsFresnel(std::cos(0.5)), rough = specularAlbedo(mirror(0.9, 0.5)).g;
-    const Lighting lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1), {}, false, Multiscatter::energy);
+    const Lighting lighting({.ambient = glm::dvec3(1), .multiscatter = Multiscatter::energy});
     EXPECT_NEAR(lighting(coated(s, 0.5, 0.9), {}, 1).ambient.g, 1 - w + w * rough, 1e-6);
 }
 

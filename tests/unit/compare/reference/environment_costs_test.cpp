@@ -15,7 +15,7 @@ Environment evenSky(float radiance, int width = 32, int height = 16) {
 }
 
 EnvironmentCosts costsUnder(const Environment& sky, const Surface& s) {
-    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    Lighting lighting({.environment = &sky});
     lighting.takeCosts();
     return lighting(s, {}, 5).costs;
 }

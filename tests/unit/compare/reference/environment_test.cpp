@@ -19,7 +19,7 @@ Environment sunnySky(int x, int y) {
 }
 
 Shading under(const Environment& sky, const Surface& s, std::uint64_t seed, double factor = 1) {
-    return Lighting({}, &sky, factor, {0, 0, 0})(s, {}, seed);
+    return Lighting({.environment = &sky, .environment_factor = factor})(s, {}, seed);
 }
 
 // scene.h: azimuth 2 pi (x + 0.5) / width - pi, 0 at -Z, positive towards +X; polar angle pi (y + 0.5) /
@@ -57,7 +57,8 @@ TEST(ReferenceEnvironment, ItsPartOfTheLightIsToldApart) {
         for (const double metallic : {0.0, 1.0}) {
             s.metallic = metallic;
             const auto shaded = [&](std::span<const Light> lights, const Environment* environment) {
-                return Lighting(lights, environment, 1, {0, 0, 0}, {0, 0, 0}, {}, false, each)(s, {}, 1);
+                return Lighting({.lights = lights, .environment = environment, .multiscatter = each})(s, {},
+                                                                                                      1);
             };
             const Shading alone = shaded({}, &sky), beside = shaded(std::span(&sun, 1), &sky),
                           none = shaded(std::span(&sun, 1), nullptr);
@@ -143,8 +144,8 @@ TEST(ReferenceEnvironment, ABlackSkyIsNone) {
     EXPECT_EQ(under(constantSky(1), lambertian(), 1, 0).reflected.size(), 0);
 }
 
-// A plane under a constant environment shows its albedo; with F = 1, the furnace's values. Of independent
-// errors, 95 % must be within the stated confidence interval, and none beyond four times it.
+// A plane under a constant environment shows its albedo; with F = 1, the furnace's values. 95 % of
+// independent errors must be within the stated confidence interval, and none beyond four times it.
 void expectConfident(const Environment& sky, const Surface& s, double expected, double worst) {
     int within = 0;
     double mean = 0;
@@ -221,7 +222,7 @@ TEST(ReferenceEnvironment, NeighboursErrAlone) {
 
 TEST(ReferenceEnvironment, WhatIsHiddenOfASkyIsDark) {
     const Environment sky = constantSky(1);
-    const Lighting lighting({}, &sky, 1, {0, 0, 0}, {0, 0, 0}, {}, true);
+    const Lighting lighting({.environment = &sky, .shadowed_environment = true});
     const Visibility half = [](const glm::dvec3&d, double) { return d.x > 0; },
                      none = [](const glm::dvec3&, double) { return false; };
     EXPECT_EQ(lighting(lambertian(), none, 1).reflected.size(), 0);

@@ -209,8 +209,8 @@ TEST(ReferenceIridescence, AlbedosAreTheBrdfsIntegrals) {
 TEST(ReferenceIridescence, AnEvenSkyIsAmbientLight) {
     const Environment sky{"sky", Image(8, 4, 3, 1.0f)};
     const Surface s = filmed(beetle(0.5, 0.9), 1);
-    const Shading shading = Lighting({}, &sky, 1, {0, 0, 0})(s, {}, 3),
-                  ambient = Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1))(s, {}, 3);
+    const Shading shading = Lighting({.environment = &sky})(s, {}, 3),
+                  ambient = Lighting({.ambient = glm::dvec3(1)})(s, {}, 3);
     expectColor(shading.all(), ambient.all(), 2 * samplingError * largestOf(ambient.all()));
 }
 
@@ -244,7 +244,7 @@ TEST(ReferenceIridescence, UnderAnEvenSkyTheSplitSumIsOffByItsCosine) {
     dark.albedo = glm::dvec3(0);
     bright.albedo = glm::dvec3(1);
     const double all = specularAlbedo(bright).r, cosine = 1 - std::pow(specularAlbedo(dark).r / all, 0.2);
-    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    Lighting lighting({.environment = &sky});
     lighting.takeCosts();
     const Shading shading = lighting(s, {}, 5);
     const glm::dvec3 integral = 3.0 * specularAlbedo(s),

@@ -198,6 +198,12 @@ TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
         {"its index of refraction", [](Asked& a) { a.material().iridescence_ior = 1.5f; }},
         {"its least thickness", [](Asked& a) { a.material().iridescence_thickness_least = 50; }},
         {"its most thickness", [](Asked& a) { a.material().iridescence_thickness_most = 500; }},
+        {"thickness", [](Asked& a) { a.material().thickness = 0.5f; }},
+        {"attenuation colour", [](Asked& a) { a.material().attenuation_color.g = 0.5f; }},
+        {"attenuation distance", [](Asked& a) { a.material().attenuation_distance = 0.5f; }},
+        {"dispersion", [](Asked& a) { a.material().dispersion = 0.5f; }},
+        {"diffuse transmission", [](Asked& a) { a.material().diffuse_transmission = 0.5f; }},
+        {"its colour", [](Asked& a) { a.material().diffuse_transmission_color.b = 0.5f; }},
         {"slot 0", [](Asked& a) { a.material().base_color_texture.texture = 0; }},
         {"slot 1", [](Asked& a) { a.material().metallic_roughness_texture.texture = 0; }},
         {"slot 2", [](Asked& a) { a.material().normal_texture.texture = 0; }},
@@ -214,6 +220,10 @@ TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
         {"slot 13", [](Asked& a) { a.material().sheen_roughness_texture.texture = 0; }},
         {"slot 14", [](Asked& a) { a.material().iridescence_texture.texture = 0; }},
         {"slot 15", [](Asked& a) { a.material().iridescence_thickness_texture.texture = 0; }},
+        {"slot 16", [](Asked& a) { a.material().transmission_texture.texture = 0; }},
+        {"slot 17", [](Asked& a) { a.material().thickness_texture.texture = 0; }},
+        {"slot 18", [](Asked& a) { a.material().diffuse_transmission_texture.texture = 0; }},
+        {"slot 19", [](Asked& a) { a.material().diffuse_transmission_color_texture.texture = 0; }},
         {"set of coordinates", [](Asked& a) { a.material().normal_texture.texcoord = 1; }},
         {"transform of u", [](Asked& a) { a.material().normal_texture.u.z = 0.5; }},
         {"transform of v", [](Asked& a) { a.material().normal_texture.v.z = 0.5; }},
@@ -271,15 +281,20 @@ TEST(ReferenceKey, IsOfTheGeometryAndItsPose) {
     expectKeysOfTheirOwn(changes);
 }
 
-// Captured surfaces contain everything that mode surface shades, except shadow casters.
-TEST(ReferenceKey, OfSurfacesTheSceneCountsWhereItCastsShadows) {
-    for (const bool shadows : {false, true}) {
-        Asked one, other;
-        one.mode = other.mode = ReferenceMode::surface;
-        if (shadows) one.casters = other.casters = {0};
-        other.primitive().positions[3].z = 0.1f;
-        EXPECT_EQ(one.key() == other.key(), !shadows);
-    }
+// Captured surfaces contain everything that mode surface shades, except shadow casters and what is not
+// opaque.
+TEST(ReferenceKey, OfSurfacesTheSceneCountsWhereRaysHitIt) {
+    for (const bool shadows : {false, true})
+        for (const bool pane : {false, true}) {
+            Asked one, other;
+            for (Asked* const asked : {&one, &other}) {
+                asked->mode = ReferenceMode::surface;
+                if (shadows) asked->casters = {0};
+                if (pane) asked->material().transmission = 1;
+            }
+            other.primitive().positions[3].z = 0.1f;
+            EXPECT_EQ(one.key() == other.key(), !shadows && !pane);
+        }
 }
 
 }  // namespace

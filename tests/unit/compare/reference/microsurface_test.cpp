@@ -140,8 +140,8 @@ TEST(ReferenceMicrosurface, ARoughMirrorReflectsFourTenthsAtOnce) {
 // the estimate gives.
 TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
     const auto shaded = [](const Surface& s, std::span<const Light> lights, double ambient) {
-        return Lighting(lights, nullptr, 1, {0, 0, 0}, glm::dvec3(ambient), {}, false, Multiscatter::walk)(
-            s, {}, 1);
+        return Lighting(
+            {.lights = lights, .ambient = glm::dvec3(ambient), .multiscatter = Multiscatter::walk})(s, {}, 1);
     };
     for (const double metallic : {0.0, 1.0})
         for (const auto& [roughness, cosine] : angles) {

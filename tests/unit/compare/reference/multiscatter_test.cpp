@@ -95,7 +95,7 @@ TEST(ReferenceMultiscatter, DirectLightSumsToTheSame) {
                 sun.intensity = static_cast<float>(pi / (z * across * across));
                 suns.push_back(sun);
             }
-        const Shading shading = Lighting(suns, nullptr, 1, {0, 0, 0}, {0, 0, 0}, {}, false, each)(s, {}, 1);
+        const Shading shading = Lighting({.lights = suns, .multiscatter = each})(s, {}, 1);
         const glm::dvec3 specular = specularAlbedo(s, compensation), diffuse = diffuseAlbedo(s, compensation);
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(shading.reflected.specular[c], specular[c], 1e-3) << nameOf(each);

@@ -84,14 +84,17 @@ Shading underAllLights(const Surface& s, Multiscatter multiscatter = Multiscatte
     Light point = lightOf(LightKind::point, {0.5, 0, 2}), rect = lightOf(LightKind::rect, {-1, 0, 1});
     rect.width = rect.height = 1;
     const std::vector<Light> lights{point, rect};
-    Lighting lighting(lights, &evenCloud(), 1, {0, 0, 0}, glm::dvec3(0.5), {}, false, multiscatter);
+    Lighting lighting({.lights = lights,
+                       .environment = &evenCloud(),
+                       .ambient = glm::dvec3(0.5),
+                       .multiscatter = multiscatter});
     lighting.takeCosts();
     lighting.takeSurroundings();
     return lighting(
         s, [](const glm::dvec3& l, double) { return l.x > 0; }, 7);
 }
 Shading underAmbient(const Surface& s, Multiscatter multiscatter = Multiscatter::off) {
-    return Lighting({}, nullptr, 1, {0, 0, 0}, glm::dvec3(1), {}, false, multiscatter)(s, {}, 1);
+    return Lighting({.ambient = glm::dvec3(1), .multiscatter = multiscatter})(s, {}, 1);
 }
 
 // ---- the lobe ----------------------------------------------------------------------------------------
@@ -230,7 +233,7 @@ TEST(ReferenceSheen, TheReflectanceOfASun) {
     EXPECT_NEAR(shading.reflected.specular.r, lobe / 2, 1e-9);
     EXPECT_NEAR(shading.sheen.b, lobe / 4, 1e-9);
     EXPECT_NEAR(shading.reflected.diffuse.g, kept * 0.8 / pi, 1e-5);
-    const Reflected factor = Lighting({}, nullptr, 1, {0, 0, 0}).reflectance(s, l);
+    const Reflected factor = Lighting({}).reflectance(s, l);
     EXPECT_NEAR(factor.specular.r, shading.reflected.specular.r, 1e-12);
     EXPECT_NEAR(factor.diffuse.g, shading.reflected.diffuse.g, 1e-12);
 }
@@ -246,7 +249,7 @@ TEST(ReferenceSheen, ACoatLiesOverIt) {
     EXPECT_NEAR(all.sheen.g, (1 - w) * under.sheen.g, 1e-12);
     EXPECT_NEAR(all.clearcoat.g, w * coat, 1e-12);
     EXPECT_NEAR(all.ambient.g, w * coat + (1 - w) * under.ambient.g, 1e-12);
-    const Lighting lighting({}, nullptr, 1, {0, 0, 0});
+    const Lighting lighting({});
     const glm::dvec3 l = aroundPole(0.5, 1);
     EXPECT_NEAR(lighting.reflectance(s, l).diffuse.g,
                 (1 - w) * keptUnderSheen(s) * Brdf(bare(s))(l).diffuse.g, 1e-12);
@@ -275,10 +278,10 @@ TEST(ReferenceSheen, ALightmapIsUnderItAndOcclusionDimsIt) {
     s.occlusion = 1;
     s.lightmap = glm::dvec3(3);
     s.lightmapped = true;
-    const Shading shading = Lighting({}, nullptr, 1, {0, 0, 0})(s, {}, 1);
+    const Shading shading = Lighting({})(s, {}, 1);
     EXPECT_NEAR(shading.ambient.g, 3 * keptUnderSheen(s), 1e-9);
     EXPECT_EQ(shading.sheen.g, 0);
-    EXPECT_GT(Lighting({}, &evenCloud(), 1, {0, 0, 0})(s, {}, 1).sheen.g, 0.9 * open)
+    EXPECT_GT(Lighting({.environment = &evenCloud()})(s, {}, 1).sheen.g, 0.9 * open)
         << "the environment reaches it";
 }
 
@@ -303,7 +306,7 @@ TEST(ReferenceSheen, AnEvenSkyIsAmbientLight) {
         for (const double angle : {0.3, 1.5}) {
             const Surface s = sheenOf(velvet(glm::dvec3(1), roughness, angle));
             const double expected = sheenAlbedo(roughness, std::cos(angle));
-            const Shading sky = Lighting({}, &evenCloud(), 1, {0, 0, 0})(s, {}, 3);
+            const Shading sky = Lighting({.environment = &evenCloud()})(s, {}, 3);
             EXPECT_NEAR(sky.sheen.g, expected, 2 * samplingError * expected) << roughness << " " << angle;
             EXPECT_LE(sky.uncertainty, 1.5 * samplingError * expected);
             EXPECT_EQ(sky.sheen, sky.environment.specular);
@@ -343,7 +346,7 @@ TEST(ReferenceSheen, ARectangleNearTheHorizon) {
 // ---- costs of approximations -------------------------------------------------------------------------
 
 EnvironmentCosts costsOf(const Environment& sky, const Surface& s, double& integral) {
-    Lighting lighting({}, &sky, 1, {0, 0, 0});
+    Lighting lighting({.environment = &sky});
     lighting.takeCosts();
     const Shading shading = lighting(s, {}, 5);
     integral = shading.environment.specular.g;

@@ -3,6 +3,7 @@
 #include "compare/render/path_plan.h"
 
 #include "compare/render/frame_facts.h"
+#include "shared/contract/gbuffer.h"
 #include "shared/scene/load.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,36 @@ TEST(PlanLines, NameShadowsAndHaze) {
     lamps.shadow_lights = 0;
     lamps.shadows = Shadows::off;
     EXPECT_EQ(plannedLine("shadows", "builtin:spots", lamps).why, "--shadows off: no map, no pass");
+}
+
+TEST(PlanLines, SayWhatLayersCost) {
+    Settings settings;
+    settings.gbuffer = GBufferEncoding::standard;
+    const auto ends = [](const Requirements::Line& line, const std::string& with) {
+        EXPECT_TRUE(line.why.ends_with("; " + with)) << line.why;
+    };
+    const auto stored = [](gpu::uint words) {
+        return std::to_string(4 * words) + " bytes per pixel in deferred's G-buffer, none in forward_plus";
+    };
+    ends(plannedLine("sheen", "builtin:layers", settings), stored(gpu::SHEEN_WORDS));
+    settings.msaa = 4;
+    ends(plannedLine("anisotropy", "builtin:layers", settings), stored(4 * gpu::ANISOTROPY_WORDS));
+    settings.msaa = 1;
+    settings.gbuffer = GBufferEncoding::full;
+    ends(plannedLine("clear coats", "builtin:layers", settings), stored(gpu::CLEARCOAT_FULL_WORDS));
+    settings.layers = Layers::forward;
+    ends(plannedLine("iridescence", "builtin:layers", settings), "--layers forward: no G-buffer");
+    EXPECT_EQ(plannedLine("transmission", "builtin:layers", settings).why.find("MiB"), std::string::npos);
+}
+
+TEST(PlanLines, SayWhatTransmissionCosts) {
+    Settings settings;
+    settings.size = {256, 192};  // 0.75 MiB of 16 bytes
+    const auto why = [&] { return plannedLine("transmission", "builtin:transmission", settings).why; };
+    EXPECT_TRUE(why().ends_with("both paths copy depth and the picture, 1.00 MiB with its mip chain"))
+        << why();
+    settings.transparency = Transparency::off;
+    EXPECT_TRUE(why().ends_with("--transparency off: not drawn")) << why();
 }
 
 }  // namespace
