@@ -20,7 +20,7 @@ namespace {
 void addShadedDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
                     const LightBatch& batch, const KeyOf& keyOf) {
     inputs.shadow.read(pass);
-    addForwardDraws(pass, passes, inputs, images, {inputs.draws.solids(), inputs.prepass}, batch, keyOf);
+    addForwardDraws(pass, passes, inputs, images, {inputs.draws.solids(), keyOf, inputs.prepass}, batch);
 }
 
 }  // namespace

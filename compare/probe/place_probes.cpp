@@ -134,6 +134,58 @@ double floatOfCount(double count) {
 }
 
 // A slice is a fixed number of consecutive floats of depth + offset (shared/contract/light_list.h).
+void makeFroxel(Random& random, std::size_t row, float* in) {
+    Random line(row / 256);
+    in[0] = static_cast<float>(line.logarithmic(0.01, 100));
+    in[1] = static_cast<float>(17 + line.bits() % 7);
+    in[2] = static_cast<float>(2 + line.bits() % 63);
+    in[3] = static_cast<float>(1 + random.bits() % 1024);
+    in[4] = static_cast<float>(1 + random.bits() % 1024);
+    in[5] = static_cast<float>(4 + line.bits() % 3);
+    const double first = floatsUpTo(double{in[0]}), all = std::exp2(double{in[1]}) * double{in[2]};
+    // Every fourth line crosses a slice's bound, float by float.
+    const double bound = first + std::exp2(double{in[1]}) *
+                                     static_cast<double>(1 + line.bits() % static_cast<std::uint64_t>(in[2]));
+    const double place = static_cast<double>(row % 256);
+    const double count = row / 256 % 4 ? first + all * 1.1 * (place + 0.5) / 256 : bound - 128 + place;
+    in[6] = static_cast<float>(std::clamp(floatOfCount(count) - double{in[0]}, 0.0, 1e18));
+    const auto pixel = [&](float tiles) {
+        return static_cast<float>(std::floor(random.uniform(0, double{tiles} * std::exp2(double{in[5]}))) +
+                                  0.5);
+    };
+    in[7] = pixel(in[3]), in[8] = pixel(in[4]);
+}
+
+void judgeFroxels(const float* lines, const float* outs, Tally& tally) {
+    for (std::size_t k = 0; k < 256; ++k) {
+        const float *in = lines + 9 * k, *out = outs + 5 * k;
+        const std::size_t row = tally.first_row + k;
+        const double offset = double{in[0]}, size = std::exp2(double{in[1]}), last = double{in[2]} - 1,
+                     depth = double{in[6]}, sum = depth + offset;
+        const auto sliceOf = [&](double x) {
+            return std::min(std::floor((floatsUpTo(x) - floatsUpTo(offset)) / size), last);
+        };
+        const double low = sliceOf(floatBelow(sum)), high = sliceOf(floatAbove(sum)), slice = double{out[0]};
+        tally.value(row, 0, out[0], std::clamp(slice, low, high), 0, 1);
+        // The slice's bounds, and that they contain the depth.
+        const auto bound = [&](double i) { return floatOfCount(floatsUpTo(offset) + i * size); };
+        const double from = bound(slice), to = bound(slice + 1);
+        if (slice > 0)
+            tally.value(row, 1, out[1], from - offset, 1e-6 * from + 3 * ulpOf(from), 0);
+        else
+            tally.value(row, 1, out[1], 0, 0, 0);
+        if (slice < last)
+            tally.value(row, 2, out[2], to - offset, 1e-6 * to + 3 * ulpOf(to), 0);
+        else
+            tally.value(row, 2, out[2], double{gpu::MAX_BOUND_RADIUS}, 0, 0);
+        tally.value(row, 1, out[1], std::min(double{out[1]}, depth), 0, 0);
+        tally.value(row, 2, out[2], std::max(double{out[2]}, depth), 0, 0);
+        for (int i = 0; i < 2; ++i)
+            tally.value(row, 3 + static_cast<std::size_t>(i), out[3 + i],
+                        std::floor(double{in[7 + i]} / std::exp2(double{in[5]})), 0, 0);
+    }
+}
+
 Probe froxelProbe() {
     Probe p = placeProbe("froxel of a pixel and depth", 2,
                          "offsets 1 cm to 100 m, 2 to 64 slices of 2^17 to 2^23 floats; depths from 1e-3 m "
@@ -147,58 +199,8 @@ Probe froxelProbe() {
     p.strict = true;
     p.unit = "slices";
     p.features = {{gpu::FEATURE_light_lists, gpu::LISTS_CLUSTERED}};
-    p.make = [](Random& random, std::size_t row, float* in) {
-        Random line(row / 256);
-        in[0] = static_cast<float>(line.logarithmic(0.01, 100));
-        in[1] = static_cast<float>(17 + line.bits() % 7);
-        in[2] = static_cast<float>(2 + line.bits() % 63);
-        in[3] = static_cast<float>(1 + random.bits() % 1024);
-        in[4] = static_cast<float>(1 + random.bits() % 1024);
-        in[5] = static_cast<float>(4 + line.bits() % 3);
-        const double first = floatsUpTo(double{in[0]}), all = std::exp2(double{in[1]}) * double{in[2]};
-        // Every fourth line crosses a slice's bound, float by float.
-        const double bound =
-            first + std::exp2(double{in[1]}) *
-                        static_cast<double>(1 + line.bits() % static_cast<std::uint64_t>(in[2]));
-        const double place = static_cast<double>(row % 256);
-        const double count = row / 256 % 4 ? first + all * 1.1 * (place + 0.5) / 256 : bound - 128 + place;
-        in[6] = static_cast<float>(std::clamp(floatOfCount(count) - double{in[0]}, 0.0, 1e18));
-        const auto pixel = [&](float tiles) {
-            return static_cast<float>(
-                std::floor(random.uniform(0, double{tiles} * std::exp2(double{in[5]}))) + 0.5);
-        };
-        in[7] = pixel(in[3]), in[8] = pixel(in[4]);
-    };
-    p.judge = [](const float* lines, const float* outs, Tally& tally) {
-        for (std::size_t k = 0; k < 256; ++k) {
-            const float *in = lines + 9 * k, *out = outs + 5 * k;
-            const std::size_t row = tally.first_row + k;
-            const double offset = double{in[0]}, size = std::exp2(double{in[1]}), last = double{in[2]} - 1,
-                         depth = double{in[6]}, sum = depth + offset;
-            const auto sliceOf = [&](double x) {
-                return std::min(std::floor((floatsUpTo(x) - floatsUpTo(offset)) / size), last);
-            };
-            const double low = sliceOf(floatBelow(sum)), high = sliceOf(floatAbove(sum)),
-                         slice = double{out[0]};
-            tally.value(row, 0, out[0], std::clamp(slice, low, high), 0, 1);
-            // The slice's bounds, and that they contain the depth.
-            const auto bound = [&](double i) { return floatOfCount(floatsUpTo(offset) + i * size); };
-            const double from = bound(slice), to = bound(slice + 1);
-            if (slice > 0)
-                tally.value(row, 1, out[1], from - offset, 1e-6 * from + 3 * ulpOf(from), 0);
-            else
-                tally.value(row, 1, out[1], 0, 0, 0);
-            if (slice < last)
-                tally.value(row, 2, out[2], to - offset, 1e-6 * to + 3 * ulpOf(to), 0);
-            else
-                tally.value(row, 2, out[2], double{gpu::MAX_BOUND_RADIUS}, 0, 0);
-            tally.value(row, 1, out[1], std::min(double{out[1]}, depth), 0, 0);
-            tally.value(row, 2, out[2], std::max(double{out[2]}, depth), 0, 0);
-            for (int i = 0; i < 2; ++i)
-                tally.value(row, 3 + static_cast<std::size_t>(i), out[3 + i],
-                            std::floor(double{in[7 + i]} / std::exp2(double{in[5]})), 0, 0);
-        }
-    };
+    p.make = makeFroxel;
+    p.judge = judgeFroxels;
     return p;
 }
 

@@ -20,6 +20,7 @@
 #include "shared/contract/haze.h"
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
+#include "shared/contract/lighting_tiles.h"
 #include "shared/contract/local_shadow.h"
 #include "shared/contract/ltc.h"
 #include "shared/contract/material.h"

@@ -12,7 +12,7 @@ writeonly uniform image2D specular_target;
 
 void main() {
     if (!isInPicture() || !isDrawnHere()) return;
-    PartialSums sums = partialSumsHere();
-    imageStore(lit_target, pixelHere(), sums.diffuse);
-    imageStore(specular_target, pixelHere(), sums.specular);
+    Radiance sums = partialSumsHere();
+    imageStore(lit_target, pixelHere(), vec4(sums.diffuse, sums.local_seen));
+    imageStore(specular_target, pixelHere(), vec4(sums.specular, sums.local_light));
 }

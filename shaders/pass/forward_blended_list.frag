@@ -13,7 +13,7 @@ layout(early_fragment_tests) in;
 void main() {
     uvec2 p = uvec2(gl_FragCoord.xy);
     BlendedFragment f = blendedFragment();
-    if (!isListed(p) || !f.covers) return;
+    if (!isListed(p) || f.opacity == 0.0) return;
     uint pixel = listedPixel(p);
     uint place = placeOf(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
     if (place < list_of.layers) {

@@ -41,6 +41,6 @@ void main() {
     write(on(feature_gbuffer_wide_material_id), t.attachments[GBUFFER_IDS], free);
     write(on(feature_lightmap), t.attachments[GBUFFER_LIGHTMAP], free);
     for (uint i = 0; i < LAYER_WORDS / 4; ++i)
-        write(hasLayerAttachment(i), t.attachments[GBUFFER_LAYERS + i], free);
+        write(hasLayerAttachment(i) && i < layersInFirstPass(), t.attachments[GBUFFER_LAYERS + i], free);
     write(multisampled(), t.attachments[GBUFFER_SHADED], free);
 }

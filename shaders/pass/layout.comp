@@ -36,6 +36,9 @@ layout(set = 3, binding = 26, scalar) buffer IndirectDrawArray { IndirectDraw in
 layout(set = 3, binding = 27, scalar) buffer CullingConstantsArray {
     CullingConstants culling_constants_array[];
 };
+layout(set = 3, binding = 28, scalar) buffer TileDrawArray { TileDraw tile_draw_array[]; };
+layout(set = 3, binding = 29, scalar) buffer TileDispatchArray { TileDispatch tile_dispatch_array[]; };
+layout(set = 3, binding = 30, scalar) buffer TileConstantsArray { TileConstants tile_constants_array[]; };
 layout(set = 3, binding = 22, scalar) buffer ObjectLightsArray { ObjectLights object_lights_array[]; };
 
 void main() {
@@ -44,6 +47,9 @@ void main() {
     culled_part_array[0] = culled_part_array[1];
     indirect_draw_array[0] = indirect_draw_array[1];
     culling_constants_array[0] = culling_constants_array[1];
+    tile_draw_array[0] = tile_draw_array[1];
+    tile_dispatch_array[0] = tile_dispatch_array[1];
+    tile_constants_array[0] = tile_constants_array[1];
     object_light_array[0] = object_light_array[1];
     object_irradiance_array[0] = object_irradiance_array[1];
     object_lights_array[0] = object_lights_array[1];

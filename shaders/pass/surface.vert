@@ -53,7 +53,9 @@ void main() {
     // A node scale of zero makes vectors zero; the fragment shader then uses the triangle's normal.
     v_normal = unitVector(normal_from_object_x * v.normal.x + normal_from_object_y * v.normal.y +
                           normal_from_object_z.xyz * v.normal.z);
-    v_texcoord = bounded(v.texcoords.xy);
+    vec2 first_texcoord = bounded(v.texcoords.xy);
+    v_texcoord_u = first_texcoord.x;
+    v_texcoord_v = first_texcoord.y;
     mat4x3 affine = mat4x3(world_from_object[0], world_from_object[1], world_from_object[2],
                            world_from_object_origin);
     vec3 world = affine * vec4(v.position, 1.0);

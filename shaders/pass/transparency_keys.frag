@@ -13,6 +13,6 @@ void main() {
     vec4 base_color = baseColor();
     cutOut(base_color);
     // Invisible fragments take no list entry.
-    if (coverageOf(base_color) == 0.0 || !isListed(p)) return;
+    if (opacityOf(base_color) == 0.0 || !isListed(p)) return;
     insertKey(listedPixel(p), fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
 }

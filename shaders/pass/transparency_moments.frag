@@ -12,8 +12,7 @@ layout(location = 1) out vec4 out_moments;
 void main() {
     vec4 base_color = baseColor();
     cutOut(base_color);
-    float opacity = coverageOf(base_color);
-    if (on(feature_transmission)) opacity = opacityOf(surfaceFromMaterial(base_color), base_color);
+    float opacity = opacityOf(base_color);
     float optical_depth = opticalDepth(opacity, MOST_OPTICAL_DEPTH_OF_MOMENTS);
     out_optical_depth = optical_depth;
     out_moments = powersOf(momentDepth(middleDepth())) * optical_depth;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
@@ -18,7 +19,7 @@ struct PlaceInCaptures {
 };
 PlaceInCaptures placeInCaptures(int mode);  // throws std::out_of_range
 
-// A capture pass: up to CAPTURE_ATTACHMENTS images, in the order of CAPTURES, with all requested channels
+// A capture pass: up to MAX_COLOR_ATTACHMENTS images, in the order of CAPTURES, with all requested channels
 // in them. Channels that do not depend on light have passes of their own, unless all lit channels fit in
 // beside them.
 struct CaptureGroup {
@@ -28,7 +29,7 @@ struct CaptureGroup {
 };
 // `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
 std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit,
-                                        std::size_t most = gpu::CAPTURE_ATTACHMENTS);
+                                        std::size_t most = gpu::MAX_COLOR_ATTACHMENTS);
 
 // Groups share the memory of their images: each is run and read back before the next one runs.
 struct CapturedImage {

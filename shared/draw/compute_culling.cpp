@@ -20,14 +20,13 @@ constexpr double placesApart = 3;
 }  // namespace
 
 ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineLayout layout,
-                               const Geometry& geometry, const SampleGrid& grid,
-                               std::span<const gpu::CulledItem> items, const Sizes& sizes)
+                               const Geometry& geometry, const SampleGrid& grid, const Sizes& sizes)
     : device_(device), pipelines_(pipelines), layout_(layout), sizes_(sizes) {
     constexpr VkBufferUsageFlags addressed = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                  read = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     const auto bytesOf = [](std::uint64_t count, std::size_t each) { return count * each; };
-    items_ = GpuBuffer(device, "culled items", items.size_bytes(), addressed, MemoryUse::upload);
-    std::memcpy(items_.mapped(), items.data(), items.size_bytes());
+    items_ = GpuBuffer(device, "culled items", bytesOf(sizes.items, sizeof(gpu::CulledItem)), addressed,
+                       MemoryUse::upload);
     parts_ = GpuBuffer(device, "culled parts", bytesOf(sizes.parts, sizeof(gpu::CulledPart)), addressed,
                        MemoryUse::upload);
     order_ = GpuBuffer(device, "order of clusters", bytesOf(sizes.clusters, sizeof(gpu::uint)), addressed,
@@ -49,6 +48,10 @@ ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineL
                   glm::vec2(grid.width, grid.height) * 0.5f,
                   static_cast<float>(placesApart * placeError(grid)),
                   static_cast<float>(grid.snap)};
+}
+
+std::span<gpu::CulledItem> ComputeCulling::items() {
+    return {static_cast<gpu::CulledItem*>(items_.mapped()), sizes_.items};
 }
 
 std::span<gpu::CulledPart> ComputeCulling::parts() {

@@ -19,14 +19,15 @@ class ComputeCulling {
 public:
     // Capacities.
     struct Sizes {
-        std::uint32_t parts = 0, clusters = 0, indices = 0;  // clusters: of all parts together
+        std::uint32_t items = 0, parts = 0, clusters = 0, indices = 0;  // clusters: of all parts together
         std::uint32_t draws = 0;
     };
-    // `items`: those that parts refer to. `layout`: Layouts::culling. Geometry and layout must outlive it.
+    // `layout`: Layouts::culling. Geometry and layout must outlive it.
     ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineLayout layout, const Geometry& geometry,
-                   const SampleGrid& grid, std::span<const gpu::CulledItem> items, const Sizes& sizes);
+                   const SampleGrid& grid, const Sizes& sizes);
 
     // Inputs of the compute shader. The CPU writes them while no frame is in flight.
+    std::span<gpu::CulledItem> items();  // those that parts refer to
     std::span<gpu::CulledPart> parts();
     std::span<std::uint32_t> order();  // meshlet indices, part by part, near to far
 

@@ -48,9 +48,10 @@ std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
 }  // namespace
 
 Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, const Geometry& geometry,
-                 const Pose& pose, const View& view, int samples, bool on, DrawList& draws)
-    : geometry_(geometry), draws_(draws), on_(on) {
-    const bool computes = on && device.profile().culls_by_compute;
+                 const Image& image, DrawList& draws)
+    : geometry_(geometry), draws_(draws), on_(image.culls) {
+    const auto& [pose, view, samples, culls] = image;
+    const bool computes = culls && device.profile().culls_by_compute;
     const SampleGrid grid = gridOf(device, view, samples);
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t place = 0;
@@ -95,16 +96,14 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
     if (!any()) return;
     draws_.runs.resize(parts_.size());
     if (culled_parts_.empty()) {
-        indices_ =
-            GpuBuffer(device, "chosen indices", std::uint64_t{std::max(place, 1u)} * sizeof(std::uint32_t),
-                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
-        run();
+        runOnHost(device, place);
         return;
     }
-    const ComputeCulling::Sizes sizes{static_cast<std::uint32_t>(culled_parts_.size()),
-                                      static_cast<std::uint32_t>(order_.size()), place,
-                                      static_cast<std::uint32_t>(parts_.size())};
-    compute_.emplace(device, pipelines, layouts.culling, geometry, grid, culled_items_, sizes);
+    const ComputeCulling::Sizes sizes{
+        static_cast<std::uint32_t>(culled_items_.size()), static_cast<std::uint32_t>(culled_parts_.size()),
+        static_cast<std::uint32_t>(order_.size()), place, static_cast<std::uint32_t>(parts_.size())};
+    compute_.emplace(device, pipelines, layouts.culling, geometry, grid, sizes);
+    std::ranges::copy(culled_items_, compute_->items().begin());
     runOnGpu();
 }
 
@@ -120,6 +119,13 @@ void Culling::addCulled(const Item& item, const gpu::CulledItem& culled) {
     culled_items_.push_back(culled);
     for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p)
         culled_parts_.push_back({index, parts_[p].first, parts_[p].clusters, 0, p});
+}
+
+void Culling::runOnHost(Device& device, std::uint32_t indices) {
+    indices_ =
+        GpuBuffer(device, "chosen indices", std::uint64_t{std::max(indices, 1u)} * sizeof(std::uint32_t),
+                  VK_BUFFER_USAGE_INDEX_BUFFER_BIT, MemoryUse::upload);
+    run();
 }
 
 void Culling::runOnGpu() {

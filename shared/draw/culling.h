@@ -22,12 +22,17 @@ class Culling {
 public:
     static constexpr const char* name = "clusters";  // name of the pass
 
-    // `draws`: of the pose and the view; from now on draws use the culled indices, and the items must not
-    // change. `on`: culls triangles; the order of the others is unchanged. Geometry, layouts and draws
-    // must outlive it. Deformed instances are not culled, because their meshlets have moved. The
-    // constructor culls once, for draws before the first frame.
+    struct Image {
+        const Pose& pose;
+        const View& view;
+        int samples;  // per pixel
+        bool culls;   // triangles; the order of the others is unchanged
+    };
+    // `draws`: of the image; from now on draws use the culled indices, and the items must not change.
+    // Geometry, layouts and draws must outlive it. Deformed instances are not culled, because their meshlets
+    // have moved. The constructor culls once, for draws before the first frame.
     Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, const Geometry& geometry,
-            const Pose& pose, const View& view, int samples, bool on, DrawList& draws);
+            const Image& image, DrawList& draws);
     Culling(const Culling&) = delete;
     Culling& operator=(const Culling&) = delete;
 
@@ -74,6 +79,7 @@ private:
     void addParts(const Item& item);
     void addCulled(const Item& item, const gpu::CulledItem& culled);
     // Culls once on the GPU, and takes the index ranges.
+    void runOnHost(Device& device, std::uint32_t indices);  // at most so many
     void runOnGpu();
     void order(const Item& item);
     void choose(std::size_t part, std::uint32_t* indices);

@@ -22,6 +22,7 @@ PipelineKey DepthStorage::stored(PipelineKey key) const {
         case VK_COMPARE_OP_LESS_OR_EQUAL:
             key.depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;
             break;
+        case VK_COMPARE_OP_EQUAL:
         case VK_COMPARE_OP_ALWAYS:
             break;
         default:

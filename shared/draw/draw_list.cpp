@@ -114,9 +114,14 @@ DrawItem itemOf(const PlacedPrimitive& placed, const Materials& materials) {
     if (range.vanishing_normals || item.variant.get(gpu::FEATURE_normal_texture) != 0 ||
         item.variant.get(gpu::FEATURE_clearcoat_normal_texture) != 0 || flattens(placed.world_from_object))
         item.variant.set(gpu::FEATURE_vanishing_normals);
-    item.blended = materials.blends(range.material);
+    item.transmissive = item.variant.get(gpu::FEATURE_transmission) != 0;
+    item.blended = materials.blends(range.material) && !item.transmissive;
     item.masked = item.variant.get(gpu::FEATURE_alpha_mask) != 0;
     return item;
+}
+
+bool isSolid(const DrawItem& item) {
+    return !item.blended && !item.transmissive;
 }
 
 ClipBox clipBox(const glm::dmat4& clipFromObject, const ObjectBox& box) {
@@ -165,8 +170,14 @@ void number(DrawList& list) {
     list.draws = std::move(draws);
 }
 
-// `blended`: in scene order.
-void addBlended(DrawList& list, std::vector<DrawItem> blended, Transparency transparency) {
+// `seen_through`: in scene order.
+void addSeenThrough(DrawList& list, std::vector<DrawItem> seen_through, Transparency transparency) {
+    const auto first = std::ranges::stable_partition(seen_through, &DrawItem::transmissive).begin();
+    std::stable_sort(seen_through.begin(), first,
+                     [](const DrawItem& a, const DrawItem& b) { return a.depth < b.depth; });
+    list.items.insert(list.items.end(), seen_through.begin(), first);
+    list.transmitting = static_cast<std::size_t>(first - seen_through.begin());
+    std::vector<DrawItem> blended(first, seen_through.end());
     const bool sorts = transparency == Transparency::sorted;
     if (sorts) std::ranges::stable_sort(blended, std::greater{}, &DrawItem::depth);
     // The image does not depend on this order, but near to far is fast: fragments beyond a full list are
@@ -274,12 +285,13 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
             continue;
         }
         DrawItem item = itemOf(placed, materials);
-        item.apart = layers_apart && !item.blended && item.variant.get(gpu::FEATURE_layers) != 0;
+        item.apart = layers_apart && isSolid(item) && item.variant.get(gpu::FEATURE_layers) != 0;
         item.triangle = triangle;
         item.instance = i;
+        item.scale = static_cast<float>(lengthScale(instance));
         item.depths = viewDepths(fromCamera, -view.backward(), range);
         list.triangles += range.index_count / 3;
-        if (!item.blended && item.box < 0) {
+        if (isSolid(item) && item.box < 0) {
             item.first_run = static_cast<std::uint32_t>(list.runs.size());
             item.runs = 1;
             list.runs.push_back({geometry.clusters(range).front().first_index, range.index_count});
@@ -289,11 +301,11 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         add(list, item, placed, view.eye(), clipFromWorld);
     }
     const auto first = std::stable_partition(list.items.begin(), list.items.end(),
-                                             [](const DrawItem& item) { return !item.blended; });
-    std::vector<DrawItem> blended(first, list.items.end());
+                                             [](const DrawItem& item) { return isSolid(item); });
+    std::vector<DrawItem> seen_through(first, list.items.end());
     list.items.erase(first, list.items.end());
     sort(list);
-    addBlended(list, std::move(blended), transparency);
+    addSeenThrough(list, std::move(seen_through), transparency);
     number(list);
     if (transparency == Transparency::triangles) sortTriangles(list, pose, geometry, view);
     return list;

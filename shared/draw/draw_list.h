@@ -32,7 +32,7 @@ struct SortedRange {
     IndexRange run;          // into DrawList::sorted_indices
 };
 
-// Which sides of its triangles a draw shows.
+// Sides of its triangles that a draw shows.
 enum class Sides {
     of_material,  // the front, or both if the material is double-sided
     back,
@@ -50,7 +50,9 @@ struct DrawItem {
     bool mirrored = false;                  // the transform reverses the winding of front faces
     bool masked = false;
     bool blended = false;
-    bool apart = false;  // the deferred path draws it after lighting
+    bool transmissive = false;  // drawn between opaque and blended surfaces
+    float scale = 1;            // lengthScale()
+    bool apart = false;         // the deferred path draws it after lighting
     Sides sides = Sides::of_material;
     int distance = 0;  // of the farthest corner, quantized; a sort key
     ViewDepths depths;
@@ -61,9 +63,10 @@ struct DrawItem {
 
 struct DrawList {
     std::vector<gpu::Draw> draws;
-    std::vector<DrawItem> items;  // blended ones come last
-    std::size_t solid = 0;        // number of items that are not blended
-    std::size_t stored = 0;       // number of those before the ones that are drawn apart
+    std::vector<DrawItem> items;   // solids, transmissive ones, then blended ones
+    std::size_t solid = 0;         // number of solids
+    std::size_t stored = 0;        // number of solids before those that are drawn apart
+    std::size_t transmitting = 0;  // number of transmissive items
     std::vector<IndexRange> runs;
     // Transparency::triangles: blended triangles, sorted; else empty.
     std::vector<std::uint32_t> sorted_indices;
@@ -74,7 +77,9 @@ struct DrawList {
     // The deferred path stores the former in its G-buffer and draws the latter after lighting.
     std::span<const DrawItem> storedSolids() const { return std::span(items).first(stored); }
     std::span<const DrawItem> apartSolids() const { return solids().subspan(stored); }
-    std::span<const DrawItem> blended() const { return std::span(items).subspan(solid); }
+    std::span<const DrawItem> transmissive() const { return seenThrough().first(transmitting); }
+    std::span<const DrawItem> blended() const { return seenThrough().subspan(transmitting); }
+    std::span<const DrawItem> seenThrough() const { return std::span(items).subspan(solid); }
 };
 
 // Whether one draw call can cover `item` and `next` as instances, if both use the same indices and one
@@ -89,12 +94,13 @@ glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
 // its contents, and most hidden fragments fail the depth test before shading.
 // An instance is culled if its bounding box lies outside one plane of the view. Triangles of an opaque
 // draw are in meshlet order, those of a deformed one in scene order.
-// Blended draws come last, in an order that depends on `transparency`:
+// Transmissive draws come next, near to far by the centre of the bounding box, then in scene order: they
+// write depth. Blended draws come last, in an order that depends on `transparency`:
 //  - sorted: far to near by the centre of the bounding box; double-sided ones twice, back faces first
 //  - triangles: in scene order; `sorted_runs` orders their triangles far to near by the view depth of the
 //    centroid, ties in scene order
 //  - list: near to far, which saves work in the fragment lists
-//  - off: none
+//  - off: none, and no transmissive ones
 //  - others: in scene order
 // `layers_apart`: solids whose materials have layers come after all others.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,

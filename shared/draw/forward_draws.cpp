@@ -22,7 +22,7 @@ std::shared_ptr<const DescriptorSets> storedDepth(const PassList& passes, const 
 }  // namespace
 
 void addForwardDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, const FrameImages& images,
-                     const ForwardDraws& draws, const LightBatch& batch, const KeyOf& keyOf) {
+                     const ForwardDraws& draws, const LightBatch& batch) {
     const auto stored = storedDepth(passes, inputs, images, draws.depth_is_stored);
     if (stored) pass.samples(images.depth, inFragment);
     batch.read(pass);
@@ -32,7 +32,7 @@ void addForwardDraws(Pass& pass, PassList& passes, const FrameInputs& inputs, co
     pass.record(recordDraws(
         inputs, draws.items,
         [&](const DrawItem& item) {
-            PipelineKey key = keyOf(item);
+            PipelineKey key = draws.keyOf(item);
             key.variant.set(gpu::FEATURE_stored_depth, stored != nullptr);
             return key;
         },

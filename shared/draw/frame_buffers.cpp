@@ -13,12 +13,13 @@
 
 namespace diptych {
 
-FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
-                           const DrawList& draws, const GpuLights& lights, const Choice& choice)
-    : lists_(device, uploader, layouts.lists, choice.lists, view, lights),
-      objects_(device, uploader, draws, lights, choice.object_pixel_lights),
+FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Content& content,
+                           const Choice& choice)
+    : lists_(device, uploader, layouts.lists, choice.lists, content.view, content.lights),
+      objects_(device, uploader, content.draws, content.lights, choice.object_pixel_lights),
       placeholders_(device, uploader, layouts),
       sets_(device, layouts.frame, frameBindings(), 1) {
+    const auto& [view, draws, lights] = content;
     gpu::View gpuView = view.gpuView();
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;

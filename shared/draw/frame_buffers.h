@@ -23,8 +23,13 @@ public:
         bool albedo_table = false, sheen_table = false;      // uploads the tables of albedo.h
         float specular_aa_limit = 0;                         // --spec-aa-limit
     };
-    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const View& view,
-                 const DrawList& draws, const GpuLights& lights, const Choice& choice);
+    struct Content {
+        const View& view;
+        const DrawList& draws;
+        const GpuLights& lights;
+    };
+    FrameBuffers(Device& device, Uploader& uploader, const Layouts& layouts, const Content& content,
+                 const Choice& choice);
     VkDescriptorSet set() const { return sets_[0]; }
     DescriptorSets& sets() { return sets_; }
     VkBuffer draws() const { return draws_.handle(); }

@@ -70,7 +70,7 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
         .set(gpu::FEATURE_spot_lights, lights.spot > 0)
         .set(gpu::FEATURE_area_lights, area)
         .set(gpu::FEATURE_lightmap, needs.lightmap)
-        .set(gpu::FEATURE_layers, needs.layers)
+        .set(gpu::FEATURE_layers, needs.surface_layers)
         .set(gpu::FEATURE_ambient, lights.ambient != glm::vec3(0))
         .set(gpu::FEATURE_multiscatter, multiscatterOf(settings.multiscatter))
         .set(gpu::FEATURE_fitted_albedo,

@@ -11,6 +11,7 @@
 #include "shared/vulkan/pass_list.h"
 
 #include <array>
+#include <memory>
 
 namespace diptych {
 
@@ -38,11 +39,12 @@ struct FrameInputs {
     Variant variant;  // features of scene and view: light types, emission, projection, G-buffer encoding
     GBufferLayout gbuffer;
     Lighting lighting = Lighting::fragment;  // deferred path
-    gpu::uint layers = 0;                    // LAYER_* of the scene, wherever they are drawn
+    gpu::uint layers = 0;                    // LAYER_* of opaque surfaces, wherever they are drawn
     DepthStorage depth{};
     VkFormat lit_format = VK_FORMAT_R32G32B32A32_SFLOAT;  // format of the image's radiance
     ShadowMaps& shadow;
     Transparency transparency = Transparency::sorted;
+    bool blurred_backdrop = false;             // transmissive surfaces may be rough
     gpu::BlendedConstants blended{};           // of all blended passes
     const FragmentLists* fragments = nullptr;  // Transparency::list
     gpu::uint longest_list = 0;                // entries of the longest list that a pixel may evaluate
@@ -63,7 +65,8 @@ struct FrameImages {
     ImageRef lit_samples;  // per-sample radiance, before the resolve
     ImageRef depth;        // stored as in FrameInputs::depth
     std::array<ImageRef, gpu::GBUFFER_ATTACHMENTS> gbuffer{};  // deferred; invalid if absent
-    ImageRef groups{};  // deferred with MSAA: sample groups, stored as a depth
+    ImageRef groups{};                         // deferred with MSAA: sample groups, stored as a depth
+    std::shared_ptr<const GpuBuffer> tiles{};  // deferred/lighting_tiles.h; null: a variant shades all pixels
 };
 
 // Transient image that the scene is drawn to, with the frame's samples.

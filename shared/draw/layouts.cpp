@@ -23,7 +23,7 @@ constexpr auto gbufferTypes =
     bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
                       BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::fetched_image},
                   TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)
-                      CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW)});
+                      CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW) BACKDROP_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 

@@ -2,10 +2,25 @@
 #include "shared/draw/light_batches.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
+#include <tuple>
 #include <utility>
 
 namespace diptych {
+
+namespace {
+
+// Layers with partial sums of their own, in the order of PartialSumImages.
+struct LayerSum {
+    gpu::uint layer;
+    const char* name;
+};
+constexpr std::array layer_sums{LayerSum{gpu::LAYER_CLEARCOAT, "partial clear coat sum"},
+                                LayerSum{gpu::LAYER_SHEEN, "partial sheen sum"},
+                                LayerSum{gpu::LAYER_DIFFUSE_TRANSMISSION, "partial transmitted sum"}};
+static_assert(2 + layer_sums.size() == std::tuple_size_v<PartialSumImages>);
+
+}  // namespace
 
 void LightBatch::read(Pass& pass, VkPipelineStageFlags2 stages) const {
     if (sums)
@@ -26,8 +41,10 @@ std::shared_ptr<DescriptorSets> partialSumSet(PassList& passes, Pass& pass, cons
 }
 
 std::vector<VkFormat> partialSumFormats(gpu::uint layers) {
-    return std::vector<VkFormat>(2 + std::popcount(layers & (gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN)),
-                                 litFormat);
+    return std::vector<VkFormat>(
+        2 + std::ranges::count_if(layer_sums,
+                                  [layers](const LayerSum& sum) { return (layers & sum.layer) != 0; }),
+        litFormat);
 }
 
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
@@ -59,8 +76,8 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
                                  .life = Life::transient});
         };
         PartialSumImages images{sum("partial diffuse sum"), sum("partial specular sum")};
-        if (!stored && (layers & gpu::LAYER_CLEARCOAT) != 0) images[2] = sum("partial clear coat sum");
-        if (!stored && (layers & gpu::LAYER_SHEEN) != 0) images[3] = sum("partial sheen sum");
+        for (std::size_t i = 0; i < layer_sums.size(); ++i)
+            if (!stored && (layers & layer_sums[i].layer) != 0) images[2 + i] = sum(layer_sums[i].name);
         Pass& pass = stored ? passes.compute(name) : passes.draw(name);
         if (!stored)
             for (const ImageRef image : images)

@@ -13,8 +13,9 @@
 
 namespace diptych {
 
-// Diffuse, specular, and the parts of the specular sum of clear coats and of sheens, if the scene has them.
-using PartialSumImages = std::array<ImageRef, 4>;
+// Diffuse, specular, the parts of the specular sum of clear coats and of sheens, and the part of the diffuse
+// sum of diffuse transmission, if the scene has them.
+using PartialSumImages = std::array<ImageRef, 5>;
 
 // Range of list entries that one draw evaluates, and the sums that it continues from.
 struct LightBatch {

@@ -64,8 +64,6 @@ PipelineKey opacityKey(const FrameInputs& inputs, const DrawItem& item, Shader f
                     .depth_write = false};
     key.variant.set(gpu::FEATURE_orthographic, inputs.variant.get(gpu::FEATURE_orthographic))
         .set(gpu::FEATURE_depth_format, inputs.depth.kind);
-    // Transmittance depends on all surface properties.
-    if (item.variant.get(gpu::FEATURE_transmission) != 0) key.variant = forwardKey(inputs, item, {}).variant;
     return key;
 }
 

@@ -18,7 +18,7 @@ namespace diptych {
 // Layout of the compute shaders, shared by all poses.
 OwnedPipelineLayout makePosingLayout(Device& device);
 
-// What all poses of a scene share.
+// Resources that all poses of a scene share.
 struct PosingSources {
     Device& device;
     Uploader& uploader;

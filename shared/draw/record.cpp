@@ -3,6 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/lighting_tiles.h"
 #include "shared/contract/material.h"
 #include "shared/draw/culling.h"
 #include "shared/draw/pipeline_keys.h"
@@ -36,12 +37,23 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
     vkCmdPushConstants(commands, inputs.layouts.pipeline, drawStages, 0, sizeof constants, &constants);
 }
 
-// Draws vertices that the shader generates.
-void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint vertices) {
+// For draws of vertices that the shader generates.
+void bindUnculled(VkCommandBuffer commands, VkPipeline pipeline) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+}
+
+void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint vertices) {
+    bindUnculled(commands, pipeline);
     vkCmdDraw(commands, vertices, 1, 0, 0);
+}
+
+gpu::DrawConstants constantsOf(const LightBatch& batch) {
+    gpu::DrawConstants constants{};
+    constants.light_first = batch.first;
+    constants.light_end = batch.end;
+    return constants;
 }
 
 gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) {
@@ -50,6 +62,7 @@ gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) 
     if (inputs.variant.get(gpu::FEATURE_object_lights) != 0) constants.draw = item.draw;
     constants.material = item.range.material;
     constants.posing = inputs.posing.address(item);
+    if (item.transmissive) constants.scale = item.scale;
     return constants;
 }
 
@@ -341,9 +354,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     return [&inputs, pipeline, batch, groups,
             sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
         bindFrame(commands, inputs, batch, sets.get());
-        gpu::DrawConstants constants{};
-        constants.light_first = batch.first;
-        constants.light_end = batch.end;
+        gpu::DrawConstants constants = constantsOf(batch);
         for (; constants.group < groups; ++constants.group) {
             push(commands, inputs, constants);
             recordTriangle(commands, pipeline);
@@ -357,13 +368,51 @@ std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
     return [&inputs, pipeline, gbuffer = std::move(gbuffer), batch, across, group](VkCommandBuffer commands,
                                                                                    const Pass::Rows& rows) {
         bindFrame(commands, inputs, batch, gbuffer.get(), VK_PIPELINE_BIND_POINT_COMPUTE);
-        gpu::DrawConstants constants{};
-        constants.light_first = batch.first;
-        constants.light_end = batch.end;
+        gpu::DrawConstants constants = constantsOf(batch);
         constants.group = group;
         push(commands, inputs, constants);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdDispatchBase(commands, 0, rows.first, 0, across, rows.count, 1);
+    };
+}
+
+std::function<void(VkCommandBuffer)> recordTiles(const FrameInputs& inputs, TiledLighting tiled,
+                                                 DescriptorSets gbuffer, const LightBatch& batch,
+                                                 gpu::uint groups) {
+    return [&inputs, tiled = std::move(tiled), batch, groups,
+            sets = std::make_shared<const DescriptorSets>(std::move(gbuffer))](VkCommandBuffer commands) {
+        bindFrame(commands, inputs, batch, sets.get());
+        gpu::DrawConstants constants = constantsOf(batch);
+        constants.tile_size = tiled.tile_size;
+        for (const TiledLighting::Class& of_class : tiled.classes) {
+            bindUnculled(commands, of_class.pipeline);
+            constants.tiles = addressWords(of_class.list);
+            for (constants.group = 0; constants.group < groups; ++constants.group) {
+                push(commands, inputs, constants);
+                vkCmdDrawIndirect(commands, tiled.buffer->handle(), of_class.commands, 1, 0);
+            }
+        }
+    };
+}
+
+std::function<void(VkCommandBuffer, const Pass::Rows&)> recordTileDispatches(
+    const FrameInputs& inputs, TiledLighting tiled, std::shared_ptr<const DescriptorSets> gbuffer,
+    const LightBatch& batch, gpu::uint group) {
+    return [&inputs, tiled = std::move(tiled), gbuffer = std::move(gbuffer), batch, group](
+               VkCommandBuffer commands, const Pass::Rows& rows) {
+        bindFrame(commands, inputs, batch, gbuffer.get(), VK_PIPELINE_BIND_POINT_COMPUTE);
+        gpu::DrawConstants constants = constantsOf(batch);
+        constants.group = group;
+        constexpr VkDeviceSize bytes = gpu::TILES_PER_DISPATCH * sizeof(gpu::uint);
+        for (const TiledLighting::Class& of_class : tiled.classes) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, of_class.pipeline);
+            for (std::uint32_t row = rows.first; row < rows.first + rows.count; ++row) {
+                constants.tiles = addressWords(of_class.list + row * bytes);
+                push(commands, inputs, constants);
+                vkCmdDispatchIndirect(commands, tiled.buffer->handle(),
+                                      of_class.commands + row * sizeof(gpu::TileDispatch));
+            }
+        }
     };
 }
 

@@ -7,12 +7,13 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace diptych {
 
-// Records the draws of opaque items, a part of DrawList::solids(), in list order, each with the pipeline of
-// its key. Missing pipelines are compiled at once, on all cores. `gbuffer`: SET_GBUFFER of shaders that read
-// stored depth. `inputs` must outlive the returned function.
+// Records the draws of items, a part of DrawList::solids() or transmissive(), in list order, each with the
+// pipeline of its key. Missing pipelines are compiled at once, on all cores. `gbuffer`: SET_GBUFFER of
+// shaders that read stored depth or the backdrop. `inputs` must outlive the returned function.
 using KeyOf = std::function<PipelineKey(const DrawItem&)>;
 std::function<void(VkCommandBuffer)> recordDraws(const FrameInputs& inputs, std::span<const DrawItem> items,
                                                  const KeyOf& keyOf, const LightBatch& batch = {},
@@ -43,6 +44,25 @@ std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, V
 std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
     const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
     const LightBatch& batch, std::uint32_t across, gpu::uint group);
+// Tiles of the image by class (shared/contract/lighting_tiles.h). A pipeline shades those of its class, by
+// indirect draws or dispatches.
+struct TiledLighting {
+    struct Class {
+        VkPipeline pipeline;
+        VkDeviceSize commands;  // offset of its TileDraw or first TileDispatch
+        VkDeviceAddress list;   // of its tiles
+    };
+    std::vector<Class> classes;
+    std::shared_ptr<const GpuBuffer> buffer;
+    gpu::vec2 tile_size;  // DrawConstants::tile_size
+};
+// As recordFullScreen() and recordDispatch() of deferred lighting. A row is a dispatch of each class.
+std::function<void(VkCommandBuffer)> recordTiles(const FrameInputs& inputs, TiledLighting tiled,
+                                                 DescriptorSets gbuffer, const LightBatch& batch,
+                                                 gpu::uint groups);
+std::function<void(VkCommandBuffer, const Pass::Rows&)> recordTileDispatches(
+    const FrameInputs& inputs, TiledLighting tiled, std::shared_ptr<const DescriptorSets> gbuffer,
+    const LightBatch& batch, gpu::uint group);
 // As recordFullScreen(), for a shader that composites blended surfaces.
 std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,

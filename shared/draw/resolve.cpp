@@ -18,10 +18,16 @@ namespace diptych {
 
 namespace {
 
+struct SampleReader {
+    Shader fragment;
+    std::string name;
+    int sample = 0;
+};
+
 // A full-screen pass that reads `sources` at the first bindings of SET_GBUFFER and writes as many targets.
-void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, const char* name,
-                const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets, int sample = 0) {
-    Pass& pass = passes.draw(name);
+void addReading(PassList& passes, const FrameInputs& inputs, const SampleReader& reader,
+                const std::vector<ImageRef>& sources, const std::vector<ImageRef>& targets) {
+    Pass& pass = passes.draw(reader.name);
     std::vector<VkFormat> formats;
     for (const ImageRef target : targets) {
         pass.color(target, Load::clear);
@@ -36,11 +42,11 @@ void addReading(PassList& passes, const FrameInputs& inputs, Shader fragment, co
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES));
-    variant.set(gpu::FEATURE_captures, ((1u << sources.size()) - 1) | static_cast<gpu::uint>(sample)
+    variant.set(gpu::FEATURE_captures, ((1u << sources.size()) - 1) | static_cast<gpu::uint>(reader.sample)
                                                                           << gpu::SAMPLE_IMAGES);
     const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
         .vertex = Shader::full_screen_vert,
-        .fragment = fragment,
+        .fragment = reader.fragment,
         .variant = variant,
         .input = NO_VERTICES,
         .colors = formats,
@@ -79,16 +85,17 @@ void checkSamples(const FrameInputs& inputs) {
                         most, inputs.longest_list));
 }
 
-ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life) {
+ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life, const char* name) {
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return lit;
     const ImageRef resolved = passes.image(
         {.name = "lit", .format = inputs.lit_format, .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT, .life = life});
-    addReading(passes, inputs, Shader::sample_resolve_frag, "resolve", {lit}, {resolved});
+    addReading(passes, inputs, {Shader::sample_resolve_frag, name}, {lit}, {resolved});
     return resolved;
 }
 
 std::size_t mostCaptured(const FrameInputs& inputs) {
-    return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::CAPTURE_ATTACHMENTS : gpu::CAPTURE_ATTACHMENTS / 2;
+    return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::MAX_COLOR_ATTACHMENTS
+                                                   : gpu::MAX_COLOR_ATTACHMENTS / 2;
 }
 
 void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<CapturedImage>& images,
@@ -97,23 +104,23 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<
     const std::vector<CapturedImage> group(images.begin() + static_cast<std::ptrdiff_t>(first), images.end());
     images.resize(first);
     // One sample of each channel, or what the shader makes of all.
-    const auto read = [&](const auto& isRead, Shader fragment, const std::string& name, int sample = 0) {
+    const auto read = [&](const auto& isRead, const SampleReader& reader) {
         std::vector<ImageRef> sources, targets;
         for (CapturedImage image : group) {
             if (!isRead(image)) continue;
             if (sources.empty() || sources.back().index != image.image.index) {
                 sources.push_back(image.image);
-                targets.push_back(passes.image({.name = name,
+                targets.push_back(passes.image({.name = reader.name,
                                                 .format = passes.format(image.image),
                                                 .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                                                 .life = Life::transient}));
             }
             image.image = targets.back();
             image.pass = passes.size();
-            image.sample = sample;
+            image.sample = reader.sample;
             images.push_back(image);
         }
-        if (!sources.empty()) addReading(passes, inputs, fragment, name.c_str(), sources, targets, sample);
+        if (!sources.empty()) addReading(passes, inputs, reader, sources, targets);
     };
     const auto isLit = [](const CapturedImage& image) {
         return image.mode == static_cast<int>(gpu::DEBUG_lit);
@@ -127,8 +134,8 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<
             [&](const CapturedImage& image) {
                 return !isLit(image) && !isCount(image) && (sample == 0 || image.every_sample);
             },
-            Shader::sample_one_frag, fmt::format("sample {}", sample), sample);
-    read(isCount, Shader::sample_most_frag, "most of samples");
+            {Shader::sample_one_frag, fmt::format("sample {}", sample), sample});
+    read(isCount, {Shader::sample_most_frag, "most of samples"});
     for (CapturedImage image : group) {
         if (!isLit(image)) continue;
         image.image = addResolve(passes, inputs, image.image, Life::transient);

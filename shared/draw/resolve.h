@@ -15,8 +15,9 @@ namespace diptych {
 // Also throws if lights need several batches, because partial sums are stored per pixel.
 void checkSamples(const FrameInputs& inputs);
 
-// Resolved radiance; `lit` itself without MSAA.
-ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life = Life::kept);
+// Resolved radiance; `lit` itself without MSAA. `name`: of the pass.
+ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life = Life::kept,
+                    const char* name = "resolve");
 
 // Number of channels that one capture pass writes; fewer with MSAA, to limit memory.
 std::size_t mostCaptured(const FrameInputs& inputs);

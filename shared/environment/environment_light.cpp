@@ -97,12 +97,11 @@ glm::mat3 environmentFromWorld(double degrees) {
 }
 
 EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                                   const Environment* environment, const Environment* background,
-                                   DescriptorSets& frame, const Settings& settings)
+                                   const Source& source, DescriptorSets& frame, const Settings& settings)
     : nearest_(makeNearestSampler(device)) {
-    if (!isLit(environment, settings)) return;
+    if (!isLit(source.environment, settings)) return;
     const EnvironmentImages& images =
-        store.at(uploader, *environment, *background, environmentRequest(settings));
+        store.at(uploader, *source.environment, *source.background, environmentRequest(settings));
     feature_ = gpu::ENVIRONMENT_LIT;
     if (settings.ibl_diffuse == IblDiffuse::map) feature_ |= gpu::ENVIRONMENT_DIFFUSE_MAP;
     if (settings.ibl == Ibl::sampled) feature_ |= gpu::ENVIRONMENT_SAMPLED;

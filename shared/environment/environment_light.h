@@ -52,11 +52,12 @@ private:
 // Environment of one view. Without an environment, or with intensity 0, it does nothing.
 class EnvironmentLight {
 public:
-    // `environment`, `background`: of the scene (see EnvironmentStore::at), or nullptr. `frame`:
-    // SET_FRAME, in which it writes its bindings.
-    EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store,
-                     const Environment* environment, const Environment* background, DescriptorSets& frame,
-                     const Settings& settings);
+    struct Source {
+        const Environment *environment, *background;  // see EnvironmentStore::at; or nullptr
+    };
+    // `frame`: SET_FRAME, in which it writes its bindings.
+    EnvironmentLight(Device& device, Uploader& uploader, EnvironmentStore& store, const Source& source,
+                     DescriptorSets& frame, const Settings& settings);
 
     static bool isLit(const Environment* environment, const Settings& settings) {
         return environment != nullptr && settings.ibl_intensity > 0;

@@ -218,7 +218,7 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
     return pairs;
 }
 
-gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, const GpuLights& lights,
+gpu::LightGrid makeLightGrid(const GridLists& of, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
                              std::uint64_t buffer_bytes) {
     gpu::LightGrid grid{};
@@ -232,23 +232,23 @@ gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, c
     grid.words = (grid.local_lights + 31) / 32;
     grid.segments = (grid.words + gpu::SEGMENT_WORDS - 1) / gpu::SEGMENT_WORDS;
     grid.slices = 1;
-    if (lists == gpu::LISTS_CLUSTERED)
+    if (of.lists == gpu::LISTS_CLUSTERED)
         sizeFroxels(grid, view, bounds, costs,
                     std::min(mostCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
-        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices * (in_front ? 2 : 1);
+        grid.lists = grid.tiles.x * grid.tiles.y * grid.slices * (of.in_front ? 2 : 1);
         grid.list_stride = (grid.lists + 3) / 4 * 4;
         return std::uint64_t{grid.list_stride};
     };
-    // Of the masks, and of the candidates per tile and slice.
+    // The masks' rows, and those of the candidates per tile and slice.
     const auto longestRow = [&] {
         return std::max(count(), std::uint64_t{grid.tiles.x} * grid.tiles.y + grid.slices);
     };
     while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
-    const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds) * (in_front ? 2 : 1);
+    const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds) * (of.in_front ? 2 : 1);
     // An entry of four lights costs as much as three entries of one, so wide entries suit long lists.
     grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;
     grid.null_light = static_cast<gpu::uint>(lights.lights.size()) - 1;

@@ -22,7 +22,11 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
 // Sizes of froxels minimize the total cost of list building and shading for these lights by the device's
 // `costs` (Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading"). Their bounds
 // depend on the projection alone, as in Persson 2013, "Practical Clustered Shading".
-gpu::LightGrid makeLightGrid(gpu::uint lists, bool in_front, const View& view, const GpuLights& lights,
+struct GridLists {
+    gpu::uint lists;
+    bool in_front = false;
+};
+gpu::LightGrid makeLightGrid(const GridLists& of, const View& view, const GpuLights& lights,
                              std::span<const gpu::LightBound> bounds, const DeviceCosts& costs,
                              std::uint64_t buffer_bytes);
 

@@ -26,6 +26,8 @@ std::uint32_t workgroups(std::uint32_t count) {
 // Slices per thread in gather: fewer slices mean more threads, which wait less for each other.
 constexpr gpu::uint slicesOfThread = 8;
 
+constexpr const char* assigning = "assign lights";  // name of the passes
+
 // In rows, because devices need to support only 65,535 workgroups per axis.
 glm::uvec3 inRows(std::uint64_t count, gpu::uint depth = 1) {
     constexpr std::uint64_t row = 32768;
@@ -89,7 +91,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     std::vector<gpu::LightBound> bounds;
     if (any()) {
         bounds = lightBounds(lights, view);
-        grid_ = makeLightGrid(choice_.lists, choice_.in_front, view, lights, bounds, device.profile().costs,
+        grid_ = makeLightGrid({choice_.lists, choice_.in_front}, view, lights, bounds, device.profile().costs,
                               std::min(std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes));
     }
     addressed_ = mostTexels(grid_, lights, bounds.size()) > device.limits().maxTexelBufferElements;
@@ -171,35 +173,45 @@ void LightLists::bind(DescriptorSets& frame) const {
     frame.buffer(0, gpu::BINDING_LIST_COUNTS, listed_.handle());
 }
 
+// Adds a compute pass.
+struct LightLists::Step {
+    PassList& passes;
+    Pipelines& pipelines;
+    Variant variant;
+    VkPipelineLayout layout;
+    std::array<VkDescriptorSet, 2> sets;
+
+    Pass& operator()(const char* name, Shader shader, glm::uvec3 size) const {
+        const VkPipeline pipeline = pipelines.compute(shader, variant, layout);
+        return passes.compute(name).record(
+            [pipeline, size, layout = layout, sets = sets](VkCommandBuffer commands) {
+                vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets.data(),
+                                        0, nullptr);
+                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+                vkCmdDispatch(commands, size.x, size.y, size.z);
+            });
+    }
+};
+
 void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant& variant,
                            VkDescriptorSet frame_set, ImageRef depth) {
     if (!any()) return;
     Variant own = variant.only(featuresReadBy(gpu::PASS_LISTS));
     specialise(own);
-    const auto step = [&](const char* name, Shader shader, glm::uvec3 size) -> Pass& {
-        Pass& pass = passes.compute(name);
-        const VkPipeline pipeline = pipelines.compute(shader, own, layouts_.pipeline());
-        return pass.record([=, this](VkCommandBuffer commands) {
-            const std::array sets{frame_set, sets_[0]};
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layouts_.pipeline(), 0,
-                                    sets.size(), sets.data(), 0, nullptr);
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-            vkCmdDispatch(commands, size.x, size.y, size.z);
-        });
-    };
+    const Step step{passes, pipelines, own, layouts_.pipeline(), {frame_set, sets_[0]}};
     // Only tiled lists read the depth, but lavapipe accesses every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+    addMasks(step, depth);
+    addLists(step);
+}
+
+void LightLists::addMasks(const Step& step, ImageRef depth) const {
+    PassList& passes = step.passes;
     const BufferRef candidates = passes.buffer("light candidates", candidates_),
                     masks = passes.buffer("light masks", masks_),
-                    used = passes.buffer("used words", used_words_),
-                    counts = passes.buffer("light counts", counts_),
-                    begins = passes.buffer("list begins", four_begins_),
                     depths = passes.buffer("tile depths", tile_depths_),
-                    overflow = passes.buffer("list overflow", overflow_),
-                    heads = passes.buffer("list heads", heads_),
-                    indices = passes.buffer("light lists", indices_),
-                    listed = passes.buffer("list counts", listed_);
+                    overflow = passes.buffer("list overflow", overflow_);
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled)
@@ -207,8 +219,8 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
             .samples(depth, inCompute)
             .uses(depths, write);
     const bool gathers = choice_.kernel == ListKernel::gather;
-    const char* const name = "assign lights";
-    Pass& clear = passes.copy(name).uses(overflow, access::transferWrite).uses(masks, access::transferWrite);
+    Pass& clear =
+        passes.copy(assigning).uses(overflow, access::transferWrite).uses(masks, access::transferWrite);
     if (gathers) clear.uses(candidates, access::transferWrite);
     clear.record([=, this](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, overflow_.handle(), 0, VK_WHOLE_SIZE, 0);
@@ -218,31 +230,43 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     // Both shaders write parts of the masks; scatter uses atomics.
     const glm::uvec3 byLight = inRows(std::uint64_t{grid_.local_lights} * gpu::LIGHT_THREADS);
     if (gathers)
-        step(name, Shader::light_candidates_comp, byLight).uses(candidates, read).uses(candidates, write);
-    Pass& mark = gathers ? step(name, Shader::light_gather_comp,
+        step(assigning, Shader::light_candidates_comp, byLight)
+            .uses(candidates, read)
+            .uses(candidates, write);
+    Pass& mark = gathers ? step(assigning, Shader::light_gather_comp,
                                 inRows(std::uint64_t{grid_.words} * grid_.tiles.x * grid_.tiles.y,
                                        (grid_.slices + slicesOfThread - 1) / slicesOfThread))
                                .uses(candidates, read)
-                         : step(name, Shader::light_scatter_comp, byLight).uses(masks, read);
+                         : step(assigning, Shader::light_scatter_comp, byLight).uses(masks, read);
     mark.uses(masks, write);
     if (tiled) mark.uses(depths, read);
-    step(name, Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
+}
+
+void LightLists::addLists(const Step& step) const {
+    PassList& passes = step.passes;
+    const BufferRef masks = passes.buffer("light masks", masks_),
+                    used = passes.buffer("used words", used_words_),
+                    counts = passes.buffer("light counts", counts_),
+                    begins = passes.buffer("list begins", four_begins_),
+                    overflow = passes.buffer("list overflow", overflow_);
+    const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
+    step(assigning, Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
         .uses(masks, addressed_ ? read : access::texelRead(inCompute))
         .uses(used, write)
         .uses(counts, write)
         .uses(counts, read)
         .uses(begins, write);
-    step(name, Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
-    step(name, Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
+    step(assigning, Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
+    step(assigning, Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
         .uses(masks, read)
         .uses(used, read)
         .uses(counts, read)
         .uses(begins, read)
         .uses(overflow, read)
         .uses(overflow, write)
-        .uses(heads, write)
-        .uses(indices, write)
-        .uses(listed, write);
+        .uses(passes.buffer("list heads", heads_), write)
+        .uses(passes.buffer("light lists", indices_), write)
+        .uses(passes.buffer("list counts", listed_), write);
 }
 
 void LightLists::read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages) const {

@@ -89,6 +89,9 @@ public:
     const GpuBuffer& candidates() const { return candidates_; }  // with ListKernel::gather
 
 private:
+    struct Step;
+    void addMasks(const Step& step, ImageRef depth) const;
+    void addLists(const Step& step) const;
     void makeLists();
     // Buffers of the passes that fill the lists, and their descriptor set.
     void makeInputsOfPasses();

@@ -30,20 +30,28 @@ gpu::uint geometricNormalBits(GBufferEncoding encoding) {
 
 namespace {
 
-// Words in the attachments LAYERS to LAYERS_4.
-gpu::uint layerWords(gpu::uint layers, bool full) {
-    struct Words {
-        gpu::uint layer, packed, full;
-    };
-    constexpr std::array all{
-        Words{gpu::LAYER_CLEARCOAT, gpu::CLEARCOAT_WORDS, gpu::CLEARCOAT_FULL_WORDS},
-        Words{gpu::LAYER_ANISOTROPY, gpu::ANISOTROPY_WORDS, gpu::ANISOTROPY_FULL_WORDS},
-        Words{gpu::LAYER_SHEEN, gpu::SHEEN_WORDS, gpu::SHEEN_FULL_WORDS},
-        Words{gpu::LAYER_IRIDESCENCE, gpu::IRIDESCENCE_WORDS, gpu::IRIDESCENCE_FULL_WORDS}};
+// Words of each layer in the attachments LAYERS to LAYERS_5, in their order.
+struct Words {
+    gpu::uint layer, packed, full;
+};
+constexpr std::array layer_words{
+    Words{gpu::LAYER_CLEARCOAT, gpu::CLEARCOAT_WORDS, gpu::CLEARCOAT_FULL_WORDS},
+    Words{gpu::LAYER_ANISOTROPY, gpu::ANISOTROPY_WORDS, gpu::ANISOTROPY_FULL_WORDS},
+    Words{gpu::LAYER_SHEEN, gpu::SHEEN_WORDS, gpu::SHEEN_FULL_WORDS},
+    Words{gpu::LAYER_IRIDESCENCE, gpu::IRIDESCENCE_WORDS, gpu::IRIDESCENCE_FULL_WORDS},
+    Words{gpu::LAYER_DIFFUSE_TRANSMISSION, gpu::DIFFUSE_TRANSMISSION_WORDS,
+          gpu::DIFFUSE_TRANSMISSION_FULL_WORDS}};
+
+constexpr gpu::uint layerWords(gpu::uint layers, bool full) {
     gpu::uint sum = 0;
-    for (const Words& words : all)
+    for (const Words& words : layer_words)
         if ((layers & words.layer) != 0) sum += full ? words.full : words.packed;
     return sum;
+}
+static_assert(layerWords(~0u, true) <= gpu::LAYER_WORDS);
+
+bool isOfLayers(gpu::uint attachment) {
+    return attachment >= gpu::GBUFFER_LAYERS && attachment < gpu::GBUFFER_SHADED;
 }
 
 void addLayers(GBufferLayout& layout, bool full) {
@@ -57,6 +65,10 @@ void addLayers(GBufferLayout& layout, bool full) {
 }
 
 }  // namespace
+
+gpu::uint layerBytes(gpu::uint layers, GBufferEncoding encoding) {
+    return layerWords(layers, encoding == GBufferEncoding::full) * static_cast<gpu::uint>(sizeof(gpu::uint));
+}
 
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled) {
     GBufferLayout layout;
@@ -78,11 +90,32 @@ GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs,
         f[gpu::GBUFFER_EMISSION] = layout.wide_emission ? VK_FORMAT_R32G32B32A32_UINT : word;
     if (needs.dielectric_specular) f[gpu::GBUFFER_SPECULAR] = word;
     if (needs.lightmap) f[gpu::GBUFFER_LIGHTMAP] = layout.wide_lightmap ? VK_FORMAT_R32G32B32A32_UINT : word;
-    layout.layers = needs.layers;
+    layout.layers = needs.surface_layers;
     addLayers(layout, full);
     if (layout.wide_material_id) f[gpu::GBUFFER_IDS] = VK_FORMAT_R32_UINT;
     if (sampled) f[gpu::GBUFFER_SHADED] = VK_FORMAT_R32G32_UINT;
     return layout;
+}
+
+GBufferPasses gbufferPasses(const GBufferLayout& layout) {
+    gpu::uint room = gpu::MAX_COLOR_ATTACHMENTS;  // for layers
+    for (gpu::uint i = 0; i < gpu::GBUFFER_ATTACHMENTS; ++i)
+        if (layout.formats[i] != VK_FORMAT_UNDEFINED && !isOfLayers(i)) --room;
+    GBufferPasses passes;
+    for (gpu::uint i = 0; i < gpu::GBUFFER_ATTACHMENTS; ++i) {
+        if (layout.formats[i] == VK_FORMAT_UNDEFINED) continue;
+        const bool fits = !isOfLayers(i) || i - gpu::GBUFFER_LAYERS < room;
+        (fits ? passes.first : passes.second).push_back(i);
+    }
+    if (passes.second.empty()) return passes;
+    const gpu::uint begin = 4 * (passes.second.front() - gpu::GBUFFER_LAYERS);
+    for (const Words& words : layer_words) {
+        const gpu::uint up_to = layout.layers & (2 * words.layer - 1);
+        if ((layout.layers & words.layer) != 0 &&
+            layerWords(up_to, layout.encoding == gpu::GBUFFER_full) > begin)
+            passes.second_layers |= words.layer;
+    }
+    return passes;
 }
 
 }  // namespace diptych

@@ -9,7 +9,7 @@
 #include "shared/vulkan/pipelines.h"
 
 #include <array>
-#include <string>
+#include <vector>
 
 namespace diptych {
 
@@ -26,8 +26,19 @@ struct GBufferLayout {
     void specialise(Variant& variant) const;
 };
 
+// How two passes divide the attachments, in the order of their locations. The second one draws the layers
+// that MAX_COLOR_ATTACHMENTS leaves no room for in the first one, usually none.
+struct GBufferPasses {
+    std::vector<gpu::uint> first, second;
+    gpu::uint second_layers = 0;  // LAYER_* with words in the attachments of the second pass
+};
+GBufferPasses gbufferPasses(const GBufferLayout& layout);
+
 // Bits per octahedral coordinate of stored geometric normals; 0: stored as float32.
 gpu::uint geometricNormalBits(GBufferEncoding encoding);
+
+// Bytes per sample of these layers' words.
+gpu::uint layerBytes(gpu::uint layers, GBufferEncoding encoding);
 
 // `sampled`: with MSAA.
 GBufferLayout gbufferLayout(GBufferEncoding encoding, const Requirements& needs, bool sampled = false);

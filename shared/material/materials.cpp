@@ -48,7 +48,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
         variant.set(gpu::FEATURE_transmission, material.alpha_mode == AlphaMode::blend
                                                    ? gpu::TRANSMISSION_COVERED
                                                    : gpu::TRANSMISSION_WHOLE);
-    variant.set(gpu::FEATURE_layers, layersOf(material));
+    variant.set(gpu::FEATURE_layers, layersOf(material) & ~gpu::LAYER_TRANSMISSION);
     return variant;
 }
 
@@ -65,7 +65,14 @@ gpu::Material gpuMaterial(const Material& m) {
     g.occlusion_strength = m.occlusion_strength;
     g.alpha_cutoff = m.alpha_cutoff;
     g.lightmap_intensity = m.lightmap_intensity;
+    g.ior = m.ior;
     g.transmission = m.transmission;
+    g.thickness = m.thickness;
+    g.attenuation_color = m.attenuation_color;
+    g.attenuation_distance = m.attenuation_distance;
+    g.dispersion = m.dispersion;
+    g.diffuse_transmission = m.diffuse_transmission;
+    g.diffuse_transmission_color = m.diffuse_transmission_color;
     g.clearcoat = m.clearcoat;
     g.clearcoat_roughness = m.clearcoat_roughness;
     g.clearcoat_normal_scale = m.clearcoat_normal_scale;

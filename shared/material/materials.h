@@ -47,8 +47,7 @@ public:
     // Only the features that this material needs.
     const Variant& variant(std::uint32_t material) const { return variants_[material]; }
 
-    // Whether its surfaces are blended over the background (see blends() of the scene); these cast no
-    // shadows.
+    // Whether its surfaces are seen through (see blends() of the scene); these cast no shadows.
     bool blends(std::uint32_t material) const { return blends_[material]; }
 
     std::uint64_t imageBytes() const;  // includes textures that instances share

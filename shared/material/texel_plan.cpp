@@ -29,6 +29,10 @@ constexpr std::array<unsigned, gpu::SLOT_COUNT> componentsRead = [] {
     read[gpu::SLOT_sheen_roughness] = alpha;
     read[gpu::SLOT_iridescence] = red;
     read[gpu::SLOT_iridescence_thickness] = green;
+    read[gpu::SLOT_transmission] = red;
+    read[gpu::SLOT_thickness] = green;
+    read[gpu::SLOT_diffuse_transmission] = alpha;
+    read[gpu::SLOT_diffuse_transmission_color] = color;
     return read;
 }();
 
@@ -75,6 +79,7 @@ SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
     share(gpu::SLOT_occlusion, gpu::SLOT_metallic_roughness);
     share(gpu::SLOT_emissive, gpu::SLOT_base_color);
     share(gpu::SLOT_sheen_roughness, gpu::SLOT_sheen_color);
+    share(gpu::SLOT_diffuse_transmission, gpu::SLOT_diffuse_transmission_color);
     const auto sampled = [&](gpu::uint slot) { return texels[slot] == gpu::TEXEL_OWN; };
     if (sampled(gpu::SLOT_metallic_roughness) && sampled(gpu::SLOT_normal) && sampled(gpu::SLOT_base_color) &&
         texels[gpu::SLOT_occlusion] != gpu::TEXEL_SHARED && ask.packed(material))

@@ -31,9 +31,12 @@ Sampler probeSampler(bool linear) {
     return sampler;
 }
 
-// Samples the image at `places`, UV in rows of `width`, with wrap mode repeat; returns RGBA.
+constexpr int probeWidth = 256;
+
+// Samples the image at `places`, UV in rows of probeWidth, with wrap mode repeat; returns RGBA.
 std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, TexturePrecision precision,
-                           bool linear, std::span<const glm::vec2> places, int width) {
+                           bool linear, std::span<const glm::vec2> places) {
+    constexpr int width = probeWidth;
     const int height = static_cast<int>(places.size()) / width;
     TextureImage where{"places", width, height, {}};
     for (const glm::vec2& place : places)
@@ -132,7 +135,7 @@ TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision) {
         codes.rgba.insert(codes.rgba.end(), 4, static_cast<std::uint8_t>(code));
         places.emplace_back((static_cast<float>(code) + 0.5f) / 256, 0.5f);
     }
-    const std::vector<float> rgba = sampled(device, codes, srgb, precision, false, places, 256);
+    const std::vector<float> rgba = sampled(device, codes, srgb, precision, false, places);
     TexelDecode decode{};
     for (std::size_t code = 0; code < 256; ++code) {
         const double exact = srgb ? exactSrgb(code) : static_cast<double>(code) / 255;
@@ -146,7 +149,7 @@ TexelDecode probeDecode(Device& device, bool srgb, TexturePrecision precision) {
 // Draws blocks of 2 x 2 equal texels and samples their centres.
 std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<std::uint8_t, 4>> colors,
                                    bool srgb, TexturePrecision precision) {
-    constexpr std::size_t columns = 256;
+    constexpr std::size_t columns = probeWidth;
     const std::size_t rows = (colors.size() + columns - 1) / columns;
     TextureImage blocks{"colours", static_cast<int>(2 * columns), static_cast<int>(2 * rows), {}};
     blocks.rgba.resize(4 * 2 * columns * 2 * rows);
@@ -161,7 +164,7 @@ std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<st
         places.emplace_back((static_cast<float>(x) + 0.5f) / columns,
                             (static_cast<float>(y) + 0.5f) / static_cast<float>(rows));
     }
-    const std::vector<float> rgba = sampled(device, blocks, srgb, precision, true, places, columns);
+    const std::vector<float> rgba = sampled(device, blocks, srgb, precision, true, places);
     std::vector<glm::vec4> found;
     for (std::size_t i = 0; i < colors.size(); ++i)
         found.emplace_back(rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]);
@@ -170,7 +173,7 @@ std::vector<glm::vec4> probeColors(Device& device, std::span<const std::array<st
 
 std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDecode& decode,
                                       std::uint32_t seed, TexturePrecision precision) {
-    constexpr int side = 256;
+    constexpr int side = probeWidth;
     std::uint32_t state = seed;
     const TextureImage picture = noise(state);
     std::vector<glm::vec2> places;
@@ -182,7 +185,7 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
         const float u = random();
         places.emplace_back(u, random());
     }
-    const std::vector<float> got = sampled(device, picture, srgb, precision, true, places, side);
+    const std::vector<float> got = sampled(device, picture, srgb, precision, true, places);
     const auto texel = [&](int x, int y, std::size_t c) {
         const auto wrapped = [](int i) { return static_cast<std::size_t>((i + noiseSide) % noiseSide); };
         return double{decode[picture.rgba[4 * (wrapped(y) * noiseSide + wrapped(x)) + c]]};

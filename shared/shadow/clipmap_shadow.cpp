@@ -5,24 +5,17 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/record.h"
 #include "shared/shadow/blended_receivers.h"
-#include "shared/shadow/scene_bounds.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cstring>
+#include <utility>
 
 namespace diptych {
 
 namespace {
-
-ClipmapRequest clipmapRequest(const Settings& settings) {
-    return {.size = settings.shadow_size,
-            .page = settings.clipmap_page_size,
-            .kernel = settings.shadow_kernel,
-            .bias = double{settings.shadow_bias}};
-}
 
 template <class T>
 void append(std::vector<glm::vec4>& texels, const T& value) {
@@ -36,29 +29,27 @@ enum : std::size_t { OF_PREPARING, OF_FRAME, SETS };
 
 }  // namespace
 
-ClipmapShadow::ClipmapShadow(Device& device, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
-                             const Geometry& geometry, const View& view, const glm::dvec3& to_light,
-                             const Settings& settings)
-    : device_(device),
+ClipmapShadow::ClipmapShadow(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases,
+                             const Pose& pose, Clipmap clipmap, const Settings& settings)
+    : device_(inputs.device),
       uploader_(uploader),
       layouts_(atlases),
       pose_(pose),
       all_(settings.shadow_casters == ShadowCasters::all),
-      extent_{static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)},
-      clipmap_(fitClipmap(view, boundsOf(pose, geometry), to_light, clipmapRequest(settings))),
+      clipmap_(std::move(clipmap)),
       atlas_(atlases.lend({static_cast<std::uint32_t>(settings.clipmap_pages),
                            static_cast<std::uint32_t>(clipmap_.grid.slot())})),
-      sampler_(makeNearestSampler(device)),
-      sets_(device, atlases.marks(), clipmapBindings(), SETS) {
+      sampler_(makeNearestSampler(device_)),
+      sets_(device_, atlases.marks(), clipmapBindings(), SETS) {
     const std::uint64_t words = (clipmap_.pages() + 31) / 32;
-    marks_ = GpuBuffer(device, "shadow page marks", words * sizeof(gpu::uint),
+    marks_ = GpuBuffer(device_, "shadow page marks", words * sizeof(gpu::uint),
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    marks_seen_ = GpuBuffer(device, "shadow page marks, read back", marks_.size(),
+    marks_seen_ = GpuBuffer(device_, "shadow page marks, read back", marks_.size(),
                             VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
     for (std::size_t set = 0; set < SETS; ++set)
         sets_.buffer(set, gpu::BINDING_CLIPMAP_MARKS, marks_.handle());
-    atlas_->follow(pose, geometry, clipmap_.grid.space);
+    atlas_->follow(pose, inputs.geometry, clipmap_.grid.space);
 }
 
 std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) const {
@@ -86,7 +77,7 @@ std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) cons
 }
 
 void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
-    PassList passes(device_, extent_.width, extent_.height);
+    PassList passes(device_, static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height));
     const ImageRef depth = sceneDepth(passes, inputs);
     readGeometry(passes, passes.draw("depth of shadow pages"), inputs)
         .depth(depth, Load::clear)

@@ -15,10 +15,9 @@ namespace diptych {
 
 class ClipmapShadow {
 public:
-    // Throws std::runtime_error as ClipmapAtlas does.
-    ClipmapShadow(Device& device, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
-                  const Geometry& geometry, const View& view, const glm::dvec3& to_light,
-                  const Settings& settings);
+    // `clipmap`: of the view. Throws std::runtime_error as ClipmapAtlas does.
+    ClipmapShadow(const FrameInputs& inputs, Uploader& uploader, ClipmapAtlases& atlases, const Pose& pose,
+                  Clipmap clipmap, const Settings& settings);
 
     const Clipmap& clipmap() const { return clipmap_; }
     VkImageView atlas() const { return atlas_->view(); }
@@ -29,7 +28,7 @@ public:
 
     // Draws the view's depth, marks the pages that opaque and blended surfaces need, and assigns slots.
     // Both paths use these marks, whatever depth they have themselves. The frame's set must contain View
-    // and texels(). `view`: as passed to the constructor.
+    // and texels(). `view`: the clipmap's.
     void prepare(const FrameInputs& inputs, const View& view);
     // Adds passes named "mark shadow pages": a frame's own marks of opaque surfaces, for the next frame.
     // Draws stale pages before the list first runs. Call it once per view.
@@ -51,7 +50,6 @@ private:
     const ClipmapAtlases& layouts_;
     const Pose& pose_;
     bool all_;  // draw all casters in each page
-    VkExtent2D extent_;
     Clipmap clipmap_;
     std::shared_ptr<ClipmapAtlas> atlas_;
     GpuBuffer marks_, marks_seen_;

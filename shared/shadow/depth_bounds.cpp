@@ -116,7 +116,7 @@ DepthVariation depthVariation(const FrameInputs& inputs, Uploader& uploader, con
         View moved = view;
         moved.camera.world_from_camera[3] += glm::dvec4(view.right() * (step * i), 0);
         const DrawList draws = makeDrawList(pose, inputs.geometry, inputs.materials, moved);
-        FrameBuffers buffers(inputs.device, uploader, inputs.layouts, moved, draws, inputs.lights, {});
+        FrameBuffers buffers(inputs.device, uploader, inputs.layouts, {moved, draws, inputs.lights}, {});
         const FrameInputs there{.device = inputs.device,
                                 .layouts = inputs.layouts,
                                 .pipelines = inputs.pipelines,

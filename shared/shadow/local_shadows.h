@@ -16,7 +16,7 @@
 
 namespace diptych {
 
-// What the shadow maps of a view show.
+// Inputs of the shadow maps of a view.
 struct ShadowedView {
     const Pose& pose;
     const Geometry& geometry;

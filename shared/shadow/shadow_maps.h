@@ -42,9 +42,9 @@ public:
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
         sun.addMarks(passes, inputs, depth);
     }
-    // Of buffers; maps belong to the pass list.
+    // Buffers alone; maps belong to the pass list.
     std::uint64_t bytes() const { return sun.bytes() + local.bytes(); }
-    // Of images that do not belong to the pass list.
+    // Images that do not belong to the pass list.
     std::uint64_t imageBytes() const { return sun.imageBytes(); }
     std::vector<std::string> notes() const {
         std::vector<std::string> all = sun.notes();

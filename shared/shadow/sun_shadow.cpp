@@ -31,6 +31,13 @@ CascadeRequest cascadeRequest(const Settings& settings) {
             .bias = double{settings.shadow_bias}};
 }
 
+ClipmapRequest clipmapRequest(const Settings& settings) {
+    return {.size = settings.shadow_size,
+            .page = settings.clipmap_page_size,
+            .kernel = settings.shadow_kernel,
+            .bias = double{settings.shadow_bias}};
+}
+
 // Default exponents: slightly below the formats' limits.
 constexpr float exponent32 = 40.0f, exponent16 = 5.5f, negativeExponent = 5.0f;
 
@@ -156,7 +163,10 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
     Device& device = inputs.device;
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(inputs.lights.lights[sun->light].position));
     if (filter_ == gpu::SHADOWS_CLIPMAP) {
-        clipmap_.emplace(device, uploader, atlases, pose, inputs.geometry, view, to_light, settings_);
+        clipmap_.emplace(
+            inputs, uploader, atlases, pose,
+            fitClipmap(view, boundsOf(pose, inputs.geometry), to_light, clipmapRequest(settings_)),
+            settings_);
         Cascades none = cascadesOf(clipmap_->clipmap());
         for (const CascadeArea& level : none.areas)
             level_reach_.push_back({std::numeric_limits<double>::infinity(),

@@ -8,6 +8,8 @@
 #include "shared/draw/resolve.h"
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/fragment_lists.h"
+#include "shared/transparent/read_images.h"
+#include "shared/transparent/transmission.h"
 
 #include <fmt/format.h>
 
@@ -48,22 +50,6 @@ ImageRef addImage(PassList& passes, const char* image, VkFormat format) {
     return passes.image({.name = image, .format = format, .life = Life::transient});
 }
 
-// Image of an earlier pass that fragment shaders of the pass read.
-struct ReadImage {
-    gpu::uint binding;
-    ImageRef image;
-};
-std::shared_ptr<const DescriptorSets> reads(Pass& pass, PassList& passes, const FrameInputs& inputs,
-                                            const std::vector<ReadImage>& images) {
-    auto sets = std::make_shared<DescriptorSets>(blendedSet(inputs));
-    for (const ReadImage& read : images) pass.samples(read.image, inFragment);
-    pass.prepare([&passes, images, sets, sampler = inputs.layouts.nearest.get()] {
-        for (const auto& [binding, image] : images)
-            sets->image(0, binding, passes.view(image), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    });
-    return sets;
-}
-
 void addOver(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
     shades(passes.draw(name).color(lit, Load::keep).depthTest(depth), passes, inputs)
         .record(recordBlended(inputs, [&](const DrawItem& item) { return blendedKey(inputs, item); }));
@@ -94,8 +80,8 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
     Pass& shade = passes.draw(name).color(sums, Load::clear);
     std::shared_ptr<const DescriptorSets> read;
     if (moments)
-        read = reads(shade, passes, inputs,
-                     {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_MOMENTS, powers}});
+        read = readImages(shade, passes, inputs,
+                          {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_MOMENTS, powers}});
     else
         shade.color(depths, Load::clear);
     shades(shade.depthTest(depth), passes, inputs)
@@ -115,11 +101,11 @@ void addSums(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageR
             },
             std::move(read), inputs.blended));
     Pass& compose = passes.draw(name).color(lit, Load::keep);
-    compose.record(
-        recordFullScreen(inputs, inputs.pipelines.get(composeKey(inputs, Shader::compose_sums_frag)),
-                         reads(compose, passes, inputs,
-                               {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
-                         inputs.blended));
+    compose.record(recordFullScreen(
+        inputs, inputs.pipelines.get(composeKey(inputs, Shader::compose_sums_frag)),
+        readImages(compose, passes, inputs,
+                   {{gpu::BINDING_BLENDED_DEPTHS, depths}, {gpu::BINDING_BLENDED_SUMS, sums}}),
+        inputs.blended));
 }
 
 // Finds the nearest fragments of each pixel by depth, shades them, and composites them, for part of the
@@ -176,14 +162,15 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 
 void checkLightsOfBlended(const FrameInputs& inputs) {
     const gpu::uint most = inputs.device.profile().list_entries_per_draw;
-    if (inputs.draws.blended().empty() || inputs.longest_list <= most) return;
-    throw std::runtime_error(
-        fmt::format("blended surfaces: a light list has {} entries, but a draw on {} reads up to {}; use "
-                    "--assign clustered or tiled, --light-cutoff, or --transparency off",
-                    inputs.longest_list, inputs.device.info().name, most));
+    if (inputs.draws.seenThrough().empty() || inputs.longest_list <= most) return;
+    throw std::runtime_error(fmt::format(
+        "blended surfaces and glass: a light list has {} entries, but a draw on {} reads up to {}; use "
+        "--assign clustered or tiled, --light-cutoff, or --transparency off",
+        inputs.longest_list, inputs.device.info().name, most));
 }
 
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {
+    depth = addTransmission(passes, inputs, depth, lit);
     if (inputs.draws.blended().empty()) return;
     switch (inputs.transparency) {
         case Transparency::sorted:
@@ -211,8 +198,9 @@ void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef
     const auto lit = findLit();
     const bool shown = lit != images.end();
     const ImageRef drawn = shown ? lit->image : ImageRef{};
+    addTransmissionCapture(passes, inputs, depth, drawn, images, static_cast<std::size_t>(first));
     addCaptureResolve(passes, inputs, images, static_cast<std::size_t>(first));
-    if (!shown || inputs.draws.blended().empty()) return;
+    if (!shown || inputs.draws.seenThrough().empty()) return;
     addTransparent(passes, inputs, depth, drawn);
     const auto opaque = findLit();
     CapturedImage blended = *opaque;

@@ -17,13 +17,14 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view);
 // fragments have no partial sums that a second draw could continue.
 void checkLightsOfBlended(const FrameInputs& inputs);
 
-// Draws blended surfaces over `lit`, which contains opaque surfaces and the background. Tests against
-// `depth` without writing it. Adds no pass without blended surfaces.
+// Draws surfaces with transmission (transmission.h), then blended surfaces, over `lit`, which contains opaque
+// surfaces and the background. `depth` is tested against and not written. Adds no pass if the view has
+// neither.
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit);
 
 // The same for the lit of a capture that is the list's last pass. `images`: those of that pass are sorted
-// by the pass that completes them. Other channels remain those of opaque surfaces. lit occurs twice: the
-// earlier one is marked before_blending.
+// by the pass that completes them. Channels of transmission show its surfaces; others remain those of opaque
+// surfaces. lit occurs twice: the earlier one is marked before_blending.
 void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                            std::vector<CapturedImage>& images);
 

@@ -24,7 +24,7 @@ struct DeviceCosts {
     double evaluated = 0;  // to evaluate one light of a list at a pixel
 };
 
-// Which device's choices a profile uses. Properties of the actual device are unaffected: software,
+// The device whose choices a profile uses. Properties of the actual device are unaffected: software,
 // bit_exact, time_stamps.
 enum class ProfileChoices {
     of_device,

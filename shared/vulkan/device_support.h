@@ -48,7 +48,7 @@ namespace diptych {
     X(filtered,       optimalTilingFeatures, SAMPLED_IMAGE_FILTER_LINEAR_BIT, "filtered linearly")     \
     X(stored,         optimalTilingFeatures, STORAGE_IMAGE_BIT,               "used as a storage image") \
     X(stored_unnamed, optimalTilingFeatures, STORAGE_WRITE_WITHOUT_FORMAT_BIT,                         \
-                                                     "used as a storage image without a format in the shader") \
+                                                   "used as a storage image without a format in the shader") \
     X(drawn,          optimalTilingFeatures, COLOR_ATTACHMENT_BIT,            "used as a colour attachment") \
     X(blended,        optimalTilingFeatures, COLOR_ATTACHMENT_BLEND_BIT,      "blended")               \
     X(depth,          optimalTilingFeatures, DEPTH_STENCIL_ATTACHMENT_BIT,    "used as a depth attachment") \
@@ -79,7 +79,7 @@ namespace diptych {
     X(R32G32B32A32_UINT,        sampled | drawn | texels, multisampled, "use --msaa 1")               \
     X(R32G32B32A32_SFLOAT,      sampled | stored | drawn | texels | vertices | multisampled,          \
                                 filtered | stored_unnamed | blended,                                  \
-                                "use --lit-format fp16 with --transparency sorted or list, and --shadows pcf") \
+                          "use --lit-format fp16 with --transparency sorted or list, and --shadows pcf") \
     X(D16_UNORM,                sampled | depth, 0, "")                                               \
     X(X8_D24_UNORM_PACK32,      0, sampled | depth, "use --depth-format d32f")                        \
     X(D32_SFLOAT,               sampled | multisampled, depth, "")
@@ -99,16 +99,16 @@ namespace diptych {
     X(maxPerStageDescriptorUniformBuffers, 12, descriptors({uniform_buffer}), "uniform buffers per shader") \
     X(maxPerStageDescriptorStorageBuffers, 4, descriptors({storage_buffer}), "storage buffers per shader") \
     /* a texel buffer counts as a sampled image */                                                      \
-    X(maxPerStageDescriptorSampledImages, 16, descriptors({image, fetched_image, texel_buffer}),                       \
+    X(maxPerStageDescriptorSampledImages, 16, descriptors({image, fetched_image, texel_buffer}),        \
                                                                         "sampled images per shader")    \
     X(maxPerStageDescriptorStorageImages, 4, descriptors({storage_image}), "storage images per shader") \
     X(maxVertexInputAttributes, 16, 0, "")                                                              \
     X(maxVertexInputBindings, 16, 0, "")                                                                \
     X(maxVertexOutputComponents, 64, 0, "")                                                             \
     X(maxFragmentInputComponents, 64, 0, "")                                                            \
-    X(maxColorAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "colour attachments")                           \
-    X(maxFragmentOutputAttachments, 4, gpu::CAPTURE_ATTACHMENTS, "outputs of a fragment shader")        \
-    X(maxFragmentCombinedOutputResources, 4, gpu::CAPTURE_ATTACHMENTS + frameDescriptors(storage_buffer), \
+    X(maxColorAttachments, 4, gpu::MAX_COLOR_ATTACHMENTS, "colour attachments")                         \
+    X(maxFragmentOutputAttachments, 4, gpu::MAX_COLOR_ATTACHMENTS, "outputs of a fragment shader")      \
+    X(maxFragmentCombinedOutputResources, 4, gpu::MAX_COLOR_ATTACHMENTS + frameDescriptors(storage_buffer), \
                                                     "outputs and storage resources of a fragment shader") \
     X(maxComputeSharedMemorySize, 16384, 0, "")                                                         \
     X(maxComputeWorkGroupInvocations, 128, gpu::LIST_GROUP, "invocations per workgroup")                \

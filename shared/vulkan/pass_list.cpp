@@ -248,17 +248,14 @@ std::vector<std::string> PassList::names() const {
 }
 
 std::uint64_t PassList::pixelBytes(ImageRef image) const {
-    const GpuImageInfo& info = resource(image).image->info();
-    return std::uint64_t{bytesPerTexel(info.format)} * static_cast<std::uint64_t>(info.samples) * info.layers;
+    return bytesOf(resource(image).image->info()) / (std::uint64_t{width_} * height_);
 }
 
 std::uint64_t PassList::pixelBytes() const {
     std::uint64_t bytes = 0;
-    const std::uint64_t pixels = std::uint64_t{width_} * height_;
     for (std::size_t i = 0; i < resources_.size(); ++i) {
-        if (!resources_[i]->image) continue;
-        if (!resources_[i]->has_size) bytes += pixelBytes(ImageRef{i});
-        if (resources_[i]->with_picture) bytes += bytesOf(resources_[i]->image->info()) / pixels;
+        const Resource& r = *resources_[i];
+        if (r.image && (!r.has_size || r.with_picture)) bytes += pixelBytes(ImageRef{i});
     }
     return bytes;
 }

@@ -128,8 +128,8 @@ public:
 
     // Names of groups of consecutive passes.
     std::vector<std::string> names() const;
-    // Bytes per pixel of the image, over all samples and layers; and the sum over all images of the list's
-    // size, without memory sharing.
+    // Bytes per pixel of the image, over all samples, layers and mip levels; and the sum over all images
+    // whose size depends on the list's, without memory sharing.
     std::uint64_t pixelBytes(ImageRef image) const;
     std::uint64_t pixelBytes() const;
     // Bytes of all images without memory sharing; and the bytes saved by it, after allocate() or a run.

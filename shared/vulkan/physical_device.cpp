@@ -2,7 +2,6 @@
 #include "shared/vulkan/physical_device.h"
 
 #include "shared/contract/bindings.h"
-#include "shared/contract/debug_mode.h"
 #include "shared/contract/features.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"
@@ -56,7 +55,7 @@ constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kind
         bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
                           BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::fetched_image},
                       TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)
-                          CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW)});
+                          CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW) BACKDROP_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
     const auto count = [&](std::span<const VkDescriptorType> types) {
         std::uint32_t found = 0;
@@ -74,6 +73,19 @@ constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kind
 constexpr std::uint32_t frameDescriptors(VkDescriptorType kind) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     return static_cast<std::uint32_t>(std::ranges::count(frame, kind));
+}
+
+// Formats that only some Settings need.
+void noteFormats(std::vector<DeviceFact>& list, const DeviceSupport& device) {
+    const auto note = [&](const char* what, VkFormat format, std::uint32_t uses) {
+        list.push_back({what, device.can(format, uses), false, nameOf(format)});
+    };
+    note("blending of 32-bit floats", VK_FORMAT_R32G32B32A32_SFLOAT, format_use::blended);
+    note("filtering of 32-bit floats", VK_FORMAT_R32G32B32A32_SFLOAT, format_use::filtered);
+    note("filtering of 16-bit textures", VK_FORMAT_R16G16B16A16_UNORM, format_use::filtered);
+    note("24-bit depth", VK_FORMAT_X8_D24_UNORM_PACK32, format_use::depth | format_use::sampled);
+    note("packed-float colour attachments", VK_FORMAT_B10G11R11_UFLOAT_PACK32, format_use::drawn);
+    note("4 samples per pixel, also in a G-buffer", VK_FORMAT_R32G32_UINT, format_use::multisampled);
 }
 
 std::vector<DeviceFact> facts(const DeviceSupport& device) {
@@ -108,15 +120,7 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     need("subgroup arithmetic in compute shaders",
          device.hasSubgroups(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT));
     need("32-bit depth", device.can(VK_FORMAT_D32_SFLOAT, format_use::depth | format_use::sampled));
-    const auto formats = [&](const char* what, VkFormat format, std::uint32_t uses) {
-        note(what, device.can(format, uses), nameOf(format));
-    };
-    formats("blending of 32-bit floats", VK_FORMAT_R32G32B32A32_SFLOAT, format_use::blended);
-    formats("filtering of 32-bit floats", VK_FORMAT_R32G32B32A32_SFLOAT, format_use::filtered);
-    formats("filtering of 16-bit textures", VK_FORMAT_R16G16B16A16_UNORM, format_use::filtered);
-    formats("24-bit depth", VK_FORMAT_X8_D24_UNORM_PACK32, format_use::depth | format_use::sampled);
-    formats("packed-float colour attachments", VK_FORMAT_B10G11R11_UFLOAT_PACK32, format_use::drawn);
-    formats("4 samples per pixel, also in a G-buffer", VK_FORMAT_R32G32_UINT, format_use::multisampled);
+    noteFormats(list, device);
     note("image size", true, fmt::format("up to {} x {}", device.mostPixels(), device.mostPixels()));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));

@@ -157,6 +157,32 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     return state;
 }
 
+std::vector<VkPipelineColorBlendAttachmentState> blendStates(const PipelineKey& key) {
+    std::vector<VkPipelineColorBlendAttachmentState> blends;
+    for (std::size_t i = 0; i < key.colors.size(); ++i)
+        blends.push_back(blendState(key.blends.empty() ? Blend::none : key.blends.at(i)));
+    return blends;
+}
+
+// Attributes that the variant does not read are not fetched.
+std::vector<VkVertexInputAttributeDescription> fetchedBy(
+    std::span<const std::uint32_t> vertex, std::vector<VkVertexInputAttributeDescription> attributes) {
+    std::erase_if(attributes, [read = inputLocations(vertex)](const VkVertexInputAttributeDescription& a) {
+        return !read.contains(a.location);
+    });
+    return attributes;
+}
+
+VkPipelineRenderingCreateInfo attachmentFormats(const PipelineKey& key) {
+    return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+            .pNext = nullptr,
+            .viewMask = 0,
+            .colorAttachmentCount = static_cast<std::uint32_t>(key.colors.size()),
+            .pColorAttachmentFormats = key.colors.data(),
+            .depthAttachmentFormat = key.depth,
+            .stencilAttachmentFormat = VK_FORMAT_UNDEFINED};
+}
+
 }  // namespace
 
 PipelineParts plainParts(const PipelineKey& key) {
@@ -195,12 +221,7 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
         specializedWords(context, *parts.vertex, value, inputLocations(fragment));
     addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
     if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
-    // Attributes that the variant does not read are not fetched.
-    std::vector<VkVertexInputAttributeDescription> attributes = parts.attributes;
-    std::erase_if(attributes, [read = inputLocations(vertex)](const VkVertexInputAttributeDescription& a) {
-        return !read.contains(a.location);
-    });
-
+    const std::vector<VkVertexInputAttributeDescription> attributes = fetchedBy(vertex, parts.attributes);
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
         .pNext = nullptr,
@@ -212,21 +233,12 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
     const VkPipelineRasterizationStateCreateInfo raster = rasterState(key);
     const VkPipelineMultisampleStateCreateInfo samples = sampleState(key);
     const VkPipelineDepthStencilStateCreateInfo depth = depthState(key);
-    std::vector<VkPipelineColorBlendAttachmentState> blends;
-    for (std::size_t i = 0; i < key.colors.size(); ++i)
-        blends.push_back(blendState(key.blends.empty() ? Blend::none : key.blends.at(i)));
+    const std::vector<VkPipelineColorBlendAttachmentState> blends = blendStates(key);
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     blend.attachmentCount = static_cast<std::uint32_t>(blends.size());
     blend.pAttachments = blends.data();
-    const VkPipelineRenderingCreateInfo rendering{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-        .pNext = nullptr,
-        .viewMask = 0,
-        .colorAttachmentCount = static_cast<std::uint32_t>(key.colors.size()),
-        .pColorAttachmentFormats = key.colors.data(),
-        .depthAttachmentFormat = key.depth,
-        .stencilAttachmentFormat = VK_FORMAT_UNDEFINED};
+    const VkPipelineRenderingCreateInfo rendering = attachmentFormats(key);
     const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                             .pNext = &rendering,
                                             .flags = context.flags,

@@ -74,8 +74,7 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     Light white = light;
     white.color = glm::vec3(1);
     white.intensity = 1;
-    const reference::Shading shading =
-        reference::Lighting(std::span(&white, 1), nullptr, 1, {0, 0, 0})(s, {}, 1);
+    const reference::Shading shading = reference::Lighting({.lights = std::span(&white, 1)})(s, {}, 1);
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
 }
 

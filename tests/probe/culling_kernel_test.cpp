@@ -80,8 +80,8 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
     DrawList list = makeDrawList(pose, geometry, materials, round.view);
     ChosenCounts counts;
     if (list.items.empty()) return counts;
-    const Culling culling(on.device, on.pipelines, on.layouts, geometry, pose, round.view, round.samples,
-                          true, list);
+    const Culling culling(on.device, on.pipelines, on.layouts, geometry,
+                          {pose, round.view, round.samples, true}, list);
     EXPECT_NE(culling.indirectDraws(), VkBuffer{VK_NULL_HANDLE});
     const std::vector<std::uint32_t> indices = culling.chosenIndices();
     const DrawItem& item = list.items[0];

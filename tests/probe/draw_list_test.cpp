@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which instances are rendered from a view, in which order, and with which transforms.
+// Instances that a view renders, their order and their transforms.
 #include "shared/draw/draw_list.h"
 
 #include "shared/contract/features.h"
@@ -115,6 +115,44 @@ TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
     EXPECT_FALSE(list.items[2].masked);
     EXPECT_TRUE(list.items[3].masked);
     EXPECT_EQ(list.items[3].range.material, 1u);
+}
+
+// They write depth. Equal ones stay in scene order.
+TEST(DrawList, TransmissiveDrawsGoFromNearToFar) {
+    Scene scene = squares();
+    scene.materials[0].transmission = 1;
+    Uploader uploader(probeDevice());
+    const Geometry geometry(probeDevice(), uploader, scene);
+    const Materials materials(probeDevice(), uploader, scene);
+    uploader.flush();
+    Pose pose;
+    for (const double depth : {40, 2, 90, 2, 20})
+        pose.instances.push_back({.world_from_object = placed(eye + glm::dvec3(0, 0, -depth))});
+    const DrawList list = makeDrawList(pose, geometry, materials, viewAlongZ());
+    std::vector<std::uint32_t> order;
+    for (const DrawItem& item : list.transmissive()) order.push_back(item.instance);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 3, 4, 0, 2}));
+}
+
+// The node's scale is the thickness's, of morphed meshes too; a skin places its vertices in the world.
+TEST(DrawList, AThicknessHasTheScaleOfItsNode) {
+    Scene scene = squares();
+    scene.materials[0].transmission = 1;
+    Uploader uploader(probeDevice());
+    const Geometry geometry(probeDevice(), uploader, scene);
+    const Materials materials(probeDevice(), uploader, scene);
+    uploader.flush();
+    const glm::dmat4 world = placed({5, 6, -3}, {2, -4, 1});
+    Pose pose;
+    pose.boxes.push_back({.origin = {5, 6, -3}, .min = glm::dvec3(-1), .max = glm::dvec3(1)});
+    for (const bool posed : {false, true})
+        pose.instances.push_back(
+            {.world_from_object = world, .weights = posed ? 0 : -1, .box = posed ? 0 : -1});
+    pose.instances.push_back({.world_from_object = world, .skin = 0, .box = 0});
+    const DrawList list = makeDrawList(pose, geometry, materials, viewAlongZ());
+    ASSERT_EQ(list.transmissive().size(), 3u);
+    for (const DrawItem& item : list.transmissive())
+        EXPECT_NEAR(item.scale, item.instance == 2 ? 1 : 2, 1e-6) << item.instance;
 }
 
 // Positions are relative to the camera. Normals are perpendicular to the scaled surface, on its front side

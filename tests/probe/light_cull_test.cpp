@@ -290,7 +290,7 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
         const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
         const bool tiled = picture % 3 == 0;
         const gpu::LightGrid grid =
-            makeLightGrid(tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED, false, view, gpu, bounds,
+            makeLightGrid({tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED}, view, gpu, bounds,
                           probeDevice().profile().costs, std::uint64_t{128} << 20);
         for (std::size_t i = 0; i < lights.size(); ++i) {
             const glm::dvec3 at(gpu.lights[i].position);

@@ -43,10 +43,11 @@ void light() {
     s.albedo = vec3(in1(11));
     s.dielectric_f0 = vec3(in1(12));
     s.dielectric_f90 = in1(13);
-    vec3 diffuse = vec3(0.0), specular = vec3(0.0), v = in3(4);
-    addLight(makeBrdf(s, v), s.normal, v, in3(7), vec3(1.0), false, diffuse, specular);
-    out1(0, diffuse.r);
-    out1(1, specular.r);
+    vec3 v = in3(4);
+    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
+    addLight(makeBrdf(s, v), s.normal, v, Incident(in3(7), vec3(1.0)), false, reflected);
+    out1(0, reflected.diffuse.r);
+    out1(1, reflected.specular.r);
 }
 
 void main() {

@@ -8,26 +8,18 @@
 #include "shaders/lib/shading/shade.glsl"
 
 struct BlendedFragment {
-    vec3 radiance;  // times coverage, W/(sr m^2)
+    vec3 radiance;  // times opacity, W/(sr m^2)
     float opacity;  // 0 to 1
-    bool covers;    // false: the fragment contributes nothing
 };
 
-// Coverage scales the surface's light, so highlights on glass stay. Opacity scales the haze in front,
-// because surfaces seen through this one have their own haze.
 BlendedFragment blendedFragment() {
     vec4 base_color = baseColor();
     cutOut(base_color);
     Surface s = surfaceFromMaterial(base_color);
     s.geometric_normal = quantiseGeometricNormal(s.geometric_normal);
     Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, middleDepth(), true));
-    float covers = coverageOf(base_color), opacity = opacityOf(s, base_color);
-    if (!on(feature_transmission)) return BlendedFragment(lit(radiance) * covers, covers, covers > 0.0);
-    vec3 haze = radiance.haze;
-    radiance.haze = vec3(0.0);
-    vec3 sum = lit(radiance) * covers;
-    if (on(feature_haze)) sum += haze * opacity;
-    return BlendedFragment(sum, opacity, covers > 0.0);
+    float opacity = opacityOf(base_color);
+    return BlendedFragment(lit(radiance) * opacity, opacity);
 }
 
 #endif

@@ -48,71 +48,108 @@ vec3 edgeSide(float turn, vec2 a, vec2 b) {
     return turn * vec3(a.x * b.y - a.y * b.x, a.y - b.y, b.x - a.x);
 }
 
-// Whether a triangle may cover a sample of its draw; corners in object space, m.
-bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, vec3 third) {
-    vec4 a = item.clip_from_object * vec4(first, 1.0), b = item.clip_from_object * vec4(second, 1.0),
-         c = item.clip_from_object * vec4(third, 1.0);
-    vec3 x = vec3(a.x, b.x, c.x), y = vec3(a.y, b.y, c.y), z = vec3(a.z, b.z, c.z), w = vec3(a.w, b.w, c.w);
+// A triangle's corners in clip space, by component.
+struct ClipTriangle {
+    vec3 x, y, z, w;
+};
+
+// Whether all corners are outside one clip plane.
+bool isBeyondView(CulledItem item, ClipTriangle t) {
     vec3 slack = slackOf(item);
-    if (all(lessThan(w + x, vec3(-slack.x))) || all(lessThan(w - x, vec3(-slack.x))) ||
-        all(lessThan(w + y, vec3(-slack.y))) || all(lessThan(w - y, vec3(-slack.y))) ||
-        all(lessThan(w - z, vec3(-slack.z))) || all(lessThan(z, vec3(-item.error.z))))
-        return false;
-    // Clipping moves corners, so clipped triangles are kept.
-    if (!(all(greaterThanEqual(w - abs(x), vec3(slack.x))) &&
-          all(greaterThanEqual(w - abs(y), vec3(slack.y))) &&
-          all(greaterThanEqual(w - z, vec3(slack.z))) && all(greaterThanEqual(z, vec3(item.error.z))) &&
-          all(greaterThan(w, vec3(item.error.w)))))
-        return true;
+    return all(lessThan(t.w + t.x, vec3(-slack.x))) || all(lessThan(t.w - t.x, vec3(-slack.x))) ||
+           all(lessThan(t.w + t.y, vec3(-slack.y))) || all(lessThan(t.w - t.y, vec3(-slack.y))) ||
+           all(lessThan(t.w - t.z, vec3(-slack.z))) || all(lessThan(t.z, vec3(-item.error.z)));
+}
 
-    // Rasterised corners are within `off` pixels of these, across and down. x / w is at most 1; the errors
-    // of x and of w both count, divided by the smallest possible w. Rounding of pixel coordinates and the
-    // rasteriser's snapping add to it.
-    float nearest = min(w.x, min(w.y, w.z)) - item.error.w;
-    vec2 far = picture.half_size * slack.xy / nearest;
-    float off = picture.snap + picture.place_off + max(far.x, far.y), wide = 1.4143 * off;
-    vec3 across = x / w * picture.half_size.x + picture.half_size.x,
-         down = y / w * picture.half_size.y + picture.half_size.y;
-    vec2 p = vec2(across.x, down.x), q = vec2(across.y, down.y), r = vec2(across.z, down.z);
-    vec2 low = min(p, min(q, r)) - off, high = max(p, max(q, r)) + off;
-    float reach = high.x - low.x + high.y - low.y;
+// Whether all corners are inside all clip planes, so that the triangle is not clipped.
+bool isWithinView(CulledItem item, ClipTriangle t) {
+    vec3 slack = slackOf(item);
+    return all(greaterThanEqual(t.w - abs(t.x), vec3(slack.x))) &&
+           all(greaterThanEqual(t.w - abs(t.y), vec3(slack.y))) &&
+           all(greaterThanEqual(t.w - t.z, vec3(slack.z))) &&
+           all(greaterThanEqual(t.z, vec3(item.error.z))) && all(greaterThan(t.w, vec3(item.error.w)));
+}
 
-    // glTF's front faces are counter-clockwise, a negative area here because y points down. Corners that
-    // are each off by `wide` change the doubled area by at most wide * perimeter + 3 wide^2. The box's
-    // perimeter bounds the triangle's. The last term is float32 rounding of the area.
-    bool either = (item.sides & CULLED_BOTH_SIDES) != 0u;
-    float turn = (item.sides & CULLED_MIRRORED) != 0u ? 1.0 : -1.0;
-    vec2 to_second = q - p, to_third = r - p;
+// A triangle in pixels, with the error of its corners.
+struct PixelTriangle {
+    vec2 p, q, r;    // corners
+    vec2 low, high;  // contain all corners with their errors
+    float wide;      // largest distance of a rasterised corner from its own
+    float reach;     // width plus height of the box
+    float turn;      // 1: front faces have a positive area; -1: a negative one
+    bool either;     // both faces show
+};
+
+// Rasterised corners are within `off` pixels of these, across and down. x / w is at most 1; the errors
+// of x and of w both count, divided by the smallest possible w. Rounding of pixel coordinates and the
+// rasteriser's snapping add to it.
+PixelTriangle inPixels(CulledItem item, CulledPicture picture, ClipTriangle t) {
+    PixelTriangle c;
+    float nearest = min(t.w.x, min(t.w.y, t.w.z)) - item.error.w;
+    vec2 far = picture.half_size * slackOf(item).xy / nearest;
+    float off = picture.snap + picture.place_off + max(far.x, far.y);
+    c.wide = 1.4143 * off;
+    vec3 across = t.x / t.w * picture.half_size.x + picture.half_size.x,
+         down = t.y / t.w * picture.half_size.y + picture.half_size.y;
+    c.p = vec2(across.x, down.x), c.q = vec2(across.y, down.y), c.r = vec2(across.z, down.z);
+    c.low = min(c.p, min(c.q, c.r)) - off, c.high = max(c.p, max(c.q, c.r)) + off;
+    c.reach = c.high.x - c.low.x + c.high.y - c.low.y;
+    c.turn = (item.sides & CULLED_MIRRORED) != 0u ? 1.0 : -1.0;
+    c.either = (item.sides & CULLED_BOTH_SIDES) != 0u;
+    return c;
+}
+
+// glTF's front faces are counter-clockwise, a negative area here because y points down. Corners that
+// are each off by `wide` change the doubled area by at most wide * perimeter + 3 wide^2. The box's
+// perimeter bounds the triangle's. The last term is float32 rounding of the area.
+bool facesAway(PixelTriangle t) {
+    vec2 to_second = t.q - t.p, to_third = t.r - t.p;
     float one = to_second.x * to_third.y, other = to_second.y * to_third.x;
-    float uncertain = 1.01 * wide * (2.0 * reach + 3.0 * wide) + 5e-7 * (abs(one) + abs(other));
-    if (!either && turn * (one - other) < -uncertain) return false;
+    float uncertain = 1.01 * t.wide * (2.0 * t.reach + 3.0 * t.wide) + 5e-7 * (abs(one) + abs(other));
+    return !t.either && t.turn * (one - other) < -uncertain;
+}
 
-    // For triangles of a few pixels: whether a sample is inside all edges. Moving a corner changes the
-    // doubled area by the move times the distance of the other points, which are in the box. The margin
-    // includes float32 rounding. No branch depends on a sample's result, because all cost the same.
+// For triangles of a few pixels: whether a sample is inside all edges. Moving a corner changes the
+// doubled area by the move times the distance of the other points, which are in the box. The margin
+// includes float32 rounding. No branch depends on a sample's result, because all cost the same.
+bool coversSample(PixelTriangle t, uint samples) {
     const int few = 6;
-    float margin = 1.01 * wide * (2.0 * reach + wide);
+    float margin = 1.01 * t.wide * (2.0 * t.reach + t.wide);
     bool covers = false;
     uint sample_number = 0u;
     do {
-        vec2 place = culledSamplePlace(picture.samples, sample_number);
-        vec2 at = ceil(low - place);
-        vec2 count = max(floor(high - place) - at + 1.0, vec2(0.0));
+        vec2 place = culledSamplePlace(samples, sample_number);
+        vec2 at = ceil(t.low - place);
+        vec2 count = max(floor(t.high - place) - at + 1.0, vec2(0.0));
         bool large = count.x * count.y > float(few);
         covers = covers || large;
         at += place;
-        vec3 pq = edgeSide(turn, p - at, q - at), qr = edgeSide(turn, q - at, r - at),
-             rp = edgeSide(turn, r - at, p - at);
+        vec3 pq = edgeSide(t.turn, t.p - at, t.q - at), qr = edgeSide(t.turn, t.q - at, t.r - at),
+             rp = edgeSide(t.turn, t.r - at, t.p - at);
         for (int i = 0; i < few; ++i) {
             float v = count.x > 0.0 ? floor((float(i) + 0.5) / count.x) : 0.0;
             vec3 from = vec3(1.0, float(i) - v * count.x, v);
             vec3 sides = vec3(dot(pq, from), dot(qr, from), dot(rp, from));
             bool inside = all(greaterThanEqual(sides, vec3(-margin))) ||
-                          (either && all(lessThanEqual(sides, vec3(margin))));
+                          (t.either && all(lessThanEqual(sides, vec3(margin))));
             covers = covers || (inside && float(i) < count.x * count.y);
         }
-    } while (++sample_number < picture.samples);
+    } while (++sample_number < samples);
     return covers;
+}
+
+// Whether a triangle may cover a sample of its draw; corners in object space, m.
+bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, vec3 third) {
+    vec4 a = item.clip_from_object * vec4(first, 1.0), b = item.clip_from_object * vec4(second, 1.0),
+         c = item.clip_from_object * vec4(third, 1.0);
+    ClipTriangle clip = ClipTriangle(vec3(a.x, b.x, c.x), vec3(a.y, b.y, c.y), vec3(a.z, b.z, c.z),
+                                     vec3(a.w, b.w, c.w));
+    if (isBeyondView(item, clip)) return false;
+    // Clipping moves corners, so clipped triangles are kept.
+    if (!isWithinView(item, clip)) return true;
+    PixelTriangle triangle = inPixels(item, picture, clip);
+    if (facesAway(triangle)) return false;
+    return coversSample(triangle, picture.samples);
 }
 
 #endif

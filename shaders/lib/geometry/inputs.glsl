@@ -5,28 +5,35 @@
 // Under MSAA, shaded_normal and the others are interpolated at the shaded sample location, so that no
 // input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
 // locations of neighbouring pixels are not one pixel apart.
+// Vulkan guarantees 16 locations of four components. All inputs together use these, so the first UV set
+// takes the fourth components of two others that are rarely read.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
 
 #include "shaders/lib/surface/surface.glsl"
 
 #ifdef STAGE_vert
-#define INPUT(at) layout(location = at) out
+#define DIRECTION out
 #else
 #include "shaders/lib/geometry/reversed_depth.glsl"
 #include "shaders/lib/samples/samples.glsl"
-#define INPUT(at) layout(location = at) in
+#define DIRECTION in
 #endif
+#define INPUT(at) layout(location = at) DIRECTION
+#define FOURTH(at) layout(location = at, component = 3) DIRECTION
 
 INPUT(0) vec3 v_normal;
-INPUT(1) vec2 v_texcoord;
-INPUT(2) vec4 v_tangent;
-INPUT(3) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal
-INPUT(4) vec4 v_color;
-INPUT(5) vec3 v_irradiance;         // of vertex lights, W/m^2
-INPUT(6) vec3 v_irradiance_behind;  // the same on the back of a double-sided material
-INPUT(7) vec4 v_slot_texcoords[SLOT_COUNT / 2];  // of two slots each
+INPUT(1) vec4 v_tangent;
+INPUT(2) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal
+INPUT(3) vec4 v_color;
+INPUT(4) vec3 v_irradiance;  // of vertex lights, W/m^2
+FOURTH(4) float v_texcoord_u;
+INPUT(5) vec3 v_irradiance_behind;  // the same on the back of a double-sided material
+FOURTH(5) float v_texcoord_v;
+INPUT(6) vec4 v_slot_texcoords[SLOT_COUNT / 2];  // of two slots each
+#undef FOURTH
 #undef INPUT
+#undef DIRECTION
 
 #ifdef STAGE_frag
 // Offset of the shaded location from the pixel's centre, pixels.
@@ -38,8 +45,8 @@ vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
 #define MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
 #define shaded_normal SHADED(v_normal)
 #define middle_normal MIDDLE(v_normal)
-#define shaded_texcoord SHADED(v_texcoord)
-#define middle_texcoord MIDDLE(v_texcoord)
+#define shaded_texcoord vec2(SHADED(v_texcoord_u), SHADED(v_texcoord_v))
+#define middle_texcoord vec2(MIDDLE(v_texcoord_u), MIDDLE(v_texcoord_v))
 #define shaded_tangent SHADED(v_tangent)
 #define middle_tangent MIDDLE(v_tangent)
 #define shaded_color SHADED(v_color)

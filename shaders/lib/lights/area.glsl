@@ -154,7 +154,9 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout AreaSums
 }
 
 void addAreaPoint(AreaView a, AreaPoint p, vec3 radiance, inout AreaSums sums) {
-    addAreaPoint(a.brdf, a.n, a.v, p, radiance, sums.diffuse, sums.specular);
+    Lobes reflected = reflectPoint(a.brdf, a.n, a.v, p, radiance);
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    if (lit) sums.diffuse += reflected.diffuse, sums.specular += reflected.specular;
     vec3 l = unitOrZero(p.diffuse_at);
     if (a.woven) addAreaSheen(a, l, max(dot(a.n, l), 0.0) * p.solid_angle, radiance, sums);
 }

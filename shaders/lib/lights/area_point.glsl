@@ -85,8 +85,7 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     return p;
 }
 
-void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3 diffuse,
-                  inout vec3 specular) {
+Lobes reflectPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
     vec3 base = reachingBase(b, schlickWeight(0.5 * lengthOf(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;
@@ -106,11 +105,9 @@ void addAreaPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance, inout vec3
     float lobe =
         specularLobe(b, n, sum, sum2, n_dot_l) * n_dot_l * (width2 / (wider.x * wider.y)) * p.solid_angle;
 
-    bool lit = any(greaterThan(radiance, vec3(0.0)));
-    vec3 from_base = b.diffuse * (base * received) * radiance;
-    vec3 from_lobe = fresnel * lobe * radiance;
-    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received * radiance;
-    if (lit) diffuse += from_base, specular += from_lobe;
+    Lobes reflected = Lobes(b.diffuse * (base * received) * radiance, fresnel * lobe * radiance);
+    if (feature_multiscatter == MULTISCATTER_FDEZ) reflected.specular += b.between * received * radiance;
+    return reflected;
 }
 
 #endif

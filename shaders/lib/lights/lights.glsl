@@ -4,11 +4,7 @@
 #define LIGHTS_GLSL
 
 #include "shaders/lib/contract.glsl"
-
-struct Incident {
-    vec3 direction;   // unit, to the light
-    vec3 irradiance;  // W/m^2, perpendicular to the direction
-};
+#include "shaders/lib/lights/incident.glsl"
 
 Incident fromDirectionalLight(Light light) {
     return Incident(light.position, light.intensity);

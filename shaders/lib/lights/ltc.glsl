@@ -86,15 +86,8 @@ float nearerRoot(float x, float trace, float minors, float det) {
     return down > 0.0 ? x - 3.0 * f / down : x;
 }
 
-Cone coneOf(vec3 c, vec3 a, vec3 b) {
-    vec3 bc = crossProduct(b, c), ca = crossProduct(c, a), ab = crossProduct(a, b);
-    float volume = abs(dot(c, ab));
-    // z is the eigenvector of the only positive eigenvalue of c c^T - a a^T - b b^T, and of its adjoint,
-    // the same for the cross products. The eigenvalue is large in the first for narrow cones, in the
-    // second for wide ones.
-    float c2 = dot(c, c);
-    bool narrow = volume < c2 * sqrt(c2);
-    vec3 p = narrow ? c : ab, q = narrow ? a : bc, r = narrow ? b : ca;
+// Eigenvector of the only positive eigenvalue of p p^T - q q^T - r r^T; unit, or 0.
+vec3 positiveAxis(vec3 p, vec3 q, vec3 r) {
     float size = 1.0 / max(dot(p, p) + dot(q, q) + dot(r, r), 1e-36);
     float scale = sqrt(size);
     p *= scale, q *= scale, r *= scale;
@@ -123,11 +116,12 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     float longest = adjoint[0].x;
     if (adjoint[1].y > longest) z = adjoint[1], longest = adjoint[1].y;
     if (adjoint[2].z > longest) z = adjoint[2];
-    z = unitOrZero(z);
-    if (dot(z, c) < 0.0) z = -z;
+    return unitOrZero(z);
+}
 
-    // The first matrix, restricted to the plane perpendicular to z. Frame: Duff et al. 2017, "Building an
-    // Orthonormal Basis, Revisited".
+// The cone's other axes: c c^T - a a^T - b b^T, restricted to the plane perpendicular to z. Frame: Duff et
+// al. 2017, "Building an Orthonormal Basis, Revisited". `volume`: of the three vectors.
+Cone coneAround(vec3 z, vec3 c, vec3 a, vec3 b, float volume) {
     float sign_z = z.z >= 0.0 ? 1.0 : -1.0;
     float k = -1.0 / (sign_z + z.z), kxy = z.x * z.y * k;
     vec3 u = vec3(1.0 + sign_z * z.x * z.x * k, sign_z * kxy, -sign_z * z.x);
@@ -151,6 +145,18 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
     cone.half_x = sqrt(max(middle + spread, 1e-30) / zz);
     cone.half_y = min(volume / (zz * sqrt(zz) * cone.half_x), cone.half_x);
     return cone;
+}
+
+Cone coneOf(vec3 c, vec3 a, vec3 b) {
+    vec3 bc = crossProduct(b, c), ca = crossProduct(c, a), ab = crossProduct(a, b);
+    float volume = abs(dot(c, ab));
+    // z is the axis of c c^T - a a^T - b b^T, and of its adjoint, the same for the cross products. The
+    // eigenvalue is large in the first for narrow cones, in the second for wide ones.
+    float c2 = dot(c, c);
+    bool narrow = volume < c2 * sqrt(c2);
+    vec3 z = positiveAxis(narrow ? c : ab, narrow ? a : bc, narrow ? b : ca);
+    if (dot(z, c) < 0.0) z = -z;
+    return coneAround(z, c, a, b, volume);
 }
 
 // atanh(x) / x.

@@ -37,6 +37,7 @@ uint differingPairs(ivec2 p) {
     if (hasLayerAttachment(1)) differ |= differingPairs(gbuffer_layers_2_samples, p);
     if (hasLayerAttachment(2)) differ |= differingPairs(gbuffer_layers_3_samples, p);
     if (hasLayerAttachment(3)) differ |= differingPairs(gbuffer_layers_4_samples, p);
+    if (hasLayerAttachment(4)) differ |= differingPairs(gbuffer_layers_5_samples, p);
     return differ;
 }
 

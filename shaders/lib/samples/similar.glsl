@@ -35,8 +35,9 @@ bool alikeLayers(Surface s, Surface t) {
          other = vec2(t.iridescence_ior, t.iridescence_thickness);
     if (any(greaterThan(abs(film - other), SIMILAR_ATTRIBUTE * max(film, other)))) return false;
     if (!within(s.sheen_color, t.sheen_color, SIMILAR_ATTRIBUTE) ||
-        !within(vec3(s.sheen_roughness, s.iridescence, 0.0), vec3(t.sheen_roughness, t.iridescence, 0.0),
-                SIMILAR_ATTRIBUTE))
+        !within(s.diffuse_transmission_color, t.diffuse_transmission_color, SIMILAR_ATTRIBUTE) ||
+        !within(vec3(s.sheen_roughness, s.iridescence, s.diffuse_transmission),
+                vec3(t.sheen_roughness, t.iridescence, t.diffuse_transmission), SIMILAR_ATTRIBUTE))
         return false;
     return within(vec3(s.clearcoat, s.clearcoat_roughness, s.anisotropy),
                   vec3(t.clearcoat, t.clearcoat_roughness, t.anisotropy), SIMILAR_ATTRIBUTE) &&

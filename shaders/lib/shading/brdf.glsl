@@ -4,6 +4,7 @@
 #ifndef BRDF_GLSL
 #define BRDF_GLSL
 
+#include "shaders/lib/lights/incident.glsl"
 #include "shaders/lib/shading/fresnel.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
@@ -12,6 +13,7 @@
 // Values that do not depend on the light.
 struct Brdf {
     vec3 diffuse;    // (1 - metallic) albedo / pi, 1/sr
+    vec3 through;    // the same for light from behind; only with LAYER_DIFFUSE_TRANSMISSION
     vec3 f0;         // of the mix
     vec3 f90;
     vec3 base_f0;    // of the dielectric's layer; the base loses what it reflects (lostBelow)
@@ -92,7 +94,15 @@ void addFilm(inout Brdf b, Surface s) {
 Brdf makeBrdf(Surface s, vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
-    if (on(feature_transmission)) b.diffuse *= 1.0 - s.transmission;
+    b.through = vec3(0.0);
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+        b.through = s.diffuse_transmission * (1.0 - s.metallic) * s.diffuse_transmission_color * INVERSE_PI;
+        b.diffuse *= 1.0 - s.diffuse_transmission;
+    }
+    if (on(feature_transmission)) {
+        b.diffuse *= 1.0 - s.transmission;
+        b.through *= 1.0 - s.transmission;
+    }
     b.f0 = specularF0(s);
     b.f90 = vec3(blend(s.dielectric_f90, 1.0, s.metallic));
     b.base_f0 = lostBelow(s.dielectric_f0);
@@ -241,22 +251,26 @@ Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l, bool may_be_filmed) {
     return Reflected(n_dot_l, b.diffuse * at_h.base, at_h.lobe * lobe);
 }
 
-// Adds the light that arrives from the unit vector `l` and leaves to `v`. `irradiance`: W/m^2,
-// perpendicular to `l`.
-void addLight(Brdf b, vec3 n, vec3 v, vec3 l, vec3 irradiance, bool may_be_filmed, inout vec3 diffuse,
-              inout vec3 specular) {
+// Radiance towards the viewer, W/(sr m^2).
+struct Lobes {
+    vec3 diffuse, specular;
+};
+
+// Adds the part of a light that leaves to the unit vector `v`.
+void addLight(Brdf b, vec3 n, vec3 v, Incident light, bool may_be_filmed, inout Lobes sums) {
     Reflected reflected;
     if (on(feature_half_shading)) {
-        reflected = reflectedInHalf(b, n, v, l);
-        if (b.anisotropic || b.film.weight > 0.0) reflected = reflectedLight(b, n, v, l, may_be_filmed);
+        reflected = reflectedInHalf(b, n, v, light.direction);
+        if (b.anisotropic || b.film.weight > 0.0)
+            reflected = reflectedLight(b, n, v, light.direction, may_be_filmed);
     } else {
-        reflected = reflectedLight(b, n, v, l, may_be_filmed);
+        reflected = reflectedLight(b, n, v, light.direction, may_be_filmed);
     }
-    vec3 received = irradiance * reflected.n_dot_l;
+    vec3 received = light.irradiance * reflected.n_dot_l;
     vec3 from_lobe = reflected.lobe * received;
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;
-    diffuse += reflected.base * received;
-    specular += from_lobe;
+    sums.diffuse += reflected.base * received;
+    sums.specular += from_lobe;
 }
 
 #endif

@@ -38,6 +38,7 @@ Clearcoat makeClearcoat(Surface s, vec3 v, float weight) {
 // The material below layers that let the fraction `rest` pass.
 void dim(inout Brdf b, float rest) {
     b.diffuse *= rest;
+    b.through *= rest;
     b.f0 *= rest;
     b.f90 *= rest;
     b.between *= rest;

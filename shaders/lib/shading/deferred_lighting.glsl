@@ -15,15 +15,14 @@ Radiance radianceHere() {
 vec4 litHere() { return vec4(lit(radianceHere()), 1.0); }
 
 // Sums that a light batch passes to the next one.
-struct PartialSums {
-    vec4 diffuse, specular;
-    vec4 clearcoat, sheen;  // their parts of specular
-};
-PartialSums partialSumsHere() {
+Radiance partialSumsHere() {
     Radiance radiance = radianceHere();
-    return PartialSums(vec4(flushed(radiance.diffuse), radiance.local_seen),
-                       vec4(flushed(radiance.specular), radiance.local_light),
-                       vec4(flushed(radiance.clearcoat), 0.0), vec4(flushed(radiance.sheen), 0.0));
+    radiance.diffuse = flushed(radiance.diffuse);
+    radiance.specular = flushed(radiance.specular);
+    radiance.clearcoat = flushed(radiance.clearcoat);
+    radiance.sheen = flushed(radiance.sheen);
+    radiance.transmission = flushed(radiance.transmission);
+    return radiance;
 }
 
 #endif

@@ -19,16 +19,19 @@ struct Radiance {
     vec3 environment;      // the environment's part of diffuse and specular
     vec3 clearcoat;        // the clear coat's part of specular and ambient
     vec3 sheen;            // the sheen's part of both
+    vec3 behind;           // light of surfaces behind one with transmission; haze does not dim it again
+    vec3 transmission;     // the transmitted part of behind, or of diffuse and ambient
 };
 
 Radiance noRadiance() {
     return Radiance(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, 0.0, 0.0, vec3(1.0), vec3(0.0),
-                    vec3(0.0), vec3(0.0), vec3(0.0));
+                    vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
 vec3 lit(Radiance radiance) {
     vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;
+    if (on(feature_transmission)) sum += radiance.behind;
     return flushed(sum);
 }
 

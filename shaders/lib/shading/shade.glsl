@@ -7,6 +7,7 @@
 #include "shaders/lib/lights/area.glsl"
 #include "shaders/lib/shading/brdf.glsl"
 #include "shaders/lib/shading/clearcoat.glsl"
+#include "shaders/lib/shading/diffuse_transmission.glsl"
 #include "shaders/lib/environment/environment.glsl"
 #include "shaders/lib/shading/multiscatter.glsl"
 #include "shaders/lib/lights/partial_sums.glsl"
@@ -29,6 +30,7 @@ struct Shading {
     Brdf brdf;
     Clearcoat coat;  // only with LAYER_CLEARCOAT
     Sheen sheen;     // only with LAYER_SHEEN
+    Behind behind;   // only with LAYER_DIFFUSE_TRANSMISSION
 };
 
 void addFromCoat(vec3 reflected, inout Radiance radiance) {
@@ -41,19 +43,26 @@ void addFromSheen(vec3 reflected, inout Radiance radiance) {
     radiance.sheen += reflected;
 }
 
-// `layered`: false leaves out the code of sheens and films.
+void addFromBehind(vec3 transmitted, inout Radiance radiance) {
+    radiance.diffuse += transmitted;
+    radiance.transmission += transmitted;
+}
+
+// `layered`: false leaves out the code of sheens, films and light from behind.
 void addIncident(Shading shading, Incident light, bool layered, inout Radiance radiance) {
-    addLight(shading.brdf, shading.surface.normal, shading.v, light.direction, light.irradiance, layered,
-             radiance.diffuse, radiance.specular);
+    Lobes sums = Lobes(radiance.diffuse, radiance.specular);
+    addLight(shading.brdf, shading.surface.normal, shading.v, light, layered, sums);
+    radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;
     if (layered && hasLayer(LAYER_SHEEN))
         addFromSheen(sheenReflected(shading.sheen, shading.surface.normal, shading.v, light.direction,
                                     light.irradiance),
                      radiance);
+    if (layered && hasLayer(LAYER_DIFFUSE_TRANSMISSION))
+        addFromBehind(throughSurface(shading.behind, light.direction, light.irradiance), radiance);
     if (!hasLayer(LAYER_CLEARCOAT)) return;
-    vec3 below = vec3(0.0), reflected = vec3(0.0);
-    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light.direction, light.irradiance,
-             false, below, reflected);
-    addFromCoat(reflected, radiance);
+    Lobes of_coat = Lobes(vec3(0.0), vec3(0.0));
+    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light, false, of_coat);
+    addFromCoat(of_coat.specular, radiance);
 }
 
 void addPoint(Shading shading, uint i, bool layered, inout Radiance radiance) {
@@ -100,12 +109,12 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
     }
 
 // Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
-// those with indices below `end`. The code of sheens and films is long, so that it stands in a loop over
+// those with indices below `end`. The code of these layers is long, so that it stands in a loop over
 // single lights, once for each type.
 #define ADD_PACKETS(add, packets, casting, end)                                                             \
     {                                                                                                       \
         uvec2 range = packets;                                                                              \
-        if (hasLayer(LAYER_SHEEN | LAYER_IRIDESCENCE)) {                                                    \
+        if (hasLayer(LAYER_SHEEN | LAYER_IRIDESCENCE | LAYER_DIFFUSE_TRANSMISSION)) {                       \
             range *= feature_list_width;                                                                    \
             EACH(range) {                                                                                   \
                 uvec4 i = lightsOfPacket(range.x / feature_list_width);                                     \
@@ -133,30 +142,28 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
 #define ADD_AREA(add, end)                                                                              \
     while (walk.more && walk.number < end) {                                                            \
         AreaSums sums = AreaSums(radiance.diffuse, radiance.specular, radiance.sheen);                  \
-        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, sums);          \
+        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, sums);            \
         radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;                             \
         radiance.sheen = sums.sheen;                                                                    \
         if (hasLayer(LAYER_CLEARCOAT)) {                                                                \
             AreaSums of_coat = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));                               \
-            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), s.position, of_coat); \
+            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, of_coat); \
             addFromCoat(of_coat.specular, radiance);                                                   \
+        }                                                                                               \
+        if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {                                                     \
+            AreaSums through = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));                               \
+            add(area_behind, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, through); \
+            addFromBehind(through.diffuse, radiance);                                                   \
         }                                                                                               \
         step(walk);                                                                                     \
     }
 
-// Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
-// lies in front of the sum and only lit() applies it.
-Radiance shade(Surface s, PixelLights lights) {
-    Radiance radiance = noRadiance();
-    bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
-    // First, while few values are live: a shadow map's filter needs more registers than anything after it.
-    // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
-    if (has_suns) radiance.sun_visibility = sunVisibility(s);
+// `emission`: dimmed by a clear coat.
+Shading makeShading(Surface s, inout vec3 emission) {
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
     if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
     if (hasLayer(LAYER_IRIDESCENCE)) addFilm(brdf, s);
-    radiance.emission = s.emission;
     Clearcoat coat = Clearcoat(s, brdf);
     Sheen sheen;
     sheen.color = vec3(0.0);
@@ -168,56 +175,68 @@ Radiance shade(Surface s, PixelLights lights) {
         float weight = clearcoatWeight(s, v);
         coat = makeClearcoat(s, v, weight);
         dim(brdf, 1.0 - weight);
-        radiance.emission *= 1.0 - weight;
+        emission *= 1.0 - weight;
         sheen.color *= 1.0 - weight;
     }
-    Shading shading = Shading(s, v, brdf, coat, sheen);
-    if (feature_light_batch == BATCH_LATER) {
-        vec4 diffuse = partialDiffuse(), specular = partialSpecular();
-        radiance.diffuse = diffuse.rgb;
-        radiance.specular = specular.rgb;
-        if (hasLayer(LAYER_CLEARCOAT)) radiance.clearcoat = partialClearcoat().rgb;
-        if (hasLayer(LAYER_SHEEN)) radiance.sheen = partialSheen().rgb;
-        radiance.local_seen = diffuse.a;
-        radiance.local_light = specular.a;
+    Behind behind = Behind(brdf, s.normal, v);
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) behind = makeBehind(brdf, s.normal, v);
+    return Shading(s, v, brdf, coat, sheen, behind);
+}
+
+// The sums of the batches before.
+void readPartialSums(inout Radiance radiance) {
+    vec4 diffuse = partialDiffuse(), specular = partialSpecular();
+    radiance.diffuse = diffuse.rgb;
+    radiance.specular = specular.rgb;
+    if (hasLayer(LAYER_CLEARCOAT)) radiance.clearcoat = partialClearcoat().rgb;
+    if (hasLayer(LAYER_SHEEN)) radiance.sheen = partialSheen().rgb;
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) radiance.transmission = partialTransmission().rgb;
+    radiance.local_seen = diffuse.a;
+    radiance.local_light = specular.a;
+}
+
+void addEnvironment(Shading shading, inout Radiance radiance) {
+    Surface s = shading.surface;
+    vec3 from_base, from_lobe;
+    reflectEnvironment(s, shading.brdf, shading.v, from_base, from_lobe);
+    radiance.environment = from_base + from_lobe;
+    vec3 from_coat = vec3(0.0), from_sheen = vec3(0.0), from_behind = vec3(0.0);
+    if (hasLayer(LAYER_SHEEN)) {
+        from_sheen = shading.sheen.color * (shading.sheen.albedo * environmentFactor() * s.occlusion) *
+                     environmentIrradiance(s.normal);
+        radiance.environment += from_sheen;
     }
-    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
-        // The base reflects the draw's lights that are not shaded per pixel.
-        vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
-        radiance.diffuse = reflected;
+    if (hasLayer(LAYER_CLEARCOAT)) {
+        vec3 n = shading.coat.surface.normal;
+        from_coat = lobeEnvironment(shading.coat.brdf, n, n, shading.v, environmentFactor() * s.occlusion);
+        radiance.environment += from_coat;
     }
-    if (on(feature_environment)) {
-        vec3 from_base, from_lobe;
-        reflectEnvironment(s, shading.brdf, v, from_base, from_lobe);
-        radiance.environment = from_base + from_lobe;
-        vec3 from_coat = vec3(0.0), from_sheen = vec3(0.0);
-        if (hasLayer(LAYER_SHEEN)) {
-            from_sheen = sheen.color * (sheen.albedo * environmentFactor() * s.occlusion) *
-                         environmentIrradiance(s.normal);
-            radiance.environment += from_sheen;
-        }
-        if (hasLayer(LAYER_CLEARCOAT)) {
-            vec3 n = coat.surface.normal;
-            from_coat = lobeEnvironment(coat.brdf, n, n, v, environmentFactor() * s.occlusion);
-            radiance.environment += from_coat;
-        }
-        if (feature_light_batch != BATCH_LATER) {
-            radiance.diffuse += from_base;
-            radiance.specular += from_lobe;
-            if (hasLayer(LAYER_SHEEN)) addFromSheen(from_sheen, radiance);
-            if (hasLayer(LAYER_CLEARCOAT)) addFromCoat(from_coat, radiance);
-        }
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+        from_behind = uniformThroughSurface(shading.behind) * (environmentFactor() * s.occlusion) *
+                      environmentIrradiance(shading.behind.n);
+        radiance.environment += from_behind;
     }
-    if (has_suns) {
-        uvec2 range = directionalPackets();
-        EACH(range) {
-            Incident light = fromDirectionalLight(directionalAt(range.x));
-            if (on(feature_shadows) && directionalOf(range.x) == castingLight())
-                light.irradiance *= radiance.sun_visibility;
-            addIncident(shading, light, true, radiance);
-            NEXT(range);
-        }
+    if (feature_light_batch != BATCH_LATER) {
+        radiance.diffuse += from_base;
+        radiance.specular += from_lobe;
+        if (hasLayer(LAYER_SHEEN)) addFromSheen(from_sheen, radiance);
+        if (hasLayer(LAYER_CLEARCOAT)) addFromCoat(from_coat, radiance);
+        if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) addFromBehind(from_behind, radiance);
     }
+}
+
+void addDirectionalLights(Shading shading, inout Radiance radiance) {
+    uvec2 range = directionalPackets();
+    EACH(range) {
+        Incident light = fromDirectionalLight(directionalAt(range.x));
+        if (on(feature_shadows) && directionalOf(range.x) == castingLight())
+            light.irradiance *= radiance.sun_visibility;
+        addIncident(shading, light, true, radiance);
+        NEXT(range);
+    }
+}
+
+void addPunctualLights(Shading shading, PixelLights lights, inout Radiance radiance) {
     LocalCasters casters = LocalCasters(0u, 0u, 0u, 0u);
     if (on(feature_local_shadows)) casters = localCasters();
     if (on(feature_point_lights)) {
@@ -232,27 +251,68 @@ Radiance shade(Surface s, PixelLights lights) {
             ADD_CASTERS(addCastingSpot, packets, casters.spot_end)
         ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
     }
-    if (on(feature_area_lights)) {
-        AreaView area = areaView(shading.brdf, s, v), coat_area = area;
-        if (hasLayer(LAYER_SHEEN)) area.woven = true, area.sheen = sheen;
-        if (hasLayer(LAYER_CLEARCOAT)) coat_area = areaView(coat.brdf, coat.surface, v);
-        AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
-        if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
-        if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
-        if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
+}
+
+void addAreaLights(Shading shading, PixelLights lights, inout Radiance radiance) {
+    vec3 position = shading.surface.position;
+    AreaView area = areaView(shading.brdf, shading.surface, shading.v), coat_area = area, area_behind = area;
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+        Surface turned = shading.surface;
+        turned.normal = shading.behind.n;
+        area_behind = areaView(shading.behind.brdf, turned, shading.behind.v);
     }
+    if (hasLayer(LAYER_SHEEN)) area.woven = true, area.sheen = shading.sheen;
+    if (hasLayer(LAYER_CLEARCOAT)) coat_area = areaView(shading.coat.brdf, shading.coat.surface, shading.v);
+    AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
+    if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
+    if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
+    if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
+}
+
+void addAmbient(Shading shading, inout Radiance radiance) {
+    Surface s = shading.surface;
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+    // Batches hand on the parts of layers, but not the sum.
+    bool once = feature_light_batch != BATCH_LATER;
     if (on(feature_ambient) && hasLayer(LAYER_SHEEN)) {
-        vec3 reflected = sheen.color * (sheen.albedo * s.occlusion) * view.ambient;
+        vec3 reflected = shading.sheen.color * (shading.sheen.albedo * s.occlusion) * view.ambient;
         radiance.ambient += reflected;
-        radiance.sheen += reflected;
+        if (once) radiance.sheen += reflected;
     }
     if (on(feature_ambient) && hasLayer(LAYER_CLEARCOAT)) {
-        vec3 reflected = s.occlusion * (lobeShare(coat.brdf) * view.ambient);
+        vec3 reflected = s.occlusion * (lobeShare(shading.coat.brdf) * view.ambient);
         radiance.ambient += reflected;
-        radiance.clearcoat += reflected;
+        if (once) radiance.clearcoat += reflected;
     }
+    if (on(feature_ambient) && hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+        vec3 passed = s.occlusion * (uniformThroughSurface(shading.behind) * view.ambient);
+        radiance.ambient += passed;
+        if (once) radiance.transmission += passed;
+    }
+}
+
+// Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
+// lies in front of the sum and only lit() applies it.
+Radiance shade(Surface s, PixelLights lights) {
+    Radiance radiance = noRadiance();
+    bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
+    // First, while few values are live: a shadow map's filter needs more registers than anything after it.
+    // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
+    if (has_suns) radiance.sun_visibility = sunVisibility(s);
+    radiance.emission = s.emission;
+    Shading shading = makeShading(s, radiance.emission);
+    if (feature_light_batch == BATCH_LATER) readPartialSums(radiance);
+    if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
+        // The base reflects the draw's lights that are not shaded per pixel.
+        vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
+        radiance.diffuse = reflected;
+    }
+    if (on(feature_environment)) addEnvironment(shading, radiance);
+    if (has_suns) addDirectionalLights(shading, radiance);
+    if (on(feature_point_lights) || on(feature_spot_lights)) addPunctualLights(shading, lights, radiance);
+    if (on(feature_area_lights)) addAreaLights(shading, lights, radiance);
+    addAmbient(shading, radiance);
     if (on(feature_haze)) {
         Hazed hazed = hazeTo(s.position);
         radiance.transmittance = hazed.transmittance;

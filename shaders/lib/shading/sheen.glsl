@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_sheen: fibres that stand above the material (Estevez and Kulla 2017, "Production Friendly
-// Microfacet Sheen BRDF"): colour x D V, without a Fresnel term. What lies below is dimmed by the largest
-// component of the colour times E(n.v), the lobe's directional albedo; the extension allows this form,
-// which depends on the view alone.
+// Microfacet Sheen BRDF"): colour x D V, without a Fresnel term. The largest component of the colour times
+// E(n.v), the lobe's directional albedo, dims everything below. The extension allows this form, which
+// depends on the view alone.
 #ifndef SHEEN_GLSL
 #define SHEEN_GLSL
 

@@ -33,6 +33,7 @@ LocalFace localFaceAt(uint place, uint face) {
 float visibilityOf(Surface s, uint place, vec3 light_position) {
     LocalShadow light = localShadowAt(place);
     vec3 from_light = s.position - light_position;
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) s = facingLight(s, -from_light);
     vec3 p = inLight(light, from_light);
     uint number = faceOf(p);
     LocalFace face = localFaceAt(place, number);

@@ -171,10 +171,18 @@ float cascadedVisibility(Surface s, ShadowLight light, bool faces) {
     return visibility;
 }
 
+// The side of a surface with diffuse transmission that faces the light.
+Surface facingLight(Surface s, vec3 to_light) {
+    bool behind = dot(s.geometric_normal, to_light) < 0.0 && dot(s.normal, to_light) < 0.0;
+    if (s.diffuse_transmission > 0.0 && behind) s.geometric_normal = -s.geometric_normal;
+    return s;
+}
+
 // Visibility of the shadow-casting light, 0 to 1; 0 if the triangle faces away.
 float sunVisibility(Surface s) {
     if (!on(feature_shadows)) return 1.0;
     ShadowLight light = shadowLight();
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) s = facingLight(s, light.to_light);
     bool faces = dot(s.geometric_normal, light.to_light) > 0.0;
     float visibility = 0.0;
     if (feature_shadows == SHADOWS_CLIPMAP) {

@@ -5,6 +5,7 @@
 
 #include "shaders/lib/surface/debug.glsl"
 #include "shaders/lib/shading/shade.glsl"
+#include "shaders/lib/shading/transmission.glsl"
 
 layout(location = 0) out vec4 out_0;
 layout(location = 1) out vec4 out_1;
@@ -33,10 +34,11 @@ void write(uint image, vec4 texel, inout uint free) {
 
 // shaded: number of Surfaces shaded at the pixel under MSAA.
 void capture(Surface s, float z, uint shaded) {
-    PixelLights lights = lightsAt(gl_FragCoord.xy, z);
+    PixelLights lights = lightsAt(gl_FragCoord.xy, z, on(feature_transmission));
     Radiance radiance = noRadiance();
     if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
         radiance = shade(s, lights);
+        if (on(feature_transmission)) radiance = withTransmission(s, radiance, gl_FragCoord.xy);
         // An earlier batch shaded the directional light.
         if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
     }

@@ -55,6 +55,14 @@ vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, flo
         case DEBUG_iridescence: return vec4(s.iridescence);
         case DEBUG_iridescence_ior: return vec4(s.iridescence_ior);
         case DEBUG_iridescence_thickness: return vec4(s.iridescence_thickness);
+        case DEBUG_transmission: return vec4(s.transmission);
+        case DEBUG_transmission_thickness: return vec4(s.thickness);
+        case DEBUG_attenuation_color: return vec4(s.attenuation_color, 1.0);
+        case DEBUG_attenuation_distance: return vec4(s.attenuation_distance);
+        case DEBUG_dispersion: return vec4(s.dispersion);
+        case DEBUG_diffuse_transmission: return vec4(s.diffuse_transmission);
+        case DEBUG_diffuse_transmission_color: return vec4(s.diffuse_transmission_color, 1.0);
+        case DEBUG_lit_transmission: return vec4(radiance.transmission, 1.0);
         case DEBUG_dielectric_f0: return vec4(s.dielectric_f0, 1.0);
     }
     return vec4(0.0);

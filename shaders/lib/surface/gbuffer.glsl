@@ -4,6 +4,7 @@
 #define GBUFFER_GLSL
 
 #include "shaders/lib/math/angles.glsl"
+#include "shaders/lib/samples/samples.glsl"
 #include "shaders/lib/surface/octahedral.glsl"
 #include "shaders/lib/surface/packing.glsl"
 #include "shaders/lib/surface/surface.glsl"
@@ -48,22 +49,38 @@ void decodeLightmap(uvec4 texel, bool wide, inout Surface s) {
 }
 
 bool storesLayer(uint layer) { return (feature_gbuffer_layers & layer) != 0u; }
+// Shaders that shade no layers do not read them: they are 0.
+bool decodesLayers() { return on(feature_gbuffer_layers & feature_layers); }
 
 uint wordsOf(uint layer, uint packed_words, uint full_words) {
     return !storesLayer(layer) ? 0u : fullGBuffer() ? full_words : packed_words;
 }
 
-// First word of a layer in LAYERS to LAYERS_4.
+// First word of a layer in LAYERS to LAYERS_5.
 uint anisotropyWord() { return wordsOf(LAYER_CLEARCOAT, CLEARCOAT_WORDS, CLEARCOAT_FULL_WORDS); }
 uint sheenWord() {
     return anisotropyWord() + wordsOf(LAYER_ANISOTROPY, ANISOTROPY_WORDS, ANISOTROPY_FULL_WORDS);
 }
 uint iridescenceWord() { return sheenWord() + wordsOf(LAYER_SHEEN, SHEEN_WORDS, SHEEN_FULL_WORDS); }
-uint layerWords() {
+uint diffuseTransmissionWord() {
     return iridescenceWord() + wordsOf(LAYER_IRIDESCENCE, IRIDESCENCE_WORDS, IRIDESCENCE_FULL_WORDS);
+}
+uint layerWords() {
+    return diffuseTransmissionWord() + wordsOf(LAYER_DIFFUSE_TRANSMISSION, DIFFUSE_TRANSMISSION_WORDS,
+                                               DIFFUSE_TRANSMISSION_FULL_WORDS);
 }
 // Whether there is the attachment LAYERS + i.
 bool hasLayerAttachment(uint i) { return layerWords() > 4u * i; }
+// Number of layer attachments that the first pass has room for; a second pass draws the others.
+uint layersInFirstPass() {
+    uint others = 3u;  // albedo, normals, params
+    if (on(feature_emission) || fullGBuffer()) ++others;
+    if (on(feature_dielectric_specular)) ++others;
+    if (on(feature_gbuffer_wide_material_id)) ++others;
+    if (on(feature_lightmap)) ++others;
+    if (multisampled()) ++others;
+    return MAX_COLOR_ATTACHMENTS - others;
+}
 
 const uint LAYER_IS_THERE = 1u << 28;
 
@@ -139,6 +156,16 @@ void decodeIridescence(uint word, inout Surface s) {
     s.iridescence_thickness = fromHalf(word >> (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
 }
 
+// Fields of one word. A surface without diffuse transmission has the word 0.
+uint encodeDiffuseTransmission(Surface s) {
+    return packSqrt(s.diffuse_transmission_color, s.diffuse_transmission);
+}
+
+void decodeDiffuseTransmission(uint word, inout Surface s) {
+    s.diffuse_transmission_color = unpackSqrt(word);
+    s.diffuse_transmission = unpackUnorm(word, 24, DIFFUSE_TRANSMISSION_BITS);
+}
+
 // Layers as words; the last are unused.
 struct LayerWords {
     uint words[LAYER_WORDS];
@@ -148,7 +175,8 @@ struct LayerWords {
 LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
     LayerWords w;
     for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = 0u;
-    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord();
+    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
+         diffuse = diffuseTransmissionWord();
     if (fullGBuffer()) {
         if (storesLayer(LAYER_CLEARCOAT)) {
             for (int i = 0; i < 3; ++i) w.words[i] = floatBitsToUint(s.clearcoat_normal[i]);
@@ -168,6 +196,11 @@ LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
             w.words[film + 1] = floatBitsToUint(s.iridescence_ior);
             w.words[film + 2] = floatBitsToUint(s.iridescence_thickness);
         }
+        if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+            for (int i = 0; i < 3; ++i)
+                w.words[diffuse + i] = floatBitsToUint(s.diffuse_transmission_color[i]);
+            w.words[diffuse + 3] = floatBitsToUint(s.diffuse_transmission);
+        }
         return w;
     }
     if (storesLayer(LAYER_CLEARCOAT)) {
@@ -178,11 +211,13 @@ LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
     if (storesLayer(LAYER_ANISOTROPY)) w.words[anisotropy] = encodeAnisotropy(s, decoded_normal);
     if (storesLayer(LAYER_SHEEN)) w.words[sheen] = encodeSheen(s);
     if (storesLayer(LAYER_IRIDESCENCE)) w.words[film] = encodeIridescence(s);
+    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) w.words[diffuse] = encodeDiffuseTransmission(s);
     return w;
 }
 
 void decodeLayers(LayerWords w, inout Surface s) {
-    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord();
+    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
+         diffuse = diffuseTransmissionWord();
     if (fullGBuffer()) {
         if (storesLayer(LAYER_CLEARCOAT)) {
             for (int i = 0; i < 3; ++i) s.clearcoat_normal[i] = uintBitsToFloat(w.words[i]);
@@ -202,12 +237,18 @@ void decodeLayers(LayerWords w, inout Surface s) {
             s.iridescence_ior = uintBitsToFloat(w.words[film + 1]);
             s.iridescence_thickness = uintBitsToFloat(w.words[film + 2]);
         }
+        if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+            for (int i = 0; i < 3; ++i)
+                s.diffuse_transmission_color[i] = uintBitsToFloat(w.words[diffuse + i]);
+            s.diffuse_transmission = uintBitsToFloat(w.words[diffuse + 3]);
+        }
         return;
     }
     if (storesLayer(LAYER_CLEARCOAT)) decodeClearcoat(uvec2(w.words[0], w.words[1]), s);
     if (storesLayer(LAYER_ANISOTROPY)) decodeAnisotropy(w.words[anisotropy], s);
     if (storesLayer(LAYER_SHEEN)) decodeSheen(w.words[sheen], s);
     if (storesLayer(LAYER_IRIDESCENCE)) decodeIridescence(w.words[film], s);
+    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) decodeDiffuseTransmission(w.words[diffuse], s);
 }
 
 void writeLayers(LayerWords w, inout GBufferTexel t) {
@@ -260,39 +301,23 @@ GBufferTexel encodeGBuffer(Surface s) {
     return t;
 }
 
-// Decodes all fields except the position, which comes from depth, and those that only forward+ has.
-Surface decodeGBuffer(GBufferTexel t, vec3 position) {
-    Surface s;
-    s.position = position;
-    s.texcoord = vec2(0.0);
-    s.tangent = s.tangent_normal = vec3(0.0);
-    s.handedness = 0.0;
-    s.emission = vec3(0.0);
-    s.lightmap = vec3(0.0);
-    s.lightmapped = false;
-    s.object_irradiance = vec3(0.0);  // not stored
-    removeLayers(s);
-    s.transmission = 0.0;             // blended surfaces are not stored
-    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
-    s.dielectric_f90 = 1.0;
-    if (fullGBuffer()) {
-        s.albedo = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].xyz);
-        s.occlusion = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].w);
-        s.normal = uintBitsToFloat(t.attachments[GBUFFER_NORMALS].xyz);
-        s.roughness = uintBitsToFloat(t.attachments[GBUFFER_NORMALS].w);
-        s.geometric_normal = uintBitsToFloat(t.attachments[GBUFFER_PARAMS].xyz);
-        s.metallic = uintBitsToFloat(t.attachments[GBUFFER_PARAMS].w);
-        s.emission = uintBitsToFloat(t.attachments[GBUFFER_EMISSION].xyz);
-        s.material_id = t.attachments[GBUFFER_EMISSION].w;
-        if (on(feature_dielectric_specular)) {
-            s.dielectric_f0 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].xyz);
-            s.dielectric_f90 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].w);
-        }
-        s.triangle_normal = s.geometric_normal;
-        if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
-        if (on(feature_gbuffer_layers)) decodeLayers(layersIn(t), s);
-        return s;
+void decodeFull(GBufferTexel t, inout Surface s) {
+    s.albedo = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].xyz);
+    s.occlusion = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].w);
+    s.normal = uintBitsToFloat(t.attachments[GBUFFER_NORMALS].xyz);
+    s.roughness = uintBitsToFloat(t.attachments[GBUFFER_NORMALS].w);
+    s.geometric_normal = uintBitsToFloat(t.attachments[GBUFFER_PARAMS].xyz);
+    s.metallic = uintBitsToFloat(t.attachments[GBUFFER_PARAMS].w);
+    s.emission = uintBitsToFloat(t.attachments[GBUFFER_EMISSION].xyz);
+    s.material_id = t.attachments[GBUFFER_EMISSION].w;
+    if (on(feature_dielectric_specular)) {
+        s.dielectric_f0 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].xyz);
+        s.dielectric_f90 = uintBitsToFloat(t.attachments[GBUFFER_SPECULAR].w);
     }
+    if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
+}
+
+void decodePacked(GBufferTexel t, inout Surface s) {
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
     uint normals = t.attachments[GBUFFER_NORMALS].x;
     uint params = t.attachments[GBUFFER_PARAMS].x;
@@ -310,7 +335,6 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
         s.metallic = unpackUnorm(params, 12, STANDARD_METALLIC_BITS);
         s.material_id = params >> 20;
     }
-    s.triangle_normal = s.geometric_normal;
     if (on(feature_gbuffer_wide_material_id)) s.material_id = t.attachments[GBUFFER_IDS].x;
     if (on(feature_emission))
         s.emission = decodeRadiance(t.attachments[GBUFFER_EMISSION], on(feature_gbuffer_wide_emission));
@@ -321,7 +345,28 @@ Surface decodeGBuffer(GBufferTexel t, vec3 position) {
         s.dielectric_f0 = unpackSqrt(specular);
         s.dielectric_f90 = unpackUnorm(specular, 24, SPECULAR_BITS);
     }
-    if (on(feature_gbuffer_layers)) decodeLayers(layersIn(t), s);
+}
+
+// Decodes all fields except the position, which comes from depth, and those that only forward+ has.
+Surface decodeGBuffer(GBufferTexel t, vec3 position) {
+    Surface s;
+    s.position = position;
+    s.texcoord = vec2(0.0);
+    s.tangent = s.tangent_normal = vec3(0.0);
+    s.handedness = 0.0;
+    s.emission = vec3(0.0);
+    s.lightmap = vec3(0.0);
+    s.lightmapped = false;
+    s.object_irradiance = vec3(0.0);  // not stored
+    removeLayers(s);
+    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
+    s.dielectric_f90 = 1.0;
+    if (fullGBuffer())
+        decodeFull(t, s);
+    else
+        decodePacked(t, s);
+    s.triangle_normal = s.geometric_normal;
+    if (decodesLayers()) decodeLayers(layersIn(t), s);
     return s;
 }
 

@@ -23,6 +23,7 @@ GBUFFER_IMAGE(GBUFFER_LAYERS, gbuffer_layers)
 GBUFFER_IMAGE(GBUFFER_LAYERS_2, gbuffer_layers_2)
 GBUFFER_IMAGE(GBUFFER_LAYERS_3, gbuffer_layers_3)
 GBUFFER_IMAGE(GBUFFER_LAYERS_4, gbuffer_layers_4)
+GBUFFER_IMAGE(GBUFFER_LAYERS_5, gbuffer_layers_5)
 #undef GBUFFER_IMAGE
 layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform utexture2DMS gbuffer_shaded_samples;
 
@@ -40,12 +41,31 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
     if (on(feature_dielectric_specular)) t.attachments[GBUFFER_SPECULAR] = FETCHED(gbuffer_specular, p, i);
     if (on(feature_gbuffer_wide_material_id)) t.attachments[GBUFFER_IDS] = FETCHED(gbuffer_ids, p, i);
     if (on(feature_lightmap)) t.attachments[GBUFFER_LIGHTMAP] = FETCHED(gbuffer_lightmap, p, i);
-    if (hasLayerAttachment(0)) t.attachments[GBUFFER_LAYERS] = FETCHED(gbuffer_layers, p, i);
-    if (hasLayerAttachment(1)) t.attachments[GBUFFER_LAYERS_2] = FETCHED(gbuffer_layers_2, p, i);
-    if (hasLayerAttachment(2)) t.attachments[GBUFFER_LAYERS_3] = FETCHED(gbuffer_layers_3, p, i);
-    if (hasLayerAttachment(3)) t.attachments[GBUFFER_LAYERS_4] = FETCHED(gbuffer_layers_4, p, i);
+    if (decodesLayers()) {
+        if (hasLayerAttachment(0)) t.attachments[GBUFFER_LAYERS] = FETCHED(gbuffer_layers, p, i);
+        if (hasLayerAttachment(1)) t.attachments[GBUFFER_LAYERS_2] = FETCHED(gbuffer_layers_2, p, i);
+        if (hasLayerAttachment(2)) t.attachments[GBUFFER_LAYERS_3] = FETCHED(gbuffer_layers_3, p, i);
+        if (hasLayerAttachment(3)) t.attachments[GBUFFER_LAYERS_4] = FETCHED(gbuffer_layers_4, p, i);
+        if (hasLayerAttachment(4)) t.attachments[GBUFFER_LAYERS_5] = FETCHED(gbuffer_layers_5, p, i);
+    }
     if (multisampled()) t.attachments[GBUFFER_SHADED] = texelFetch(gbuffer_shaded_samples, p, i);
     return t;
+}
+
+// The bits of the first `words` components, which the attachment has: others are not 0.
+uint bitsOf(uvec4 texel, uint words) {
+    return texel.x | (words > 1u ? texel.y : 0u) | (words > 2u ? texel.z | texel.w : 0u);
+}
+
+// 0 if a sample stores no layer: the words of layers that it lacks are 0.
+uint layerBits(ivec2 p, int i) {
+    uint bits = 0u, words = layerWords();
+    if (hasLayerAttachment(0)) bits |= bitsOf(FETCHED(gbuffer_layers, p, i), words);
+    if (hasLayerAttachment(1)) bits |= bitsOf(FETCHED(gbuffer_layers_2, p, i), words - 4u);
+    if (hasLayerAttachment(2)) bits |= bitsOf(FETCHED(gbuffer_layers_3, p, i), words - 8u);
+    if (hasLayerAttachment(3)) bits |= bitsOf(FETCHED(gbuffer_layers_4, p, i), words - 12u);
+    if (hasLayerAttachment(4)) bits |= bitsOf(FETCHED(gbuffer_layers_5, p, i), words - 16u);
+    return bits;
 }
 
 // Surface of a sample; z is the reversed depth at which it is shaded.

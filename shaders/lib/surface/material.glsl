@@ -13,23 +13,10 @@
 #include "shaders/lib/surface/specular_aa.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
-layout(set = SET_MATERIAL, binding = SLOT_base_color) uniform sampler2D base_color_texture;
-layout(set = SET_MATERIAL, binding = SLOT_metallic_roughness) uniform sampler2D metallic_roughness_texture;
-layout(set = SET_MATERIAL, binding = SLOT_normal) uniform sampler2D normal_texture;
-layout(set = SET_MATERIAL, binding = SLOT_occlusion) uniform sampler2D occlusion_texture;
-layout(set = SET_MATERIAL, binding = SLOT_emissive) uniform sampler2D emissive_texture;
-layout(set = SET_MATERIAL, binding = SLOT_specular) uniform sampler2D specular_texture;
-layout(set = SET_MATERIAL, binding = SLOT_specular_color) uniform sampler2D specular_color_texture;
-layout(set = SET_MATERIAL, binding = SLOT_lightmap) uniform sampler2D lightmap_texture;
-layout(set = SET_MATERIAL, binding = SLOT_clearcoat) uniform sampler2D clearcoat_texture;
-layout(set = SET_MATERIAL, binding = SLOT_clearcoat_roughness) uniform sampler2D clearcoat_roughness_texture;
-layout(set = SET_MATERIAL, binding = SLOT_clearcoat_normal) uniform sampler2D clearcoat_normal_texture;
-layout(set = SET_MATERIAL, binding = SLOT_anisotropy) uniform sampler2D anisotropy_texture;
-layout(set = SET_MATERIAL, binding = SLOT_sheen_color) uniform sampler2D sheen_color_texture;
-layout(set = SET_MATERIAL, binding = SLOT_sheen_roughness) uniform sampler2D sheen_roughness_texture;
-layout(set = SET_MATERIAL, binding = SLOT_iridescence) uniform sampler2D iridescence_texture;
-layout(set = SET_MATERIAL, binding = SLOT_iridescence_thickness)
-uniform sampler2D iridescence_thickness_texture;
+#define SLOT_TEXTURE(number, name) \
+    layout(set = SET_MATERIAL, binding = number) uniform sampler2D name##_texture;
+MATERIAL_SLOTS(SLOT_TEXTURE)
+#undef SLOT_TEXTURE
 
 // Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
 // break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
@@ -90,6 +77,16 @@ vec4 sheenColorTexel() {
 vec4 sheenRoughnessTexel() {
     if (feature_sheen_roughness_texture == TEXEL_SHARED) return sheenColorTexel();
     return slotTexel(sheen_roughness_texture, SLOT_sheen_roughness, feature_sheen_roughness_texture);
+}
+
+vec4 diffuseTransmissionColorTexel() {
+    return slotTexel(diffuse_transmission_color_texture, SLOT_diffuse_transmission_color,
+                     feature_diffuse_transmission_color_texture);
+}
+vec4 diffuseTransmissionTexel() {
+    if (feature_diffuse_transmission_texture == TEXEL_SHARED) return diffuseTransmissionColorTexel();
+    return slotTexel(diffuse_transmission_texture, SLOT_diffuse_transmission,
+                     feature_diffuse_transmission_texture);
 }
 
 vec4 baseColor() {
@@ -307,11 +304,35 @@ void addFilm(Material m, inout Surface s) {
     s.iridescence_thickness = there ? thickness : 0.0;
 }
 
-Surface surfaceFromMaterial(vec4 base_color) {
-    Material m = material;
+void addDiffuseTransmission(Material m, inout Surface s) {
+    float weight = m.diffuse_transmission;
+    vec3 color = m.diffuse_transmission_color;
+    if (on(feature_diffuse_transmission_texture)) weight *= diffuseTransmissionTexel().a;
+    if (on(feature_diffuse_transmission_color_texture)) color *= diffuseTransmissionColorTexel().rgb;
+    s.diffuse_transmission = weight;
+    s.diffuse_transmission_color = weight > 0.0 ? color : vec3(0.0);
+}
+
+void addTransmission(Material m, float alpha, inout Surface s) {
+    s.coverage = feature_transmission == TRANSMISSION_COVERED ? clamp(alpha, 0.0, 1.0) : 1.0;
+    s.transmission = m.transmission;
+    if (on(feature_transmission_texture))
+        s.transmission *= slotTexel(transmission_texture, SLOT_transmission, feature_transmission_texture).r;
+    float thickness = m.thickness * constants.scale;
+    if (on(feature_thickness_texture))
+        thickness *= slotTexel(thickness_texture, SLOT_thickness, feature_thickness_texture).g;
+    bool there = s.transmission > 0.0;
+    s.ior = there ? m.ior : 0.0;
+    s.thickness = there ? thickness : 0.0;
+    s.attenuation_color = there ? m.attenuation_color : vec3(0.0);
+    s.attenuation_distance = there ? m.attenuation_distance : 0.0;
+    s.dispersion = there ? m.dispersion : 0.0;
+}
+
+// Fields that unlit materials have too; the lightmap and the layers have no effect yet.
+Surface surfaceAt(vec3 towards) {
     Surface s;
     s.position = positionFromDepth(shadedPixel(), fragmentDepth());
-    vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
     s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
     s.triangle_normal = s.geometric_normal;
     s.normal = shadingNormal(towards);
@@ -328,22 +349,26 @@ Surface surfaceFromMaterial(vec4 base_color) {
     s.lightmapped = on(feature_lightmap_texture);
     s.object_irradiance = vec3(0.0);
     removeLayers(s);
-    s.transmission = on(feature_transmission) ? m.transmission : 0.0;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=
             on(feature_double_sided) && !gl_FrontFacing ? shaded_irradiance_behind : shaded_irradiance;
     if ((feature_object_lights & OBJECT_LIGHTS_SH) != 0) s.object_irradiance += harmonicIrradiance(s.normal);
-    if (on(feature_unlit)) {  // see contract/material.h
-        s.albedo = vec3(0.0);
-        s.metallic = 0.0;
-        s.roughness = 1.0;
-        s.occlusion = 1.0;
-        s.emission = base_color.rgb;
-        s.dielectric_f0 = vec3(0.0);
-        s.dielectric_f90 = 0.0;
-        return s;
-    }
-    s.albedo = base_color.rgb;
+    return s;
+}
+
+// See contract/material.h.
+void makeUnlit(vec3 base_color, inout Surface s) {
+    s.albedo = vec3(0.0);
+    s.metallic = 0.0;
+    s.roughness = 1.0;
+    s.occlusion = 1.0;
+    s.emission = base_color;
+    s.dielectric_f0 = vec3(0.0);
+    s.dielectric_f90 = 0.0;
+}
+
+void addBase(Material m, vec3 base_color, inout Surface s) {
+    s.albedo = base_color;
     s.metallic = m.metallic;
     s.roughness = m.roughness;
     if (on(feature_metallic_roughness_texture)) {
@@ -368,10 +393,9 @@ Surface surfaceFromMaterial(vec4 base_color) {
         vec4 texel = slotTexel(lightmap_texture, SLOT_lightmap, feature_lightmap_texture);
         s.lightmap = m.lightmap_intensity * texel.rgb;
     }
-    if (hasLayer(LAYER_CLEARCOAT)) addClearcoat(m, towards, s);
-    if (hasLayer(LAYER_ANISOTROPY)) addAnisotropy(m, s);
-    if (hasLayer(LAYER_SHEEN)) addSheen(m, s);
-    if (hasLayer(LAYER_IRIDESCENCE)) addFilm(m, s);
+}
+
+void addSpecular(Material m, inout Surface s) {
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {
@@ -383,6 +407,24 @@ Surface surfaceFromMaterial(vec4 base_color) {
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
     if (on(feature_specular_glossiness)) s.albedo *= 1.0 - largestOf(s.dielectric_f0);
+}
+
+Surface surfaceFromMaterial(vec4 base_color) {
+    Material m = material;
+    vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
+    Surface s = surfaceAt(towards);
+    if (on(feature_unlit)) {
+        makeUnlit(base_color.rgb, s);
+        return s;
+    }
+    addBase(m, base_color.rgb, s);
+    if (hasLayer(LAYER_CLEARCOAT)) addClearcoat(m, towards, s);
+    if (hasLayer(LAYER_ANISOTROPY)) addAnisotropy(m, s);
+    if (hasLayer(LAYER_SHEEN)) addSheen(m, s);
+    if (hasLayer(LAYER_IRIDESCENCE)) addFilm(m, s);
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) addDiffuseTransmission(m, s);
+    if (on(feature_transmission)) addTransmission(m, base_color.a, s);
+    addSpecular(m, s);
     return s;
 }
 

@@ -30,7 +30,16 @@ struct Surface {
     float iridescence;      // KHR_materials_iridescence: weight of the film; 0: none, and so are its values
     float iridescence_ior;
     float iridescence_thickness;  // nm
-    float transmission;     // fraction of entering light transmitted without diffusion; blended draws
+    float diffuse_transmission;  // KHR_materials_diffuse_transmission: weight; 0: none, and so is its colour
+    vec3 diffuse_transmission_color;  // linear Rec.709
+    float transmission;     // KHR_materials_transmission: weight; 0: none, and so are its values. Only draws
+                            // after opaque surfaces.
+    float ior;              // 0: infinite
+    float thickness;        // KHR_materials_volume: of a slab, m; 0: a thin wall
+    vec3 attenuation_color;      // of white light after attenuation_distance, m; 0: nothing is absorbed
+    float attenuation_distance;
+    float dispersion;       // KHR_materials_dispersion: 20 / Abbe number
+    float coverage;         // with transmission: alpha, 0 to 1
     uint material_id;
     vec2 texcoord;          // forward+ only
     // Tangent frame and texel of a normal map; 0 without one or if its scale is 0. Only for forward+
@@ -55,6 +64,10 @@ void removeLayers(inout Surface s) {
     s.anisotropy_turn = vec2(0.0);
     s.sheen_color = vec3(0.0);
     s.sheen_roughness = s.iridescence = s.iridescence_ior = s.iridescence_thickness = 0.0;
+    s.transmission = s.ior = s.thickness = s.attenuation_distance = s.dispersion = 0.0;
+    s.attenuation_color = s.diffuse_transmission_color = vec3(0.0);
+    s.diffuse_transmission = 0.0;
+    s.coverage = 1.0;
 }
 
 // Two unit vectors perpendicular to the unit vector `n`, right-handed with it (Duff et al. 2017, "Building

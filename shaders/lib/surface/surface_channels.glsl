@@ -50,7 +50,10 @@ Surface surfaceFromChannels(ivec2 p) {
         s.iridescence_ior = texelFetch(channel_iridescence_ior, p, 0).r;
         s.iridescence_thickness = texelFetch(channel_iridescence_thickness, p, 0).r;
     }
-    s.transmission = 0.0;
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
+        s.diffuse_transmission = texelFetch(channel_diffuse_transmission, p, 0).r;
+        s.diffuse_transmission_color = texelFetch(channel_diffuse_transmission_color, p, 0).rgb;
+    }
     s.material_id = 0u;
     s.texcoord = vec2(0.0);
     s.tangent = vec3(0.0);

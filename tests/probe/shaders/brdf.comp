@@ -18,8 +18,8 @@ void main() {
     s.dielectric_f90 = IN(11, 10);
     s.transmission = 0.25;  // read only with feature_transmission
     vec3 v = IN3(11, 0), l = IN3(11, 3);
-    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    addLight(makeBrdf(s, v), s.normal, v, l, vec3(1.0), false, diffuse, specular);
-    OUT(2, 0) = diffuse.r;
-    OUT(2, 1) = specular.r;
+    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
+    addLight(makeBrdf(s, v), s.normal, v, Incident(l, vec3(1.0)), false, reflected);
+    OUT(2, 0) = reflected.diffuse.r;
+    OUT(2, 1) = reflected.specular.r;
 }

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+
 namespace diptych {
 namespace {
 
@@ -35,6 +38,16 @@ TEST(PrepassChoice, WhatIsHiddenIsSaved) {
     EXPECT_FALSE(choiceFor(2, 51).on) << "200 ms saved of 4 million fragments that take 204 ms";
     EXPECT_TRUE(choiceFor(2, 1, 195).on);
     EXPECT_FALSE(choiceFor(2, 1, 197).on) << "a million triangles take 197 ms, fragments 4 ms";
+}
+
+TEST(PrepassChoice, AnEmptyPictureHasNoFragmentsPerPixel) {
+    const auto says = [](std::uint64_t covered, const char* fragments) {
+        const PrepassChoice choice =
+            choosePrepass({.triangles = 1, .fragments = 3, .covered = covered, .textures = 0}, 1, {});
+        return choice.because.find(fragments) != std::string::npos;
+    };
+    EXPECT_TRUE(says(0, ": 0.00 fragments per covered pixel"));
+    EXPECT_TRUE(says(1, ": 3.00 fragments per covered pixel"));
 }
 
 }  // namespace

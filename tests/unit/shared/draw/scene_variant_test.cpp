@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which Settings compile pipelines anew.
+// Settings that compile pipelines anew.
 #include "shared/contract/features.h"
 #include "shared/draw/frame_inputs.h"
 

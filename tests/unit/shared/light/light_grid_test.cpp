@@ -44,7 +44,7 @@ std::vector<Light> pointsAhead(std::size_t count, float range) {
 gpu::LightGrid gridOf(gpu::uint lists, const View& view, const std::vector<Light>& lights,
                       const DeviceCosts& costs = costsOf("cpu")) {
     const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
-    return makeLightGrid(lists, false, view, gpu, lightBounds(gpu, view), costs, lavapipes);
+    return makeLightGrid({lists}, view, gpu, lightBounds(gpu, view), costs, lavapipes);
 }
 
 std::tuple<gpu::uint, gpu::uint, gpu::uint> cellSizeOf(const gpu::LightGrid& grid) {

@@ -51,14 +51,26 @@ gpu::uint plannedTexel(gpu::uint slot, const Material& material, const Scene& sc
 
 TEST(TexelPlan, AnImageHasOneColorWhereASlotReadsIt) {
     const std::vector<std::pair<gpu::uint, std::string>> reads = {
-        {gpu::SLOT_base_color, "rgba"},      {gpu::SLOT_metallic_roughness, "gb"},
-        {gpu::SLOT_normal, "rgb"},           {gpu::SLOT_occlusion, "r"},
-        {gpu::SLOT_emissive, "rgb"},         {gpu::SLOT_specular, "a"},
-        {gpu::SLOT_specular_color, "rgb"},   {gpu::SLOT_lightmap, "rgb"},
-        {gpu::SLOT_clearcoat, "r"},          {gpu::SLOT_clearcoat_roughness, "g"},
-        {gpu::SLOT_clearcoat_normal, "rgb"}, {gpu::SLOT_anisotropy, "rgb"},
-        {gpu::SLOT_sheen_color, "rgb"},      {gpu::SLOT_sheen_roughness, "a"},
-        {gpu::SLOT_iridescence, "r"},        {gpu::SLOT_iridescence_thickness, "g"}};
+        {gpu::SLOT_base_color, "rgba"},
+        {gpu::SLOT_metallic_roughness, "gb"},
+        {gpu::SLOT_normal, "rgb"},
+        {gpu::SLOT_occlusion, "r"},
+        {gpu::SLOT_emissive, "rgb"},
+        {gpu::SLOT_specular, "a"},
+        {gpu::SLOT_specular_color, "rgb"},
+        {gpu::SLOT_lightmap, "rgb"},
+        {gpu::SLOT_clearcoat, "r"},
+        {gpu::SLOT_clearcoat_roughness, "g"},
+        {gpu::SLOT_clearcoat_normal, "rgb"},
+        {gpu::SLOT_anisotropy, "rgb"},
+        {gpu::SLOT_sheen_color, "rgb"},
+        {gpu::SLOT_sheen_roughness, "a"},
+        {gpu::SLOT_iridescence, "r"},
+        {gpu::SLOT_iridescence_thickness, "g"},
+        {gpu::SLOT_transmission, "r"},
+        {gpu::SLOT_thickness, "g"},
+        {gpu::SLOT_diffuse_transmission, "a"},
+        {gpu::SLOT_diffuse_transmission_color, "rgb"}};
     ASSERT_EQ(reads.size(), gpu::SLOT_COUNT);
     for (const auto& [slot, components] : reads)
         for (std::size_t c = 0; c < 4; ++c) {
@@ -86,7 +98,7 @@ TEST(TexelPlan, OneColorIsAFactor) {
     scene.images[0].rgba.assign(scene.images[0].rgba.size(), 9);
     Material m;
     m.emissive = {1, 1, 1};
-    m.clearcoat = m.anisotropy = m.iridescence = 1;
+    m.clearcoat = m.anisotropy = m.iridescence = m.transmission = m.thickness = m.diffuse_transmission = 1;
     m.sheen_color = {1, 1, 1};
     for (const MaterialSlot& slot : materialSlots) (m.*slot.texture).texture = 0;
     for (const gpu::uint texel : plannedTexels(m, scene)) EXPECT_EQ(texel, gpu::TEXEL_CONSTANT);
@@ -156,6 +168,34 @@ TEST(TexelPlan, ASheensRoughnessSharesTheSampleOfItsColour) {
     other = m;
     other.sheen_roughness_texture.texcoord = 1;
     EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, other, scene), gpu::TEXEL_OWN) << "another UV set";
+}
+
+// The weight of diffuse transmission is the alpha of its colour.
+TEST(TexelPlan, DiffuseTransmissionSharesTheSampleOfItsColour) {
+    const Scene scene = fourImages();
+    Material m;
+    m.diffuse_transmission = 1;
+    m.diffuse_transmission_color_texture.texture = m.diffuse_transmission_texture.texture = 0;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission_color, m, scene), gpu::TEXEL_OWN);
+    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission, m, scene), gpu::TEXEL_SHARED);
+    m.diffuse_transmission_texture.texcoord = 1;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission, m, scene), gpu::TEXEL_OWN) << "another UV set";
+}
+
+// A thickness texture needs both transmission and a thickness; without transmission nothing reads either.
+TEST(TexelPlan, TransmissionOfFactorZeroReadsNothing) {
+    const Scene scene = fourImages();
+    Material m;
+    m.transmission_texture.texture = m.thickness_texture.texture = 0;
+    m.diffuse_transmission_texture.texture = m.diffuse_transmission_color_texture.texture = 0;
+    m.thickness = 1;
+    EXPECT_EQ(plannedTexels(m, scene), SlotTexels{});
+    m.transmission = 1;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_transmission, m, scene), gpu::TEXEL_OWN);
+    EXPECT_EQ(plannedTexel(gpu::SLOT_thickness, m, scene), gpu::TEXEL_OWN);
+    m.thickness = 0;
+    EXPECT_EQ(plannedTexel(gpu::SLOT_thickness, m, scene), 0u);
+    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission, m, scene), 0u);
 }
 
 TEST(TexelPlan, RoughnessAndMetallicAreInAlphasOfOpaqueSurfaces) {
