@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "deferred/compute_lighting.h"
 
+#include "deferred/lighting_tiles.h"
 #include "deferred/lighting_variant.h"
 #include "shared/contract/samples.h"
 #include "shared/draw/light_batches.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace diptych {
 
@@ -49,10 +51,20 @@ void addDispatch(PassList& passes, Pass& pass, const FrameInputs& inputs, const 
     });
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_LIGHTING));
     variant.set(gpu::FEATURE_light_batch, batch.kind);
-    const VkPipeline pipeline = inputs.pipelines.compute(dispatch.shader, variant, inputs.layouts.pipeline);
-    pass.recordRows(lightingGroups(passes.height()),
-                    recordDispatch(inputs, pipeline, std::move(sets), batch, lightingGroups(passes.width()),
-                                   dispatch.group));
+    const auto pipelineOf = [&](const Variant& of) {
+        return inputs.pipelines.compute(dispatch.shader, of, inputs.layouts.pipeline);
+    };
+    if (!frame.tiles) {
+        pass.recordRows(lightingGroups(passes.height()),
+                        recordDispatch(inputs, pipelineOf(variant), std::move(sets), batch,
+                                       lightingGroups(passes.width()), dispatch.group));
+        return;
+    }
+    std::vector<VkPipeline> pipelines;
+    for (const Variant& of_class : tileVariants(variant)) pipelines.push_back(pipelineOf(of_class));
+    pass.recordRows(TileLayout(passes).dispatches,
+                    recordTileDispatches(inputs, readTiles(passes, pass, frame, inCompute, pipelines),
+                                         std::move(sets), batch, dispatch.group));
 }
 static_assert(gpu::BINDING_SPECULAR_TARGET == gpu::BINDING_LIT_TARGET + 1);
 

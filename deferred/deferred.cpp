@@ -2,6 +2,7 @@
 #include "deferred/deferred.h"
 
 #include "deferred/compute_lighting.h"
+#include "deferred/lighting_tiles.h"
 #include "deferred/lighting_variant.h"
 #include "deferred/sample_groups.h"
 #include "shared/contract/debug_mode.h"
@@ -14,20 +15,27 @@
 #include "shared/draw/resolve.h"
 #include "shared/shadow/shadow_maps.h"
 #include "shared/transparent/transparent.h"
+#include "shared/vulkan/resources.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
 
 namespace {
 
-PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool captured) {
+// `attachments`: GBUFFER_* that the pass draws.
+PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item,
+                       const std::vector<gpu::uint>& attachments, bool captured) {
     std::vector<VkFormat> formats;
-    for (const VkFormat format : inputs.gbuffer.formats)
-        if (format != VK_FORMAT_UNDEFINED) formats.push_back(format);
+    for (const gpu::uint i : attachments) formats.push_back(inputs.gbuffer.formats[i]);
     constexpr FeatureMask read = featuresReadBy(gpu::PASS_GBUFFER);
     PipelineKey key{.vertex = Shader::surface_vert,
                     .fragment = Shader::gbuffer_frag,
@@ -43,6 +51,22 @@ PipelineKey gbufferKey(const FrameInputs& inputs, const DrawItem& item, bool cap
     return key;
 }
 
+bool hasLayers(const DrawItem& item, gpu::uint layers) {
+    return (item.variant.get(gpu::FEATURE_layers) & layers) != 0;
+}
+
+PipelineKey secondGBufferKey(const FrameInputs& inputs, const DrawItem& item, const GBufferPasses& parts) {
+    PipelineKey key = gbufferKey(inputs, item, parts.second, false);
+    key.fragment = Shader::gbuffer_layers_frag;
+    key.depth_compare = VK_COMPARE_OP_EQUAL;
+    key.depth_write = false;
+    // Surfaces without such layers write 0; of their material only the mask matters.
+    if (!hasLayers(item, parts.second_layers))
+        key.variant = key.variant.only(featuresReadBy(gpu::PASS_DEPTH) | featuresSetBy(FeatureSource::frame) |
+                                       featuresSetBy(FeatureSource::gbuffer));
+    return key;
+}
+
 struct LightingDraw {
     Shader fragment;
     Variant variant;
@@ -52,7 +76,8 @@ struct LightingDraw {
 
 // A full-screen pass over the G-buffer. Its triangle lies at the smallest drawable depth, so a depth test
 // of LESS_OR_EQUAL skips pixels without geometry (depth 0) before shading. With MSAA the depth is
-// frame.groups of addGroups(), and there is a triangle for each of the first `groups` sample groups.
+// frame.groups of addGroups(), and there is a triangle for each of the first `groups` sample groups. With
+// frame.tiles each class of tiles is drawn instead, by its own variant.
 void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs, const FrameImages& frame,
                          LightingDraw draw, const LightBatch& batch) {
     for (const ImageRef image : frame.gbuffer)
@@ -63,17 +88,27 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     pass.samples(frame.depth, inFragment).depthTest(frame.depth).takes(shadingMs(passes, inputs, batch));
     draw.variant.set(gpu::FEATURE_light_batch, batch.kind);
     const DepthStorage drawn = frame.groups.valid() ? DepthStorage() : inputs.depth;
-    const VkPipeline pipeline =
-        inputs.pipelines.get(drawn.stored({.vertex = Shader::deferred_lighting_vert,
-                                           .fragment = draw.fragment,
-                                           .variant = draw.variant,
-                                           .input = NO_VERTICES,
-                                           .colors = draw.colors,
-                                           .depth = depthFormat,
-                                           .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
-                                           .depth_write = false,
-                                           .samples = inputs.samples}));
-    pass.record(recordFullScreen(inputs, pipeline, gbufferSet(passes, inputs, frame), batch, draw.groups));
+    const auto keyOf = [&](const Variant& variant) {
+        return drawn.stored({.vertex = Shader::deferred_lighting_vert,
+                             .fragment = draw.fragment,
+                             .variant = variant,
+                             .input = NO_VERTICES,
+                             .colors = draw.colors,
+                             .depth = depthFormat,
+                             .depth_compare = VK_COMPARE_OP_LESS_OR_EQUAL,
+                             .depth_write = false,
+                             .samples = inputs.samples});
+    };
+    DescriptorSets sets = gbufferSet(passes, inputs, frame);
+    if (!frame.tiles) {
+        const VkPipeline pipeline = inputs.pipelines.get(keyOf(draw.variant));
+        pass.record(recordFullScreen(inputs, pipeline, std::move(sets), batch, draw.groups));
+        return;
+    }
+    std::vector<PipelineKey> keys;
+    for (const Variant& variant : tileVariants(draw.variant)) keys.push_back(keyOf(variant));
+    pass.record(recordTiles(inputs, readTiles(passes, pass, frame, inVertex, inputs.pipelines.get(keys)),
+                            std::move(sets), batch, draw.groups));
 }
 
 // Inputs of lighting: G-buffer and depth. Under MSAA the sample-group image replaces depth.
@@ -83,13 +118,28 @@ FrameImages forLighting(const FrameImages& frame) {
     return read;
 }
 
+// Draws the layers that the first pass has no attachments for. Surfaces without such layers that follow the
+// first one with them write 0: of two surfaces at the same depth, the later is stored.
+void addSecondGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images,
+                      const GBufferPasses& parts) {
+    Pass& pass = readGeometry(passes, passes.draw("G-buffer of layers"), inputs).depthTest(images.depth);
+    for (const gpu::uint i : parts.second) pass.color(images.gbuffer[i], Load::clear);
+    const std::span<const DrawItem> stored = inputs.draws.storedSolids();
+    const auto first = std::ranges::find_if(
+        stored, [&](const DrawItem& item) { return hasLayers(item, parts.second_layers); });
+    pass.record(recordDraws(inputs, stored.subspan(static_cast<std::size_t>(first - stored.begin())),
+                            [&](const DrawItem& item) { return secondGBufferKey(inputs, item, parts); }));
+}
+
 // Draws the scene into depth and G-buffer. `captured`: with data that only channels need.
 void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& images, bool captured) {
+    const GBufferPasses parts = gbufferPasses(inputs.gbuffer);
     Pass& pass = readGeometry(passes, passes.draw("G-buffer"), inputs).depth(images.depth, Load::clear);
-    for (const ImageRef image : images.gbuffer)
-        if (image.valid()) pass.color(image, Load::clear);
-    pass.record(recordDraws(inputs, inputs.draws.storedSolids(),
-                            [&](const DrawItem& item) { return gbufferKey(inputs, item, captured); }));
+    for (const gpu::uint i : parts.first) pass.color(images.gbuffer[i], Load::clear);
+    pass.record(recordDraws(inputs, inputs.draws.storedSolids(), [&](const DrawItem& item) {
+        return gbufferKey(inputs, item, parts.first, captured);
+    }));
+    if (!parts.second.empty()) addSecondGBuffer(passes, inputs, images, parts);
 }
 
 // Adds the depth of solids that are shaded after lighting. Lighting shades their pixels in vain.
@@ -107,8 +157,9 @@ void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& im
     const auto add = [&](Pass& pass, const LightBatch& batch, const auto& key) {
         pass.depthTest(images.depth);
         inputs.shadow.read(pass);
-        addForwardDraws(pass, passes, inputs, images, {inputs.draws.apartSolids()}, batch,
-                        [&](const DrawItem& item) { return key(item, batch); });
+        addForwardDraws(pass, passes, inputs, images,
+                        {inputs.draws.apartSolids(), [&](const DrawItem& item) { return key(item, batch); }},
+                        batch);
     };
     const LightBatch last = addEarlierBatches(
         passes, inputs,
@@ -186,6 +237,17 @@ void addCleared(PassList& passes, const FrameInputs& inputs, FrameImages& images
 
 }  // namespace
 
+std::vector<std::string> prepareDeferred(FrameInputs& inputs, const Settings&) {
+    const GBufferPasses parts = gbufferPasses(inputs.gbuffer);
+    if (parts.second.empty() || storesNothing(inputs)) return {};
+    std::uint32_t bytes = 0;
+    for (const gpu::uint i : parts.second) bytes += bytesPerTexel(inputs.gbuffer.formats[i]);
+    return {fmt::format(
+        "a second G-buffer pass draws {} of {} attachments, {} bytes per pixel: a pass has at most {}",
+        parts.second.size(), parts.first.size() + parts.second.size(),
+        bytes * static_cast<std::uint32_t>(inputs.samples), gpu::MAX_COLOR_ATTACHMENTS)};
+}
+
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     FrameImages images;
     addGeometryPasses(passes, inputs);
@@ -204,6 +266,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
     addDepthOfApart(passes, inputs, images);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     const FurtherGroups further = addGroups(passes, inputs, images);
+    addTiles(passes, inputs, images);
     const FrameImages shaded = forLighting(images);
     const bool computes = inputs.lighting == Lighting::compute, stores = further.any() || computes;
     const ImageRef lit = passes.image({.name = "lit",
@@ -236,7 +299,8 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
         addGBuffer(passes, inputs, frame, true);
         addDepthOfApart(passes, inputs, frame);
     }
-    const FrameImages shaded = forLighting(frame);
+    FrameImages shaded = forLighting(frame);
+    shaded.tiles = nullptr;  // one variant draws a channel
     const LightBatch last = stored ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
     for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);

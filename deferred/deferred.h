@@ -5,9 +5,13 @@
 #include "shared/draw/captures.h"
 #include "shared/draw/frame_inputs.h"
 
+#include <string>
 #include <vector>
 
 namespace diptych {
+
+// Returns a note about the second G-buffer pass, if the scene needs one.
+std::vector<std::string> prepareDeferred(FrameInputs& inputs, const Settings& settings);
 
 // Adds the passes of a timed frame. `inputs` must outlive the list.
 FrameImages addDeferred(PassList& passes, const FrameInputs& inputs);

@@ -326,8 +326,8 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     check(lightmaps.paths(GBufferEncoding::standard), " wide ");
 }
 
-// The reference samples until its 95 % confidence interval is within 1 %. Of some thousand pixels the
-// worst may deviate by three times that (one deviated by 2.1 %).
+// The reference samples until its 95 % confidence interval is within 1 %. The worst of
+// some thousand pixels may deviate by three times that (one deviated by 2.1 %).
 TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
     const LightmapsUnderSky lightmaps;
     const Frame truth = lightmaps.reference();

@@ -51,7 +51,7 @@ gpu::LightGrid froxelsOf(const Scene& scene) {
     const Pose pose = poseAt(scene, 0);
     const View view = makeView(scene, pose, "", cutOff.width, cutOff.height);
     const GpuLights lights = gpuLights(pose.lights, view.eye());
-    return makeLightGrid(gpu::LISTS_CLUSTERED, false, view, lights, lightBounds(lights, view),
+    return makeLightGrid({gpu::LISTS_CLUSTERED}, view, lights, lightBounds(lights, view),
                          device().profile().costs, std::uint64_t{128} << 20);
 }
 

@@ -2,7 +2,7 @@
 // Deferred lighting in fragment and compute shaders (--lighting) gives the same bits.
 #include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
-#include "shared/contract/samples.h"
+#include "shared/contract/lighting_tiles.h"
 #include "tests/image/shadow_scenes.h"
 
 #include <fmt/format.h>

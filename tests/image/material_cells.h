@@ -56,7 +56,7 @@ struct Cell {
     bool specular_glossiness = false;
     CellColors colors = CellColors::none;
     glm::dvec4 color{1};  // the same at all vertices, exactly representable
-    // Of the node, along the axes of the square's object space, in which it faces +Z like the wall.
+    // The node's, along the axes of the square's object space, in which it faces +Z like the wall.
     glm::dvec3 scale{1};
     bool turned = false;         // by 180 degrees about Y
     bool tangents_made = false;  // the file has none

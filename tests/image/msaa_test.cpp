@@ -5,6 +5,8 @@
 #include "tests/image/square.h"
 #include "tests/support/campaign.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -171,6 +173,47 @@ TEST(Msaa, ListsHoldEveryLightOfAPixel) {
                 EXPECT_EQ(differingPixels(every.channels.at(lit), listed.channels.at(lit)), 0u)
                     << nameOf(assign) << " " << nameOf(path) << " " << nameOf(shading);
             }
+    }
+}
+
+// Of a square that covers all samples of every pixel, at a distance of 1 m: channels are of the first sample,
+// which is shaded at the mean of all of its triangle, or at its own location.
+TEST(Msaa, SamplesAreShadedAtTheirMeanOrEach) {
+    constexpr auto position = static_cast<int>(gpu::DEBUG_position);
+    const Scene scene = square();
+    Renderer renderer(device(), scene, pipelines());
+    for (const auto& [shading, place] :
+         {std::pair{MsaaShading::pixel, glm::vec2(0.5f)}, {MsaaShading::sample, glm::vec2(0.375f, 0.125f)}})
+        for (const Frame& frame : bothPaths(renderer, sampled({4, 4}, shading), {position}))
+            for (int y = 0; y < 4; ++y)
+                for (int x = 0; x < 4; ++x) {
+                    if (x + y == 3) continue;  // both triangles cover it
+                    const glm::vec2 at = (glm::vec2(x, y) + place) / 2.0f;
+                    expectColor(colorAt(frame, position, x, y), {at.x - 1, 1 - at.y, -1}, 1e-5f,
+                                fmt::format("{} {} {},{}", frame.name, nameOf(shading), x, y));
+                }
+}
+
+// A speck before the square covers one sample. Its depth, 0.5 m, is the least that shadows are fitted to.
+TEST(Msaa, ShadowsAreFittedToEverySample) {
+    Settings settings = sampled({4, 4});
+    settings.shadows = Shadows::pcf;
+    settings.shadow_fit = ShadowFit::depth;
+    for (const glm::vec2 sample :
+         {glm::vec2(0.375f, 0.125f), {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}) {
+        Scene scene = square();
+        Light sun;
+        sun.kind = LightKind::directional;
+        sun.direction = {0, 0, -1};
+        scene.lights = {sun};
+        const glm::vec2 at = (glm::vec2(2, 1) + sample) / 4.0f;
+        scene.meshes[0].primitives.push_back(
+            rectangle({at.x - 0.51f, 0.49f - at.y, 0.5f}, {0.02f, 0, 0}, {0, 0.02f, 0}));
+        Renderer renderer(device(), scene, pipelines());
+        const std::vector<std::string> notes = litOf(renderer, settings, Path::deferred).notes;
+        EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
+            return note.find("visible depths, 0.5 to 1 m") != std::string::npos;
+        })) << fmt::format("{}", fmt::join(notes, "\n"));
     }
 }
 

@@ -288,6 +288,16 @@ TEST(PassKinds, TransientsOfOneMemoryKeepTheirContentsWhileTheyLive) {
     EXPECT_EQ(passes.sharedBytes(), 2u * 7 * 5 * 16);
 }
 
+// A mip chain has a third more texels than its picture.
+TEST(PassKinds, LevelsCountAmongBytesPerPixel) {
+    PassList passes(device(), 16, 8);
+    const ImageRef chain = passes.image({.name = "chain", .format = colorFormat, .levels = 4});
+    passes.image({.name = "apart", .format = colorFormat, .extent = {16, 8}});
+    EXPECT_EQ(passes.pixelBytes(chain), (128u + 32 + 8 + 2) * 16 / 128);
+    EXPECT_EQ(passes.pixelBytes(), passes.pixelBytes(chain)) << "only images of the list's size";
+    EXPECT_EQ(passes.imageBytes(), (128u + 32 + 8 + 2 + 128) * 16);
+}
+
 // A draw's estimated time splits it into bands on devices that must not be busy for long. Together the
 // bands give the whole image: nothing is drawn twice or cleared again.
 TEST(PassKinds, LongDrawsComeInBands) {

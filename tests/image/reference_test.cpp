@@ -125,7 +125,7 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
                 traced = reference(renderer, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
-            const bool there = isMadeByReference(mode) && (layerOf(mode.number) & ~layers) == 0;
+            const bool there = isMadeByReference(mode) && mayShow(mode.number, layers);
             ASSERT_EQ(frame->channels.contains(mode.number), there) << mode.name;
             if (!there) continue;
             EXPECT_EQ(frame->channels.at(mode.number).components, mode.width) << mode.name;

@@ -53,7 +53,7 @@ TEST(RelationImages, AllHoldWhereThingsMove) {
     expectAllHold("motion", 6, {"moved", "turned", "mirrored", "scaled", "tiles_shifted", "draws_reversed"});
 }
 
-// Of intersecting surfaces either may be visible; no channel shows the edges of blended ones.
+// Either of two intersecting surfaces may be visible; no channel shows the edges of blended ones.
 TEST(RelationImages, SurfacesInOneAnotherAreNoFault) {
     expectAllHold("coplanar", 20);
     expectAllHold("crossed", 27);

@@ -92,6 +92,37 @@ inline std::filesystem::path assets() {
     return std::filesystem::path(DIPTYCH_SOURCE_DIR) / ".." / "shared" / "assets" / "scenes";
 }
 
+// Real scenes with material extensions, in a folder beside the others.
+inline const std::vector<std::string>& layeredScenes() {
+    static const std::vector<std::string> names{
+        "AnisotropyBarnLamp/AnisotropyBarnLamp.gltf",
+        "AnisotropyRotationTest/AnisotropyRotationTest.glb",
+        "AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
+        "AttenuationTest/AttenuationTest.glb",
+        "ClearCoatCarPaint/ClearCoatCarPaint.glb",
+        "ClearCoatTest/ClearCoatTest.glb",
+        "DiffuseTransmissionTeacup/DiffuseTransmissionTeacup.gltf",
+        "DispersionTest/dispersion-test.glb",
+        "GlassHurricaneCandleHolder/GlassHurricaneCandleHolder.gltf",
+        "IridescenceLamp/IridescenceLamp.gltf",
+        "IridescenceMetallicSpheres/IridescenceMetallicSpheres.gltf",
+        "MaterialsVariantsShoe/MaterialsVariantsShoe.gltf",
+        "PotOfCoals/glTFPotOfCoals.gltf",
+        "SheenChair/SheenChair.gltf",
+        "SheenTestGrid/SheenTestGrid.glb",
+        "SpecGlossVsMetalRough/SpecGlossVsMetalRough.gltf",
+        "SpecularTest/SpecularTest.glb",
+        "ToyCar/ToyCar.gltf",
+        "TransmissionRoughnessTest/TransmissionRoughnessTest.glb",
+        "TransmissionThinwallTestGrid/TransmissionThinwallTestGrid.glb",
+        "WebpBoxTextured/box-textured-separate.gltf"};
+    return names;
+}
+
+inline std::filesystem::path layeredAssets() {
+    return assets().parent_path() / "layered";
+}
+
 // A name that GoogleTest accepts: letters and digits, the rest as _.
 inline std::string testName(const std::string& text) {
     std::string name = text;

@@ -211,7 +211,7 @@ TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     EXPECT_GT(dark, 500u) << "of the ground";
 }
 
-// Of several suns the brightest casts. Without a sun there is no shadow and no pass.
+// The brightest of several suns casts. Without a sun there is no shadow and no pass.
 TEST(ShadowCasters, AreOfTheBrightestSun) {
     Scene scene = groundUnder(sunAt(45), {board(1)});
     const Settings settings = shadowed(smallPicture(GBufferEncoding::standard));

@@ -1,136 +1,400 @@
 // SPDX-License-Identifier: MIT
-// Surfaces that transmit light, over either path's opaque image: compared with closed forms, the reference
-// and each other.
+// KHR_materials_transmission, _volume, _dispersion and _diffuse_transmission in both paths, compared with
+// closed forms, with the picture of what is behind, and with each other.
+#include "compare/render/frame_facts.h"
+#include "compare/render/prepared_view.h"
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"
-#include "tests/image/blended.h"
+#include "tests/image/scenes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
 
 namespace diptych::tests {
 namespace {
 
-// A pane before a wall that emits (1, 2, 3), without other light towards the camera.
-Scene paneOf(const glm::vec3& color, float transmission, float metallic = 0) {
+Settings picture() {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.size = {96, 54};
+    return settings;
+}
+
+Image litOf(Path path, const Scene& scene, const Settings& settings) {
+    Renderer renderer(device(), scene, pipelines());
+    return drawnBy(path, renderer, settings, {lit}).channels.at(lit);
+}
+
+// A pane one metre before a chequered wall, without light of its own.
+Scene paneBeforeWall(const Material& pane, bool wall_only = false) {
     Builder b;
-    b.camera("front", {0, 0, 10}, {0, 0, 0}, 20, 0.1, 100);
-    b.add("wall", quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}),
+    b.camera("front", {0, 0, 4}, {0, 0, 0}, 40, 0.1, 100);
+    b.sun({0, 0, 1}, {1, 1, 1}, 0);  // without lights, the default sun would shine
+    b.add("wall", quad({-9, -9, -1}, {18, 0, 0}, {0, 18, 0}),
           b.material("wall", {glm::vec3(0), 0, 1, {1, 2, 3}}), glm::dvec3(0.0));
-    b.add("pane", quad({-9, -9, 1}, {18, 0, 0}, {0, 18, 0}), b.material("pane", {color, metallic, 0.5f}),
-          glm::dvec3(0.0));
-    b.scene.materials.back().transmission = transmission;
-    b.sun({0, 0, 1}, glm::vec3(1), 1);  // from behind
+    b.scene.materials.back().emissive_texture =
+        b.texture(checker("squares", 64, 16, {255, 230, 200, 255}, {60, 90, 128, 255}), 2);
+    if (!wall_only) {
+        b.add("pane", quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), static_cast<int>(b.scene.materials.size()),
+              glm::dvec3(0.0));
+        b.scene.materials.push_back(pane);
+    }
     return std::move(b.scene);
 }
 
-// From the front the layer reflects 0.04. The base transmits what it neither scatters nor absorbs, times
-// the luminance of its colour; a metal absorbs all. No light reaches the pane's front.
-TEST(Transmission, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
-    struct Case {
-        glm::vec3 color;
-        float transmission, metallic;
-        double passes;
+Material glassOf(float thickness, float ior = 1.5f) {
+    Material m;
+    m.metallic = m.roughness = 0;
+    m.transmission = 1;
+    m.thickness = thickness;
+    m.ior = ior;
+    return m;
+}
+
+double bilinear(const Image& image, glm::dvec2 p, int c) {
+    const auto at = [&](double x, double y) {
+        return double{image.at(std::clamp(static_cast<int>(x), 0, image.width - 1),
+                               std::clamp(static_cast<int>(y), 0, image.height - 1), c)};
     };
-    const Case cases[] = {{{1, 1, 1}, 1, 0, 0.96},
-                          {{1, 1, 1}, 0.25f, 0, 0.24},
-                          {{0.5f, 0.25f, 1}, 1, 0, 0.96 * (0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722)},
-                          {{1, 1, 1}, 1, 0.5f, 0.48},
-                          {{1, 1, 1}, 1, 1, 0},
-                          {{3, 3, 3}, 1, 0, 1}};  // impossible in a file; nothing is amplified
-    for (const Case& c : cases)
-        for (const Path path : drawn_paths) {
-            const glm::dvec3 made = litAt(
-                drawnBlended(path, paneOf(c.color, c.transmission, c.metallic), blendedPicture()), 48, 27);
-            for (int i = 0; i < 3; ++i)
-                EXPECT_NEAR(made[i], c.passes * (i + 1), 1e-6) << c.passes << " " << nameOf(path);
+    p = glm::clamp(p, glm::dvec2(0), glm::dvec2(image.width, image.height)) - 0.5;
+    const glm::dvec2 first = glm::floor(p), t = p - first;
+    return glm::mix(glm::mix(at(first.x, first.y), at(first.x + 1, first.y), t.x),
+                    glm::mix(at(first.x, first.y + 1), at(first.x + 1, first.y + 1), t.x), t.y);
+}
+
+// The pixel that shows where the ray through pixel p leaves a slab at z = 0: the camera looks along -z from
+// z = 4 with a field of view of 40 degrees.
+glm::dvec2 pixelBehind(const glm::dvec2& p, double thickness, double ior, const Image& image) {
+    const double scale = 2 * std::tan(20 * std::numbers::pi / 180) / image.height;
+    const glm::dvec2 middle(0.5 * image.width, 0.5 * image.height), offset = (p - middle) * scale;
+    const glm::dvec3 along = glm::normalize(glm::dvec3(offset, -1));  // y down
+    const double sine = std::sqrt(1 - along.z * along.z) / ior;
+    const glm::dvec2 aside = glm::length(offset) > 0 ? glm::normalize(offset) : glm::dvec2(0);
+    const glm::dvec3 inside(aside * sine, -std::sqrt(1 - sine * sine));
+    const glm::dvec3 exit = along * (4 / -along.z) + inside * thickness;
+    return glm::dvec2(exit) / (-exit.z * scale) + middle;
+}
+
+double schlick(double cosine) {
+    return 0.04 + 0.96 * std::pow(1 - cosine, 5);
+}
+
+double largestError(const Image& made, const Image& wall, double thickness, const glm::dvec3& iors,
+                    const glm::dvec3& kept) {
+    double most = 0;
+    const double scale = 2 * std::tan(20 * std::numbers::pi / 180) / made.height;
+    for (int y = 0; y < made.height; ++y)
+        for (int x = 0; x < made.width; ++x) {
+            const glm::dvec2 p(x + 0.5, y + 0.5),
+                offset = (p - glm::dvec2(0.5 * made.width, 0.5 * made.height)) * scale;
+            const double passes = 1 - schlick(1 / std::sqrt(1 + glm::dot(offset, offset)));
+            for (int c = 0; c < 3; ++c) {
+                const glm::dvec2 at = thickness > 0 ? pixelBehind(p, thickness, iors[c], made) : p;
+                most = std::max(most, std::abs(made.at(x, y, c) - passes * kept[c] * bilinear(wall, at, c)));
+            }
         }
+    return most;
 }
 
-// Panes one behind the other: whole, partly covering, masked, rough, half metal; lit, before floor and
-// sky.
-Scene panes() {
-    Builder b;
-    b.camera("front", {0.6, 1.2, 5}, {0, 0.6, 0}, 40, 0.1, 100);
-    b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -5}),
-          b.material("floor", {{0.5f, 0.48f, 0.45f}, 0, 0.6f}), glm::dvec3(0.0));
-    b.add("ball", sphere(0.4, 32, 16), b.material("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.4f}),
-          glm::dvec3(-0.2, 0.4, -0.8));
-    const auto pane = [&](const char* name, const Surface& surface, float transmission, double x, double z) {
-        const int material = b.material(name, surface);
-        b.scene.materials.back().transmission = transmission;
-        b.add(name, quad({x, 0.2, z}, {1.2, 0, 0.15}, {0, 1.1, 0}), material, glm::dvec3(0.0));
-        return &b.scene.materials.back();
-    };
-    pane("clear", {glm::vec3(1), 0, 0.1f}, 1, -1.4, 0);
-    pane("green", {{0.2f, 0.8f, 0.4f}, 0, 0.3f}, 0.7f, -0.9, 0.5)->double_sided = true;
-    Material* const gauze = pane("gauze", {{0.9f, 0.7f, 0.3f}, 0, 0.5f}, 0.8f, -0.3, 0.2);
-    gauze->alpha_mode = AlphaMode::blend;
-    gauze->base_color.a = 0.6f;
-    Material* const holes = pane("holes", {glm::vec3(1), 0, 0.4f}, 0.9f, 0.3, 0.8);
-    holes->alpha_mode = AlphaMode::mask;
-    holes->base_color_texture = b.texture(lattice("lattice", 64), 1);
-    pane("metal", {{0.9f, 0.7f, 0.3f}, 0.5f, 0.3f, {0.05f, 0.1f, 0.02f}}, 0.9f, 0.5, -0.3)->ior = 1.8f;
-    b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
-    b.point({-0.5, 1.2, 1.6}, {1.0f, 0.7f, 0.4f}, 2, 5);
-    return std::move(b.scene);
-}
+// A texel's step of 1 times a pixel's rounding, 1e-4, and its light.
+constexpr double rounding = 1e-3;
 
-TEST(Transmission, IsTheReferences) {
-    const Scene scene = panes();
-    Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
-    settings.ambient = {0.2f, 0.3f, 0.4f};
-    EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
-    settings.haze = true;
-    settings.haze_density = 2000;
-    EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{}) << "in haze";
-    settings.shadows = Shadows::pcf;  // panes cast none
-    settings.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{}) << "with shadows";
-}
-
-TEST(Transmission, BothPathsAreEqualBitForBit) {
-    const Scene scene = panes();
-    Renderer renderer(device(), scene, pipelines());
-    for (const auto& [transparency, name] : enumNames<Transparency>()) {
-        Settings settings = blendedPicture();
-        settings.transparency = transparency;
-        settings.shadows = Shadows::pcf;
-        settings.haze = true;
-        const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u) << name;
+TEST(Refraction, AThinWallShowsWhatIsStraightBehind) {
+    for (const Path path : drawn_paths) {
+        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
+        const Image made = litOf(path, paneBeforeWall(glassOf(0)), picture());
+        EXPECT_LT(largestError(made, wall, 0, glm::dvec3(1.5), glm::dvec3(1)), 1e-5) << nameOf(path);
     }
 }
 
-// One pane at a time: order is irrelevant, and every mode must keep its transmission and reflection. Sums
-// round to float32 a few more times.
-TEST(Transmission, OnePaneIsTheSameInEveryMode) {
-    for (const float metallic : {0.0f, 0.5f}) {
-        Scene scene = paneOf({0.5f, 0.8f, 1}, 0.9f, metallic);
-        scene.lights[0].direction = {0.2, -0.1, -1};
-        Renderer renderer(device(), scene, pipelines());
-        Settings settings = blendedPicture();
-        const Image expected = drawnBy(Path::deferred, renderer, settings, {lit}).channels.at(lit);
-        for (const auto& [transparency, name] : enumNames<Transparency>()) {
-            if (transparency == Transparency::off) continue;
-            settings.transparency = transparency;
-            const Image made = drawnBy(Path::deferred, renderer, settings, {lit}).channels.at(lit);
+TEST(Refraction, ASlabMovesThePictureBySnellsLaw) {
+    for (const Path path : drawn_paths)
+        for (const float ior : {1.0f, 1.33f, 2.4f}) {
+            Material glass = glassOf(0.7f, ior);
+            glass.specular = 0;  // no reflection, whose F0 follows the index
+            const Image wall = litOf(path, paneBeforeWall({}, true), picture());
+            const Image made = litOf(path, paneBeforeWall(glass), picture());
             double most = 0;
-            for (std::size_t i = 0; i < made.data.size(); ++i)
-                most = std::max(most, std::abs(double{made.data[i]} / double{expected.data[i]} - 1));
-            EXPECT_LT(most, 2e-5) << name << ", metallic " << metallic;
+            for (int y = 0; y < made.height; ++y)
+                for (int x = 0; x < made.width; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        most = std::max(most, std::abs(made.at(x, y, c) -
+                                                       bilinear(wall,
+                                                                pixelBehind({x + 0.5, y + 0.5}, double{0.7f},
+                                                                            double{ior}, made),
+                                                                c)));
+            EXPECT_LT(most, rounding) << ior << " " << nameOf(path);
+        }
+}
+
+TEST(Refraction, ColoursBendApartByDispersion) {
+    Material glass = glassOf(0.7f);
+    glass.dispersion = 8;
+    const double half = 0.5 * 0.025 * 8;
+    for (const Path path : drawn_paths) {
+        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
+        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        EXPECT_LT(largestError(made, wall, double{0.7f}, {1.5 - half, 1.5, 1.5 + half}, glm::dvec3(1)),
+                  rounding)
+            << nameOf(path);
+    }
+}
+
+TEST(Refraction, ASlabAbsorbsByItsThickness) {
+    Material glass = glassOf(0.5f);
+    glass.attenuation_color = {0.5f, 0.25f, 0};
+    glass.attenuation_distance = 0.25f;
+    for (const Path path : drawn_paths) {
+        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
+        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        EXPECT_LT(largestError(made, wall, 0.5, glm::dvec3(1.5), {0.25, 0.0625, 0}), rounding)
+            << nameOf(path);
+    }
+}
+
+// The node's scale is the slab's.
+TEST(Refraction, ThicknessIsInTheSpaceOfTheMesh) {
+    Scene scene = paneBeforeWall(glassOf(0.1f));
+    scene.nodes.back().parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(5));
+    const Image wall = litOf(Path::deferred, paneBeforeWall({}, true), picture());
+    const Image made = litOf(Path::deferred, scene, picture());
+    EXPECT_LT(largestError(made, wall, double{0.1f} * 5, glm::dvec3(1.5), glm::dvec3(1)), rounding);
+}
+
+TEST(Refraction, RoughGlassShowsTheMeanOfWhatIsBehind) {
+    Material glass = glassOf(0);
+    glass.roughness = 1;
+    const Image wall = litOf(Path::deferred, paneBeforeWall({}, true), picture());
+    glm::dvec3 mean(0);
+    for (std::size_t i = 0; i < wall.pixels(); ++i)
+        mean += glm::dvec3(wall.pixel(i)[0], wall.pixel(i)[1], wall.pixel(i)[2]) /
+                static_cast<double>(wall.pixels());
+    for (const Path path : drawn_paths) {
+        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(made.at(48, 27, c), 0.96 * mean[c], 0.02 * mean[c]) << nameOf(path);
+    }
+}
+
+// The mip chain of a picture: each texel is the mean over its area.
+std::vector<Image> meansOf(const Image& picture) {
+    std::vector<Image> levels{picture};
+    while (std::max(levels.back().width, levels.back().height) > 1) {
+        const Image& from = levels.back();
+        Image to(std::max(from.width / 2, 1), std::max(from.height / 2, 1), 3);
+        const double across = static_cast<double>(from.width) / to.width,
+                     down = static_cast<double>(from.height) / to.height;
+        const auto covered = [](double first, double side, int texel) {
+            return std::max(0.0, std::min(first + side, texel + 1.0) - std::max(first, double(texel)));
+        };
+        for (int y = 0; y < to.height; ++y)
+            for (int x = 0; x < to.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    double sum = 0;
+                    for (int v = 0; v < from.height; ++v)
+                        for (int u = 0; u < from.width; ++u)
+                            sum += from.at(u, v, c) * covered(x * across, across, u) *
+                                   covered(y * down, down, v);
+                    to.at(x, y, c) = static_cast<float>(sum / (across * down));
+                }
+        levels.push_back(std::move(to));
+    }
+    return levels;
+}
+double blurred(const std::vector<Image>& levels, const glm::dvec2& p, double level, int c) {
+    const auto at = [&](std::size_t k) {
+        const Image& image = levels.at(std::min(k, levels.size() - 1));
+        const glm::dvec2 size(levels[0].width, levels[0].height), inside = glm::clamp(p, glm::dvec2(0), size);
+        return bilinear(image, inside * glm::dvec2(image.width, image.height) / size, c);
+    };
+    const auto first = static_cast<std::size_t>(level);
+    return glm::mix(at(first), at(first + 1), level - std::floor(level));
+}
+
+// Level log2(width) times roughness; a slab's lobe is narrower if its index is below 1.5.
+TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
+    struct Case {
+        float roughness, thickness, ior;
+    };
+    const std::vector<Image> levels = meansOf(litOf(Path::deferred, paneBeforeWall({}, true), picture()));
+    for (const Case& of : {Case{0.3f, 0, 1.5f}, Case{0.65f, 0, 1.1f}, Case{0.4f, 0.7f, 1.25f},
+                           Case{0.4f, 0.7f, 2}, Case{1, 0.7f, 1}}) {
+        Material glass = glassOf(of.thickness, of.ior);
+        glass.roughness = of.roughness;
+        glass.specular = 0;
+        const double narrower = of.thickness > 0 ? std::clamp(2 * double{of.ior} - 2, 0.0, 1.0) : 1.0;
+        for (const Path path : drawn_paths) {
+            const Image made = litOf(path, paneBeforeWall(glass), picture());
+            const double level = std::log2(made.width) * double{of.roughness} * narrower;
+            double most = 0;
+            for (int y = 0; y < made.height; ++y)
+                for (int x = 0; x < made.width; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const glm::dvec2 p(x + 0.5, y + 0.5),
+                            at = of.thickness > 0 ? pixelBehind(p, double{of.thickness}, double{of.ior}, made)
+                                                  : p;
+                        most = std::max(most, std::abs(made.at(x, y, c) - blurred(levels, at, level, c)));
+                    }
+            EXPECT_LT(most, rounding) << of.roughness << " " << of.ior << " " << nameOf(path);
         }
     }
 }
 
-// Lists match the reference's order, also with masked or partly covering panes.
-TEST(Transmission, ListsAreTheReferences) {
-    const Scene scene = panes();
+// Parallel rays meet a pane turned by `turn` at the same angle, and leave it beside themselves by
+// d sin(turn - refracted).
+TEST(Refraction, AnOrthographicCameraSeesASlabsShiftEverywhere) {
+    constexpr double turn = 0.6;
+    Material glass = glassOf(0.5f);
+    glass.specular = 0;
+    Scene scene = paneBeforeWall(glass), wall = paneBeforeWall({}, true);
+    scene.nodes.back().parent_from_node = glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 1, 0));
+    for (Scene* of : {&scene, &wall}) {
+        of->cameras[0].orthographic = true;
+        of->cameras[0].ymag = 0.4;
+    }
+    for (Node& node : wall.nodes) node.parent_from_node[3].z -= 6;  // the turned pane does not cross it
+    scene.nodes[0].parent_from_node[3].z -= 6;
+    for (const Path path : drawn_paths) {
+        const Image behind = litOf(path, wall, picture()), made = litOf(path, scene, picture());
+        const double refracted = std::asin(std::sin(turn) / 1.5),
+                     pixels = 0.5 * std::sin(turn - refracted) * made.height / 0.8;
+        double most = 0;
+        // The normal leans to the right (+X), and with it the ray's way inside to the left.
+        for (int y = 0; y < made.height; ++y)
+            for (int x = 8; x < made.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    most = std::max(
+                        most, std::abs(made.at(x, y, c) - bilinear(behind, {x + 0.5 - pixels, y + 0.5}, c)));
+        EXPECT_LT(most, rounding) << nameOf(path);
+    }
+}
+
+// A ball without boundary, absorption and reflection.
+TEST(Refraction, ABallOfIndexOneIsInvisible) {
+    Scene wall = paneBeforeWall({}, true), scene = wall;
+    Builder b;
+    b.scene = std::move(scene);
+    Material glass = glassOf(0.5f, 1);
+    glass.specular = 0;
+    glass.roughness = 1;
+    b.add("ball", sphere(0.8, 48, 24), static_cast<int>(b.scene.materials.size()), glm::dvec3(0.0));
+    b.scene.materials.push_back(glass);
+    for (const Path path : drawn_paths) {
+        const Image behind = litOf(path, wall, picture()), made = litOf(path, b.scene, picture());
+        double most = 0;
+        for (std::size_t i = 0; i < made.data.size(); ++i)
+            most = std::max(most, std::abs(double{made.data[i]} - double{behind.data[i]}));
+        EXPECT_LT(most, rounding) << nameOf(path);
+    }
+}
+
+// Of several panes, the nearest is seen, whatever the order of their draws; behind it what is opaque.
+TEST(Refraction, TheNearestPaneIsSeen) {
+    for (const bool turned : {false, true}) {
+        Scene scene = paneBeforeWall(glassOf(0));
+        scene.materials.back().base_color = {1, 0.5f, 0.25f, 1};
+        Scene two = scene;
+        two.nodes.push_back(two.nodes.back());
+        two.nodes.back().parent_from_node[3] = {0, 0, -0.5, 1};
+        two.meshes.push_back(two.meshes[1]);
+        two.nodes.back().mesh = 2;
+        two.materials.push_back(two.materials.back());
+        two.materials.back().base_color = {0, 0, 0, 1};
+        two.meshes[2].primitives[0].material = 2;
+        if (turned) std::swap(two.nodes[1], two.nodes[2]);
+        for (const Path path : drawn_paths)
+            EXPECT_EQ(differingPixels(litOf(path, scene, picture()), litOf(path, two, picture())), 0u)
+                << nameOf(path) << turned;
+    }
+}
+
+// Smooth surfaces read the first level alone, unless anti-aliasing may make them rough.
+TEST(Refraction, OnlyRoughSurfacesHaveAMipChain) {
+    const auto levels = [](float roughness, bool spec_aa) {
+        Material glass = glassOf(0.5f);
+        glass.roughness = roughness;
+        const Scene scene = paneBeforeWall(glass);
+        SharedResources shared(device(), scene, pipelines());
+        SceneViews views(scene);
+        Settings settings = picture();
+        settings.path = Path::forward_plus;
+        settings.spec_aa = spec_aa;
+        const PreparedFrame prepared(device(), shared, views.at(viewRequest(settings)), settings);
+        std::set<std::uint32_t> written;
+        for (const DeclaredUse& use : prepared.passes.declarations())
+            if (use.resource == "backdrop" && writes(use.access)) written.insert(use.part.level);
+        return written.size();
+    };
+    EXPECT_EQ(levels(0, false), 1u);
+    EXPECT_EQ(levels(0.01f, false), 7u);  // of 96 x 54
+    EXPECT_EQ(levels(0, true), 7u);
+}
+
+void expectSamePaths(int msaa, MsaaShading shading = MsaaShading::pixel) {
+    const Scene scene = loadScene("builtin:transmission");
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
-    settings.transparency = Transparency::list;
-    EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.ambient = {0.1f, 0.2f, 0.3f};
+    settings.shadows = Shadows::pcf;
+    settings.haze = true;
+    settings.msaa = msaa;
+    settings.msaa_shading = shading;
+    for (const Layers layers : {Layers::gbuffer, Layers::forward}) {
+        settings.layers = layers;
+        const std::vector<Frame> frames = bothPaths(renderer, settings);
+        expectSameChannels(frames[0], frames[1], 30);
+        for (const Frame& frame : frames) {
+            EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name << nameOf(layers);
+            EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << nameOf(layers);
+        }
+    }
+}
+
+TEST(Refraction, BothPathsAreEqualBitForBit) {
+    expectSamePaths(1);
+}
+
+TEST(Refraction, BothPathsAreEqualBitForBitWithSamples) {
+    expectSamePaths(4);
+    expectSamePaths(4, MsaaShading::sample);
+}
+
+// A leaf lit from behind: the fraction w of the light that its layer admits leaves its front in its colour.
+TEST(DiffuseTransmission, IsLambertsLawOnTheFarSide) {
+    Builder b;
+    b.camera("front", {0, 0, 4}, {0, 0, 0}, 1, 0.1, 100);
+    Material leaf;
+    leaf.metallic = 0;
+    leaf.roughness = 1;
+    leaf.base_color = {0.9f, 0.9f, 0.9f, 1};
+    leaf.diffuse_transmission = 0.75f;
+    leaf.diffuse_transmission_color = {0.2f, 0.8f, 0.4f};
+    b.add("leaf", quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), 0, glm::dvec3(0.0));
+    b.scene.materials.push_back(leaf);
+    b.sun({0, 0, 1}, glm::vec3(1), 2);  // from behind, head-on
+    Settings settings = picture();
+    settings.size = {9, 9};
+    for (const Path path : drawn_paths) {
+        const Image made = litOf(path, b.scene, settings);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(made.at(4, 4, c),
+                        0.75 * leaf.diffuse_transmission_color[c] * 0.96 * 2 / std::numbers::pi, 1e-5)
+                << nameOf(path);
+    }
+    b.scene.lights[0].direction = {0, 0, -1};  // in front: only the rest is scattered back
+    for (const Path path : drawn_paths) {
+        Scene matt = b.scene, opaque = b.scene;
+        opaque.materials[0].diffuse_transmission = 0;
+        opaque.materials[0].base_color = {0.225f, 0.225f, 0.225f, 1};
+        EXPECT_NEAR(litOf(path, matt, settings).at(4, 4, 0), litOf(path, opaque, settings).at(4, 4, 0), 1e-6)
+            << nameOf(path);
+    }
 }
 
 }  // namespace

@@ -73,8 +73,7 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
         frames.push_back(std::move(other[path]));
     }
     const std::vector<Requirements> needs(2, here.views.at(viewRequest(drawnSettings()[0])).needs);
-    ReportDevice there_device = reportDevice(device());
-    return makeDeviceReport(std::move(frames), needs, reportDevice(device()), there_device, {},
+    return makeDeviceReport(std::move(frames), needs, {reportDevice(device()), reportDevice(device())}, {},
                             std::move(across));
 }
 

@@ -61,15 +61,27 @@ INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), 
     return testName(std::filesystem::path(scene.param).stem().string());
 });
 
+std::set<std::string> scenesIn(const std::filesystem::path& folder) {
+    std::set<std::string> found;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+            found.insert(std::filesystem::relative(entry.path(), folder).string());
+    return found;
+}
+
 // A scene added to the folder must be rendered, too.
 TEST(AssetScenes, AreAllThatThereAre) {
     if (!std::filesystem::exists(assets())) GTEST_SKIP() << "NO ASSETS at " << assets();
-    const std::set<std::string> listed(assetScenes().begin(), assetScenes().end());
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(assets()))
-        if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
-            found.insert(std::filesystem::relative(entry.path(), assets()).string());
-    EXPECT_EQ(found, listed);
+    EXPECT_EQ(scenesIn(assets()), std::set<std::string>(assetScenes().begin(), assetScenes().end()));
+}
+
+TEST(AssetScenes, AreAllLayeredOnesExceptOneThatIsRefused) {
+    if (!std::filesystem::exists(layeredAssets())) GTEST_SKIP() << "NO ASSETS at " << layeredAssets();
+    std::set<std::string> found = scenesIn(layeredAssets());
+    const std::string refused = "AnisotropyBarnLampBasisU/AnisotropyBarnLamp.gltf";
+    EXPECT_EQ(found.erase(refused), 1u);
+    EXPECT_EQ(found, std::set<std::string>(layeredScenes().begin(), layeredScenes().end()));
+    EXPECT_THROW(loadScene((layeredAssets() / refused).string()), std::runtime_error) << "KTX2 textures";
 }
 
 // A changed constant for each channel's tolerance.
@@ -279,6 +291,50 @@ const NegativeControl negativeControls[] = {
      },
      {},
      "builtin:layers"},
+    {"lit_transmission", [](Scene& s) { s.lights[0].intensity *= 1.0001f; }, {}, "builtin:transmission"},
+    // Drawn by one shader over either path: their tolerance is 0.
+    {"transmission",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.transmission *= 0.9999f;
+     },
+     {},
+     "builtin:transmission"},
+    {"transmission_thickness",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.thickness *= 0.9999f;
+     },
+     {},
+     "builtin:transmission"},
+    {"attenuation_color",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.attenuation_color *= 0.9999f;
+     },
+     {},
+     "builtin:transmission"},
+    {"attenuation_distance",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.attenuation_distance *= 1.0001f;
+     },
+     {},
+     "builtin:transmission"},
+    {"dispersion",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.dispersion *= 1.0001f;
+     },
+     {},
+     "builtin:transmission"},
+    {"diffuse_transmission",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.diffuse_transmission *= 0.99f;
+     },
+     {},
+     "builtin:transmission"},
+    {"diffuse_transmission_color",
+     [](Scene& s) {
+         for (Material& m : s.materials) m.diffuse_transmission_color *= 0.98f;
+     },
+     {},
+     "builtin:transmission"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Channels, VerdictNegativeControl, testing::ValuesIn(negativeControls),

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Layers that a second pass of the G-buffer draws, because one pass has too few attachments.
+#include "compare/render/path_plan.h"
+#include "shared/material/gbuffer_layout.h"
+#include "tests/image/square.h"
+
+#include <algorithm>
+#include <array>
+
+namespace diptych::tests {
+namespace {
+
+constexpr int materialIndex = static_cast<int>(gpu::DEBUG_material_id),
+              diffuseThrough = static_cast<int>(gpu::DEBUG_diffuse_transmission);
+
+// All layers; with --gbuffer full five of ten attachments.
+void addEveryLayer(Material& m) {
+    m.metallic = 0;
+    m.roughness = 0.4f;
+    m.specular = 0.6f;
+    m.clearcoat = 0.7f;
+    m.clearcoat_roughness = 0.3f;
+    m.anisotropy = 0.5f;
+    m.sheen_color = {0.4f, 0.2f, 0.6f};
+    m.sheen_roughness = 0.5f;
+    m.iridescence = 0.6f;
+    m.diffuse_transmission = 0.4f;
+    m.diffuse_transmission_color = {0.9f, 0.5f, 0.2f};
+}
+
+bool hasSecondPass(const Scene& scene, const Settings& settings) {
+    return !gbufferPasses(gbufferLayout(settings.gbuffer, requirements(scene, poseAt(scene, settings.time)),
+                                        settings.msaa > 1))
+                .second.empty();
+}
+
+// Draws both paths, which must have the same bits, and returns the deferred path's frame.
+Frame expectOneImage(Renderer& renderer, const Settings& settings) {
+    std::vector<int> channels{lit, materialIndex, albedo, normals, diffuseThrough};
+    for (const DebugMode& mode : debugModes())
+        if (layerOf(mode.number) != 0 && mode.number >= 60 && mode.number < 70)
+            channels.push_back(mode.number);
+    std::vector<Frame> frames = bothPaths(renderer, settings, channels);
+    expectSameChannels(frames[0], frames[1], 10);
+    EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u) << settings.msaa;
+    return std::move(frames[0]);
+}
+
+std::size_t pixelsAbove0(const Image& image) {
+    return static_cast<std::size_t>(std::ranges::count_if(image.data, [](float x) { return x > 0; }));
+}
+
+TEST(SecondGBuffer, SkinnedMorphedAndMaskedSurfacesAreBitEqual) {
+    Scene scene = loadScene("builtin:motion");
+    for (Material& m : scene.materials)
+        if (m.name == "clay" || m.name == "ball" || m.name == "leaf") addEveryLayer(m);
+    Renderer renderer(device(), scene, pipelines());
+    for (const int samples : {1, 4}) {
+        Settings settings = smallPicture(GBufferEncoding::full);
+        settings.time = 0.6;
+        settings.msaa = samples;
+        settings.alpha_to_coverage = samples > 1;
+        ASSERT_TRUE(hasSecondPass(scene, settings));
+        const Frame frame = expectOneImage(renderer, settings);
+        EXPECT_GT(pixelsAbove0(frame.channels.at(diffuseThrough)), 200u);
+        EXPECT_GT(coveredPixels(frame), pixelsAbove0(frame.channels.at(diffuseThrough)) + 1000);
+    }
+}
+
+// Two squares at one place, one with layers and one without: the one drawn last is stored in all
+// attachments. Draws are sorted by variant, so a double-sided square without layers comes last.
+TEST(SecondGBuffer, OfTwoSurfacesAtOneDepthTheLastIsStored) {
+    for (const bool plain_last : {false, true})
+        for (const int samples : {1, 4}) {
+            Scene scene = square();
+            scene.nodes.push_back(scene.nodes[0]);
+            scene.nodes[1].mesh = 1;
+            scene.meshes.push_back(scene.meshes[0]);
+            scene.materials.push_back({});
+            scene.meshes[1].primitives[0].material = 1;
+            addEveryLayer(scene.materials[0]);
+            scene.materials[1].double_sided = plain_last;
+            Light sun;
+            sun.kind = LightKind::directional;
+            sun.direction = glm::normalize(glm::dvec3(-0.3, -0.2, -1));
+            scene.lights = {sun};
+            Settings settings = smallPicture(GBufferEncoding::full);
+            settings.size = {8, 8};
+            settings.msaa = samples;
+            ASSERT_TRUE(hasSecondPass(scene, settings));
+            Renderer renderer(device(), scene, pipelines());
+            const Frame frame = expectOneImage(renderer, settings);
+            EXPECT_EQ(pixelsAbove0(frame.channels.at(diffuseThrough)), plain_last ? 0u : 64u);
+        }
+}
+
+// Packed layers fill two attachments; the other seven leave room for one of them.
+TEST(SecondGBuffer, PackedLayersAreStored) {
+    Scene scene = square();
+    Material& m = scene.materials[0];
+    addEveryLayer(m);
+    m.emissive = {1, 1, 1};
+    m.lightmap_texture.texture = 0;
+    for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
+        Settings settings = smallPicture(encoding);
+        settings.size = {4, 4};
+        settings.msaa = 4;
+        ASSERT_TRUE(hasSecondPass(scene, settings));
+        constexpr int film = static_cast<int>(gpu::DEBUG_iridescence),
+                      sheen = static_cast<int>(gpu::DEBUG_sheen_roughness);
+        Renderer renderer(device(), scene, pipelines());
+        const Frame frame = drawnBy(Path::deferred, renderer, settings, {film, sheen, diffuseThrough});
+        constexpr float half_step = 0.5f / 255 + float32;
+        for (const auto& [mode, value] : {std::pair(film, 0.6f), {sheen, 0.5f}, {diffuseThrough, 0.4f}})
+            EXPECT_NEAR(frame.channels.at(mode).at(1, 2, 0), value, half_step) << debugMode(mode).name;
+    }
+}
+
+TEST(SecondGBuffer, ThePlanNamesIt) {
+    Settings settings = smallPicture(GBufferEncoding::full);
+    settings.path = Path::deferred;
+    const auto planned = [&](const Scene& scene) {
+        SceneViews views(scene);
+        return planPaths(device(), views, {settings}).front();
+    };
+    Scene scene = square();
+    constexpr std::array names{"G-buffer", "G-buffer of layers"};
+    const std::string note =
+        "a second G-buffer pass draws 2 of 10 attachments, 32 bytes per pixel: a pass has at most 8";
+    const PathPlan one = planned(scene);
+    EXPECT_EQ(std::ranges::count(one.passes, names[0]), 1);
+    EXPECT_EQ(std::ranges::count(one.passes, names[1]), 0);
+    addEveryLayer(scene.materials[0]);
+    const PathPlan two = planned(scene);
+    EXPECT_NE(std::ranges::search(two.passes, names).begin(), two.passes.end());
+    EXPECT_EQ(std::ranges::count(two.notes, note), 1);
+    // Specular colour, and five attachments of layers; three words take four.
+    EXPECT_EQ(two.bytes.front().geometry, one.bytes.front().geometry + 6 * 16);
+}
+
+}  // namespace
+}  // namespace diptych::tests
