@@ -10,11 +10,18 @@
 #include "shared/frame/frame.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace diptych::bench {
+
+// Vector registers, per lane, of the pipelines with which a pass shades.
+struct PassRegisters {
+    std::string pass;
+    double least = 0, most = 0;
+};
 
 // Measurements of one Settings.
 struct BenchRow {
@@ -30,6 +37,8 @@ struct BenchRow {
     std::vector<std::string> notes;  // caveats for the reader
     ModeParts parts = {};
     std::optional<GrowthPoint> growth = {};
+    std::optional<Cover> cover = {};
+    std::vector<PassRegisters> registers = {};  // --compile-on
 };
 
 // Prefix of passes that build light lists.
@@ -47,14 +56,15 @@ struct Bench {
     std::vector<BenchRow> rows;
     std::vector<BenchSkip> skips;
     std::optional<KernelReport> kernels;
+    std::string compiler = {};  // device of --compile-on; empty: none
 };
 
 // Measures the rows of one group. First renders one frame each to warm up, which also finds rows over
 // options.max_ms. Then runs `runs` rounds of one frame each, and as many profiled rounds, at least three.
-// Skipped rows go into bench.skips; times of earlier rows predict some skips.
+// Skipped rows go into bench.skips; times of earlier rows predict some skips. Groups share `pipelines`.
 // isHopeless(): all rows of a growth group would be skipped. Its scene need not be read.
-void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
-                  const Stage& progress);
+void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines, const BenchGroup& group,
+                  const Scene& scene, Bench& bench, const Stage& progress);
 bool isHopeless(const Bench& bench, const BenchGroup& group);
 
 // Notes that all rows share; shown once.
@@ -62,6 +72,8 @@ std::vector<std::string> commonNotes(const Bench& bench);
 
 // "1024", "36.4", "0.0123": four significant digits, all digits from 1000 on.
 std::string msText(double ms);
+
+std::string timeInWords(const FrameTime& time);  // "12.3 (12.1 to 14)", ms
 
 // Distinct sizes, in order of the rows.
 std::vector<Size> sizesOf(const Bench& bench);

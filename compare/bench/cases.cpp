@@ -129,7 +129,8 @@ BenchTable benchTableOf(const std::string& word) {
     if (word == "modes") return BenchTable::modes;
     if (word == "msaa") return BenchTable::msaa;
     if (word == "growth") return BenchTable::growth;
-    throw std::runtime_error(fmt::format("--table {}: takes modes, msaa or growth", word));
+    if (word == "layers") return BenchTable::layers;
+    throw std::runtime_error(fmt::format("--table {}: takes modes, msaa, growth or layers", word));
 }
 
 namespace {
@@ -250,29 +251,44 @@ std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& op
 
 namespace {
 
-BenchCases growthCases(const Settings& given, const BenchOptions& options) {
+std::vector<Path> pathsOf(const BenchOptions& options) {
+    return options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
+}
+
+// Throws for lists of Settings, of which the table takes one each.
+void refuseLists(std::string_view table, const BenchOptions& options) {
     if (options.assign.size() > 1)
-        throw std::runtime_error("--table growth: takes one --assign; run it once for each");
-    if (!options.light_counts.empty() || !options.sizes.empty() || !options.transparencies.empty() ||
-        !options.lightings.empty())
-        throw std::runtime_error(
-            "--table growth: takes no --light-counts, --sizes, --transparencies or --lightings: lights and "
-            "pixels are axes");
+        throw std::runtime_error(fmt::format("--table {}: takes one --assign; run it once for each", table));
+    if (!options.sizes.empty() || !options.transparencies.empty() || !options.lightings.empty())
+        throw std::runtime_error(fmt::format(
+            "--table {}: takes no --sizes, --transparencies or --lightings; run it once for each", table));
     if (!options.frames)
-        throw std::runtime_error("--kernels only: does not time --table growth; leave one out");
+        throw std::runtime_error(
+            fmt::format("--kernels only: does not time --table {}; leave one out", table));
+}
+
+// Throws if they cannot be drawn.
+Settings tableSettings(const Settings& given, const BenchOptions& options, Path path) {
+    Settings settings = given;
+    settings.path = path;
+    if (!options.assign.empty()) settings.assign = options.assign.front();
+    if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
+    return settings;
+}
+
+BenchCases growthCases(const Settings& given, const BenchOptions& options) {
+    refuseLists("growth", options);
+    if (!options.light_counts.empty())
+        throw std::runtime_error("--table growth: takes no --light-counts: lights are an axis");
     BenchCases cases;
     for (const GrowthRow& row : growthRows) {
         if (!options.axes.empty() && std::ranges::count(options.axes, row.axis) == 0) continue;
         for (const double value : row.values) {
             BenchGroup group{
                 std::nullopt, row.scene(static_cast<std::uint64_t>(value)), {}, GrowthPoint{row.axis, value}};
-            for (const Path path : options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end())
-                                                         : options.paths) {
-                Settings settings = given;
-                settings.path = path;
-                if (!options.assign.empty()) settings.assign = options.assign.front();
+            for (const Path path : pathsOf(options)) {
+                Settings settings = tableSettings(given, options, path);
                 if (row.axis == GrowthAxis::pixels) settings.size = sizeOfPixels(value);
-                if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
                 group.settings.push_back(settings);
             }
             cases.groups.push_back(std::move(group));
@@ -281,14 +297,45 @@ BenchCases growthCases(const Settings& given, const BenchOptions& options) {
     return cases;
 }
 
+// No layers, then each kind by the share that it covers.
+std::vector<Cover> tableCovers() {
+    std::vector<Cover> covers{Cover()};
+    for (const std::string_view kind : {"coated", "woven", "brushed", "glass"})
+        for (const int percent : {5, 25, 100}) covers.push_back({kind, percent});
+    return covers;
+}
+
+BenchCases layerCases(const Settings& given, const BenchOptions& options) {
+    refuseLists("layers", options);
+    const std::vector<std::uint32_t> counts =
+        options.light_counts.empty() ? std::vector<std::uint32_t>{1, 64, 1024} : options.light_counts;
+    BenchCases cases;
+    for (const Cover& cover : tableCovers())
+        for (const std::uint32_t lights : counts) {
+            const std::string share =
+                cover.kind.empty() ? "" : fmt::format("{}={}&", cover.kind, cover.percent);
+            BenchGroup group{
+                lights, fmt::format("builtin:covered?{}lights={}", share, lights), {}, {}, cover};
+            for (const Path path : pathsOf(options)) {
+                Settings settings = tableSettings(given, options, path);
+                for (const Layers layers : hasGBuffer(path) ? all<Layers>() : std::vector{given.layers}) {
+                    settings.layers = layers;
+                    group.settings.push_back(settings);
+                }
+            }
+            cases.groups.push_back(std::move(group));
+        }
+    return cases;
+}
+
 }  // namespace
 
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
     if (options.table == BenchTable::growth) return growthCases(given, options);
     if (!options.axes.empty()) throw std::runtime_error("--axes: needs --table growth");
+    if (options.table == BenchTable::layers) return layerCases(given, options);
     checkSampleTable(options);
-    const std::vector<Path> paths =
-        options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
+    const std::vector<Path> paths = pathsOf(options);
     const std::vector<Assignment> assignments = assignmentsOf(given, options);
     const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
     const std::vector<Transparency> transparencies = transparenciesOf(given, options);
@@ -347,6 +394,7 @@ ModeParts partsOf(const BenchOptions& options, const Settings& settings) {
     if (by_samples || options.transparencies.size() > 1) parts.transparency = settings.transparency;
     if (by_samples) parts.samples = settings.msaa;
     if (options.lightings.size() > 1 && hasGBuffer(settings.path)) parts.lighting = settings.lighting;
+    if (options.table == BenchTable::layers && hasGBuffer(settings.path)) parts.layers = settings.layers;
     return parts;
 }
 
@@ -355,6 +403,7 @@ std::string ending(const ModeParts& parts) {
     std::string words;
     if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
     if (parts.lighting) words += fmt::format(", {}", nameOf(*parts.lighting));
+    if (parts.layers) words += fmt::format(", layers {}", nameOf(*parts.layers));
     if (parts.samples) words += ", " + counted(static_cast<std::uint64_t>(*parts.samples), "sample");
     return words;
 }
@@ -381,7 +430,12 @@ std::string skipName(const BenchSkip& skip) {
     if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
     if (skip.lights) name += ", " + counted(*skip.lights, "light");
     if (skip.growth) name += fmt::format(", {:.6g} {}", skip.growth->value, nameOf(skip.growth->axis));
+    if (skip.cover) name += ", " + coverName(*skip.cover);
     return name;
+}
+
+std::string coverName(const Cover& cover) {
+    return cover.kind.empty() ? "no layers" : fmt::format("{} % {}", cover.percent, cover.kind);
 }
 
 }  // namespace diptych::bench

@@ -14,9 +14,9 @@
 
 namespace diptych::bench {
 
-// Rows of the benchmark: all modes; both paths with and without transparency, by samples per pixel; or
-// both paths by an increasing quantity.
-enum class BenchTable { modes, msaa, growth };
+// Rows of the benchmark: all modes; both paths with and without transparency, by samples per pixel; both
+// paths by an increasing quantity; or both paths and --layers, by what layered materials cover.
+enum class BenchTable { modes, msaa, growth, layers };
 
 // The increasing quantity of --table growth.
 enum class GrowthAxis { triangles, draws, instances, textures, lights, pixels };
@@ -27,6 +27,14 @@ struct GrowthPoint {
     double value;
 };
 
+// A material's layer and the share of the picture that it covers: --table layers.
+struct Cover {
+    std::string_view kind;  // parameter of builtin:covered; empty: no layer
+    int percent = 0;
+    bool operator==(const Cover&) const = default;
+};
+std::string coverName(const Cover& cover);  // "25 % coated", "no layers"
+
 // Options as given. Comments name the default of an empty list.
 struct BenchOptions {
     BenchTable table = BenchTable::modes;
@@ -36,7 +44,7 @@ struct BenchOptions {
     std::vector<Size> sizes;                   // --size
     std::vector<Transparency> transparencies;  // --transparency
     std::vector<Lighting> lightings;           // deferred only; --lighting
-    std::vector<std::uint32_t> light_counts;   // ascending; the scene's own lights
+    std::vector<std::uint32_t> light_counts;   // ascending; the scene's own lights, or the table's
     double max_ms = 2000;                      // slower frames are not repeated
     bool frames = true, kernels = true;
 };
@@ -58,6 +66,7 @@ struct ModeParts {
     std::optional<Transparency> transparency = {};
     std::optional<int> samples = {};        // per pixel
     std::optional<Lighting> lighting = {};  // deferred only
+    std::optional<Layers> layers = {};      // deferred only
     bool operator==(const ModeParts&) const = default;
 };
 
@@ -67,6 +76,7 @@ struct BenchGroup {
     std::string scene;                    // argument of loadScene()
     std::vector<Settings> settings;
     std::optional<GrowthPoint> growth = {};
+    std::optional<Cover> cover = {};
 };
 
 struct BenchSkip {
@@ -77,6 +87,7 @@ struct BenchSkip {
     ModeParts parts;
     std::string reason;
     std::optional<GrowthPoint> growth = {};
+    std::optional<Cover> cover = {};
 };
 
 struct BenchCases {
@@ -86,8 +97,9 @@ struct BenchCases {
 
 // Light counts apply to a built-in scene that takes ?lights=N, to {} in --lights, or else to a seeded rig
 // of point lights. Throws std::runtime_error if other lights are given as well, and if nothing is left to
-// time. BenchTable::growth ignores `scene` and uses builtin:array and builtin:spheres. BenchTable::msaa:
-// each path with and without transparency, at 1, 4 and 8 samples per pixel, with one assignment.
+// time. BenchTable::growth ignores `scene` and uses builtin:array and builtin:spheres, BenchTable::layers
+// builtin:covered. BenchTable::msaa: each path with and without transparency, at 1, 4 and 8 samples per
+// pixel, with one assignment.
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options);
 
 // Predicted frame time with `lights`, ms: linear through the last two of (lights, ms), never less than the

@@ -88,7 +88,8 @@ std::string Conclusion::inWords() const {
 }
 
 std::vector<Conclusion> conclusionsOf(const Bench& bench) {
-    if (bench.options.table == BenchTable::growth) return {};  // growthInWords() replaces them
+    // growthInWords() and layersInWords() replace them.
+    if (bench.options.table == BenchTable::growth || bench.options.table == BenchTable::layers) return {};
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)
         if (!drawsAnotherPicture(row.settings.assign)) left.push_back(&row);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/growth.h"
 #include "compare/bench/plot_parts.h"
-#include "compare/page/text.h"
 
 #include <fmt/format.h>
 
@@ -20,10 +19,6 @@ struct Figure {
 const Figure figures[] = {{"time of a frame, ms", [](const BenchRow& row) { return row.time.median; }},
                           {"memory on the device, MiB", memoryMib}};
 
-std::string inGroup(Path path, const std::string& inside) {
-    return fmt::format("<g class=\"series {} clustered\">{}</g>", nameOf(path), inside);
-}
-
 std::string panelOf(const std::vector<GrowthLine>& lines, const Figure& figure, const PlotBox& box) {
     std::vector<double> values, amounts;
     for (const GrowthLine& line : lines)
@@ -36,23 +31,18 @@ std::string panelOf(const std::vector<GrowthLine>& lines, const Figure& figure, 
     const auto y = [&](double a) { return box.bottom - up.place(a) * (box.bottom - box.top); };
     Drawing drawing;
     const GrowthAxis axis = lines.front().axis;
-    drawing.axes(box, across.ticks(), x,
-                 axis == GrowthAxis::textures ? "textures, MiB" : std::string(nameOf(axis)), up.ticks(), y,
-                 "");
+    drawing.axes(
+        box, {across.ticks(), x, axis == GrowthAxis::textures ? "textures, MiB" : std::string(nameOf(axis))},
+        {up.ticks(), y, ""});
     drawing.text("name", box.left, box.top - 16, figure.name);
     std::string out = drawing.group();
     for (const GrowthLine& line : lines) {
-        std::string trace, marks;
-        for (const BenchRow* row : line.rows) {
-            const double px = x(row->growth->value), py = y(figure.amount(*row));
-            trace += fmt::format("{}{} {}", trace.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
-            marks +=
-                fmt::format("<g><title>{}</title>{}</g>",
-                            page::markup(fmt::format("{}, {:.6g} {}: {:.4g}", nameOf(line.path),
-                                                     row->growth->value, nameOf(axis), figure.amount(*row))),
-                            markAt(line.path, px, py));
-        }
-        out += inGroup(line.path, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", trace, marks));
+        std::vector<PlotPoint> points;
+        for (const BenchRow* row : line.rows)
+            points.push_back({x(row->growth->value), y(figure.amount(*row)),
+                              fmt::format("{}, {:.6g} {}: {:.4g}", nameOf(line.path), row->growth->value,
+                                          nameOf(axis), figure.amount(*row))});
+        out += traceOf(line.path, "clustered", points);
     }
     return out;
 }
@@ -80,12 +70,7 @@ std::string growthPlot(const Bench& bench, PlotPlace place) {
         above += panelHeight;
     }
     Legend legend(above + 4);
-    for (const Path path : paths) {
-        const auto [x, y] = legend.next();
-        out += inGroup(path, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(x),
-                                         svgNumber(y), markAt(path, x + 12, y)) +
-                                 legend.words(std::string(nameOf(path))));
-    }
+    for (const Path path : paths) out += legendOf(legend, path, "clustered", std::string(nameOf(path)));
     return plotElement(plotWidth, std::max(legend.end(), panelHeight), "How a frame's time and memory grow",
                        place, out);
 }

@@ -2,6 +2,7 @@
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
+#include "compare/bench/layer_table.h"
 #include "compare/bench/sample_table.h"
 #include "compare/output/writers.h"
 #include "shared/text/counted.h"
@@ -23,6 +24,21 @@ Block rows(const Bench& bench) {
     box.blocks = {Heading{2, "Every mode"}, modeTable(bench)};
     if (hasAnotherPicture(bench)) box.blocks.emplace_back(Paragraph{starMeans, "soft"});
     return box;
+}
+
+// Tables and sentences besides modeTable().
+std::vector<Block> tableBlocks(const Bench& bench) {
+    switch (bench.options.table) {
+        case BenchTable::modes:
+            return {};
+        case BenchTable::msaa:
+            return sampleBlocks(bench);
+        case BenchTable::growth:
+            return growthBlocks(bench);
+        case BenchTable::layers:
+            return layerBlocks(bench);
+    }
+    return {};
 }
 
 void addKernels(std::vector<Block>& blocks, const KernelReport& report) {
@@ -77,8 +93,7 @@ std::string benchHtml(const Bench& bench) {
     for (const Conclusion& conclusion : conclusionsOf(bench))
         conclusions.items.emplace_back(conclusion.inWords());
     page.blocks = {conclusions};
-    for (Block& block : bench.options.table == BenchTable::growth ? growthBlocks(bench) : sampleBlocks(bench))
-        page.blocks.push_back(std::move(block));
+    for (Block& block : tableBlocks(bench)) page.blocks.push_back(std::move(block));
     if (!bench.rows.empty()) {
         page.files.emplace_back("bench.svg");
         page.blocks.emplace_back(

@@ -3,6 +3,7 @@
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
+#include "compare/bench/layer_table.h"
 #include "compare/bench/sample_table.h"
 #include "compare/files/our_files.h"
 #include "shared/text/json_text.h"
@@ -115,6 +116,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"frames", rows},
         {"msaa_tables", sampleTablesJson(bench)},
         {"growth", growthJson(bench)},
+        {"layers", layersJson(bench)},
         {"skipped", skips},
         {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
         {"files", files}};

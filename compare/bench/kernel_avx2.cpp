@@ -74,8 +74,15 @@ Float schlickWeight(Float v_dot_h) {
     return x2 * x2 * x;
 }
 
-void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const Vec3& irradiance,
-              Vec3& diffuse, Vec3& specular) {
+// benchSurface() and makeBrdf() at pixel centres.
+struct Pixels {
+    Vec3 position, normal, view;
+    Brdf brdf;
+};
+
+void addLight(const Pixels& p, const Vec3& l, const Vec3& irradiance, Vec3& diffuse, Vec3& specular) {
+    const Brdf& b = p.brdf;
+    const Vec3 &n = p.normal, &v = p.view;
     const Float n_dot_l = clamped(dot(n, l));
     const Vec3 s{l.x + v.x, l.y + v.y, l.z + v.z};
     const Float s2 = dot(s, s);
@@ -91,11 +98,6 @@ void addLight(const Brdf& b, const Vec3& n, const Vec3& v, const Vec3& l, const 
     specular.z += (b.f0.z + (b.f90 - b.f0.z) * weight) * lobe * received.z;
 }
 
-// benchSurface() and makeBrdf() at pixel centres.
-struct Pixels {
-    Vec3 position, normal, view;
-    Brdf brdf;
-};
 Pixels pixelsAt(Float x, Float y) {
     const Float u = x * (1.0f / 1024.0f), v = y * (1.0f / 1024.0f);
     const Float roughness = larger(0.3f + 0.5f * u, splat(gpu::MIN_PERCEPTUAL_ROUGHNESS));
@@ -137,7 +139,7 @@ void shadeTileAvx2(const KernelTile& tile) {
                 const Float x = d2 * light[3];
                 const Float window = whereGreater(splat(1), x, 1.0f - x * x, splat(0));
                 const Float inverse = 1.0f / root(d2), strength = window * (inverse * inverse);
-                addLight(p.brdf, p.normal, p.view, scaled(to_light, inverse),
+                addLight(p, scaled(to_light, inverse),
                          {light[4] * strength, light[5] * strength, light[6] * strength}, diffuse, specular);
             }
             const Float lit[3] = {diffuse.x + specular.x, diffuse.y + specular.y, diffuse.z + specular.z};

@@ -29,12 +29,12 @@ constexpr double compiling = 4;
 
 BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
     return {settings.path,     settings.assign, settings.size, group.lights, partsOf(bench.options, settings),
-            std::move(reason), group.growth};
+            std::move(reason), group.growth,    group.cover};
 }
 
 bool isMode(const Settings& a, const Settings& b) {
     return a.path == b.path && a.assign == b.assign && a.size == b.size && a.transparency == b.transparency &&
-           a.msaa == b.msaa && a.lighting == b.lighting;
+           a.msaa == b.msaa && a.lighting == b.lighting && a.layers == b.layers;
 }
 
 // Reason to skip the Settings, based on smaller light counts or growth values; empty if they must be
@@ -50,12 +50,13 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (!group.lights) return {};
     for (const BenchSkip& skip : bench.skips)
         if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
-            skip.parts == partsOf(bench.options, settings) && skip.lights && *skip.lights < *group.lights)
+            skip.parts == partsOf(bench.options, settings) && skip.cover == group.cover && skip.lights &&
+            *skip.lights < *group.lights)
             return fmt::format("already over --max-ms {:.6g} with {}", bench.options.max_ms,
                                counted(*skip.lights, "light"));
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
-        if (row.requested_lights && isMode(row.settings, settings))
+        if (row.requested_lights && row.cover == group.cover && isMode(row.settings, settings))
             measured.emplace_back(*row.requested_lights, row.time.median);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
@@ -68,8 +69,9 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
 std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
     if (std::ranges::find(samples, settings.msaa) == samples.end())
         return fmt::format("the device does not support {} samples per pixel", settings.msaa);
-    if (!needs.alpha_blend && settings.transparency != Transparency::off)
-        return "no surface of the scene blends";
+    if (!needs.alpha_blend && (needs.layers & gpu::LAYER_TRANSMISSION) == 0 &&
+        settings.transparency != Transparency::off)
+        return "no surface of the scene blends or transmits light";
     return {};
 }
 
@@ -146,6 +148,10 @@ std::string msText(double ms) {
     return ms < 1000 ? fmt::format("{:.4g}", ms) : fmt::format("{:.0f}", ms);
 }
 
+std::string timeInWords(const FrameTime& time) {
+    return fmt::format("{} ({} to {})", msText(time.median), msText(time.min), msText(time.max));
+}
+
 std::vector<Size> sizesOf(const Bench& bench) {
     std::vector<Size> sizes;
     for (const BenchRow& row : bench.rows)
@@ -159,13 +165,13 @@ bool isHopeless(const Bench& bench, const BenchGroup& group) {
            });
 }
 
-void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, Bench& bench,
-                  const Stage& progress) {
+void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines, const BenchGroup& group,
+                  const Scene& scene, Bench& bench, const Stage& progress) {
     SceneViews views(scene);
     const Requirements needs = views.at(viewRequest(group.settings.front())).needs;
     const std::vector<Settings> tried = triedSettings(device, group, needs, bench);
     if (tried.empty()) return;
-    Renderer renderer(device, views);
+    Renderer renderer(device, views, pipelines);
     std::optional<PreparedFrames> prepared = preparedFrames(renderer, group, tried, bench);
     if (!prepared) return;
     PreparedFrames& frames = *prepared;
@@ -205,7 +211,8 @@ void measureGroup(Device& device, const BenchGroup& group, const Scene& scene, B
                      frame.counters,
                      frame.notes,
                      partsOf(bench.options, tried[i]),
-                     group.growth};
+                     group.growth,
+                     group.cover};
         row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
         frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));

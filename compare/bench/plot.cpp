@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/growth.h"
+#include "compare/bench/layer_table.h"
 #include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
 #include "shared/text/counted.h"
@@ -59,7 +60,7 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
     const auto x = [&](double n) { return box.left + across.place(n) * (box.right - box.left); };
     const auto y = [&](double t) { return box.bottom - up.place(t) * (box.bottom - box.top); };
     Drawing drawing;
-    drawing.axes(box, across.ticks(), x, "lights in the scene", up.ticks(), y, "time of a frame, ms");
+    drawing.axes(box, {across.ticks(), x, "lights in the scene"}, {up.ticks(), y, "time of a frame, ms"});
     drawing.text("name", plotTitleLeft, above + 22,
                  fmt::format("{}x{}, {}", size.width, size.height, bench.scene));
     std::string out = drawing.group();
@@ -79,10 +80,8 @@ Panel linesOf(const Bench& bench, const Size& size, double above) {
                             markAt(series.path, px, py));
         }
         out += groupOf(series, fmt::format("<path class=\"trace\" d=\"{}\"/>{}", line, marks));
-        const auto [lx, ly] = legend.next();
-        out += groupOf(series, fmt::format("<path class=\"trace\" d=\"M{} {}h24\"/>{}", svgNumber(lx),
-                                           svgNumber(ly), markAt(series.path, lx + 12, ly)) +
-                                   legend.words(modeLabel(series.path, series.assign, series.parts)));
+        out += legendOf(legend, series.path, nameOf(series.assign),
+                        modeLabel(series.path, series.assign, series.parts));
     }
     return {out, legend.end()};
 }
@@ -100,6 +99,7 @@ std::string markAt(Path path, double x, double y) {
 
 std::string benchPlot(const Bench& bench, PlotPlace place) {
     if (bench.options.table == BenchTable::growth) return growthPlot(bench, place);
+    if (bench.options.table == BenchTable::layers) return layersPlot(bench, place);
     std::string panels;
     double above = 0;
     const bool oneCount = std::ranges::all_of(bench.rows, [&](const BenchRow& row) {

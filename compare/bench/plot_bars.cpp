@@ -43,6 +43,20 @@ double stepOf(double most) {
     return power * (share < 2 ? 1 : share < 5 ? 2 : 5);
 }
 
+// Colours of the passes, and the mark of a whole frame.
+std::string entriesOf(const std::vector<std::string>& names, Legend& legend) {
+    std::string out;
+    for (std::size_t part = 0; part < names.size(); ++part) {
+        const auto [lx, ly] = legend.next();
+        out += fmt::format("<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"24\" height=\"14\"/>{}",
+                           part, svgNumber(lx), svgNumber(ly - 7), legend.words(names[part]));
+    }
+    const auto [lx, ly] = legend.next();
+    return out + fmt::format("<path class=\"frame\" d=\"M{0} {2}H{1}M{3} {4}V{5}\"/>{6}", svgNumber(lx),
+                             svgNumber(lx + 24), svgNumber(ly), svgNumber(lx + 12), svgNumber(ly - 8),
+                             svgNumber(ly + 8), legend.words("frame: median, range"));
+}
+
 }  // namespace
 
 std::pair<double, double> Legend::next() {
@@ -59,6 +73,23 @@ std::string Legend::words(const std::string& text) const {
 
 double Legend::end() const {
     return top_ + (entries_ + 1) / 2 * entryHeight + 16;
+}
+
+std::string traceOf(Path path, std::string_view style, const std::vector<PlotPoint>& points) {
+    std::string line, marks;
+    for (const PlotPoint& at : points) {
+        line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(at.x), svgNumber(at.y));
+        marks += fmt::format("<g><title>{}</title>{}</g>", page::markup(at.title), markAt(path, at.x, at.y));
+    }
+    return fmt::format("<g class=\"series {} {}\"><path class=\"trace\" d=\"{}\"/>{}</g>", nameOf(path),
+                       style, line, marks);
+}
+
+std::string legendOf(Legend& legend, Path path, std::string_view style, const std::string& name) {
+    const auto [x, y] = legend.next();
+    return fmt::format("<g class=\"series {} {}\"><path class=\"trace\" d=\"M{} {}h24\"/>{}{}</g>",
+                       nameOf(path), style, svgNumber(x), svgNumber(y), markAt(path, x + 12, y),
+                       legend.words(name));
 }
 
 Panel barsOf(const Bench& bench, const Size& size, double above) {
@@ -109,18 +140,8 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
         drawing.line("frame", x(row->time.median), y - 2, x(row->time.median), y + barHeight + 2);
         y += rowHeight;
     }
-    std::string out = drawing.group();
     Legend legend(bottom + below);
-    for (std::size_t part = 0; part < names.size(); ++part) {
-        const auto [lx, ly] = legend.next();
-        out += fmt::format("<rect class=\"part part{}\" x=\"{}\" y=\"{}\" width=\"24\" height=\"14\"/>{}",
-                           part, svgNumber(lx), svgNumber(ly - 7), legend.words(names[part]));
-    }
-    const auto [lx, ly] = legend.next();
-    out += fmt::format("<path class=\"frame\" d=\"M{0} {2}H{1}M{3} {4}V{5}\"/>{6}", svgNumber(lx),
-                       svgNumber(lx + 24), svgNumber(ly), svgNumber(lx + 12), svgNumber(ly - 8),
-                       svgNumber(ly + 8), legend.words("frame: median, range"));
-    return {out, legend.end()};
+    return {drawing.group() + entriesOf(names, legend), legend.end()};
 }
 
 }  // namespace diptych::bench

@@ -5,7 +5,9 @@
 #include "compare/bench/bench.h"
 
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace diptych::bench {
 
@@ -31,6 +33,15 @@ private:
     double top_;
     int entries_ = 0;
 };
+
+struct PlotPoint {
+    double x, y;
+    std::string title;
+};
+// Points joined by a line. `style`: CSS classes besides the path's.
+std::string traceOf(Path path, std::string_view style, const std::vector<PlotPoint>& points);
+// A line's symbol in a legend, and its name.
+std::string legendOf(Legend& legend, Path path, std::string_view style, const std::string& name);
 
 // A marker. Paths differ in the shape of markers and the dashes of lines.
 std::string markAt(Path path, double x, double y);

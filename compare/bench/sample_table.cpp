@@ -34,11 +34,6 @@ SampleTable::Line& lineOf(SampleTable& table, const Settings& settings) {
     return table.lines.emplace_back(SampleTable::Line{settings.path, settings.transparency, {}});
 }
 
-// "12.3 (12.1 to 14)".
-std::string timeInWords(const FrameTime& time) {
-    return fmt::format("{} ({} to {})", msText(time.median), msText(time.min), msText(time.max));
-}
-
 std::string title(const SampleTable& table) {
     return fmt::format("{}, {}x{}, {}", table.scene, table.size.width, table.size.height,
                        counted(table.lights, "light"));

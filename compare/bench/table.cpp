@@ -3,6 +3,7 @@
 #include "compare/bench/bench.h"
 #include "compare/bench/conclusion.h"
 #include "compare/bench/growth.h"
+#include "compare/bench/layer_table.h"
 #include "compare/bench/sample_table.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
@@ -27,8 +28,9 @@ std::string ownNotes(const BenchRow& row, const std::vector<std::string>& common
     return fmt::format("{}", fmt::join(own, "; "));
 }
 
-// ", 1e+06 triangles" with --table growth.
-std::string grownTo(const BenchRow& row) {
+// ", 1e+06 triangles" with --table growth, ", 5 % coated" with --table layers.
+std::string pointOf(const BenchRow& row) {
+    if (row.cover) return ", " + coverName(*row.cover);
     return row.growth ? fmt::format(", {:.6g} {}", row.growth->value, nameOf(row.growth->axis)) : "";
 }
 
@@ -60,7 +62,7 @@ output::Table modeTable(const Bench& bench) {
         table.rows.push_back(
             {{fmt::format("{}", row.counters.lights),
               fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
-              std::string(nameOf(row.settings.path)) + grownTo(row),
+              std::string(nameOf(row.settings.path)) + pointOf(row),
               assignLabel(row.settings.assign, row.parts), msText(row.time.median), msText(row.time.min),
               msText(row.time.max), fmt::format("{:.3g}", assignMs(row)),
               output::either(fmt::format("{:.1f}%", share), fmt::format("{:.1f} %", share)),
@@ -124,6 +126,7 @@ std::string benchEnd(const Bench& bench) {
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
     if (bench.options.table == BenchTable::growth) return out + growthText(bench);
+    if (bench.options.table == BenchTable::layers) return out + layersText(bench);
     if (bench.options.table == BenchTable::msaa) out += "\n" + sampleTablesText(bench);
     // Conclusions last: a terminal shows the end first.
     for (const Conclusion& conclusion : conclusionsOf(bench)) out += conclusion.inWords() + "\n";

@@ -50,7 +50,7 @@ TEST(BenchCases, DeferredIsTimedByEachWayToShadeThatIsAskedFor) {
                   asked({"--lightings", "raster"});
               }).find("--lightings raster"),
               std::string::npos);
-    for (const char* table : {"msaa", "growth"})
+    for (const char* table : {"msaa", "growth", "layers"})
         EXPECT_NE(faultOf([&] {
                       makeBenchCases("builtin:spheres", {},
                                      asked({"--table", table, "--lightings", "fragment,compute"}));

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "compare/bench/layer_table.h"
+
+#include "compare/bench/conclusion.h"
+#include "compare/output/writers.h"
+#include "shared/text/counted.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace diptych::bench {
+namespace {
+
+std::size_t wayOf(const Settings& settings) {
+    const auto way = std::ranges::find_if(layerWays, [&](const LayerWay& w) {
+        return w.path() == settings.path && (!w.has_gbuffer || w.layers == settings.layers);
+    });
+    return static_cast<std::size_t>(way - layerWays.begin());
+}
+
+// Finds the fastest ways.
+void compareWays(LayerRow& row) {
+    const BenchRow* least = nullptr;
+    std::size_t timed = 0;
+    for (const BenchRow* const way : row.ways) {
+        if (way == nullptr) continue;
+        ++timed;
+        if (least == nullptr || way->time.median < least->time.median) least = way;
+    }
+    if (timed < 2) return;
+    for (std::size_t i = 0; i < row.ways.size(); ++i) {
+        if (row.ways[i] == nullptr) continue;
+        const PairedRatio ratio = pairedRatio(row.ways[i]->ms, least->ms);
+        if (row.ways[i] == least || !ratio.isSure() || ratio.low < 1)
+            row.fastest.push_back(i);
+        else
+            row.lead = row.lead == 0 ? ratio.median : std::min(row.lead, ratio.median);
+    }
+}
+
+std::vector<std::string> namesOf(const std::vector<std::size_t>& ways) {
+    std::vector<std::string> names;
+    for (const std::size_t way : ways) names.push_back(layerWays.at(way).name());
+    return names;
+}
+
+std::string lightsInWords(const std::vector<std::uint64_t>& counts) {
+    return counts.size() == 1 ? counted(counts.front(), "light")
+                              : fmt::format("{} lights", fmt::join(counts, ", "));
+}
+
+// All combinations of the lists.
+struct Conditions {
+    std::vector<std::string_view> kinds;
+    std::vector<int> percents;
+    std::vector<std::uint64_t> lights;
+    bool operator==(const Conditions&) const = default;
+};
+
+// Joins those that differ in one list alone.
+template <class T>
+void joinBy(std::vector<T> Conditions::*list, std::vector<Conditions>& all) {
+    std::vector<Conditions> joined;
+    for (const Conditions& one : all) {
+        const auto known = std::ranges::find_if(joined, [&](Conditions other) {
+            other.*list = one.*list;
+            return other == one;
+        });
+        if (known != joined.end())
+            ((*known).*list).push_back((one.*list).front());
+        else
+            joined.push_back(one);
+    }
+    all = std::move(joined);
+}
+
+// "5, 25 % coated, woven under 1, 64 lights; no layers under 1 light"
+std::string conditionsInWords(const std::vector<const LayerRow*>& rows) {
+    std::vector<Conditions> all;
+    for (const LayerRow* const row : rows)
+        all.push_back({{row->cover.kind}, {row->cover.percent}, {row->lights}});
+    joinBy(&Conditions::percents, all);
+    joinBy(&Conditions::lights, all);
+    joinBy(&Conditions::kinds, all);
+    std::vector<std::string> words;
+    for (const Conditions& c : all)
+        words.push_back(
+            fmt::format("{} under {}",
+                        c.kinds.front().empty()
+                            ? coverName({})
+                            : fmt::format("{} % {}", fmt::join(c.percents, ", "), fmt::join(c.kinds, ", ")),
+                        lightsInWords(c.lights)));
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
+// Where these ways are the fastest; `all`: number of the table's rows.
+std::string outcomeInWords(const std::vector<const LayerRow*>& rows, std::size_t all) {
+    const std::vector<std::size_t>& fastest = rows.front()->fastest;
+    std::string subject = "no significant difference between the ways", detail;
+    if (fastest.size() == 1) {
+        const LayerRow& most = **std::ranges::max_element(rows, {}, &LayerRow::lead);
+        subject = fmt::format("{} is the fastest", namesOf(fastest).front());
+        detail = fmt::format(" (the next takes up to {:.2f} times as long: {}, {})", most.lead,
+                             coverName(most.cover), counted(most.lights, "light"));
+    } else if (fastest.size() < layerWays.size()) {
+        subject = fmt::format("{} are the fastest, without a significant difference between them,",
+                              fmt::join(namesOf(fastest), " and "));
+    }
+    return fmt::format("{} in {} of {}{}: {}", subject, rows.size(), counted(all, "row"), detail,
+                       conditionsInWords(rows));
+}
+
+std::uint64_t imageBytesPerPixel(const BenchRow& row) {
+    const Size& size = row.settings.size;
+    return row.bytes.picture_images /
+           (static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
+}
+
+std::string rangeInWords(std::uint64_t least, std::uint64_t most) {
+    return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+}
+
+std::optional<std::string> bytesInWords(const std::vector<LayerRow>& rows, std::size_t way) {
+    std::vector<std::uint64_t> stored, all;
+    for (const LayerRow& row : rows)
+        if (const BenchRow* const timed = row.ways.at(way)) {
+            stored.push_back(timed->bytes.gbuffer_per_pixel);
+            all.push_back(imageBytesPerPixel(*timed));
+        }
+    if (stored.empty()) return {};
+    const auto range = [](const std::vector<std::uint64_t>& bytes) {
+        return rangeInWords(std::ranges::min(bytes), std::ranges::max(bytes));
+    };
+    return fmt::format("{} stores {} bytes per pixel of {}; all its images {}", layerWays.at(way).name(),
+                       range(stored), layerWays.at(way).has_gbuffer ? "G-buffer and depth" : "depth",
+                       range(all));
+}
+
+std::string registersInWords(const BenchRow& row) {
+    std::vector<std::string> words;
+    for (const PassRegisters& pass : row.registers)
+        words.push_back(
+            rangeInWords(static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)));
+    return words.empty() ? "-" : fmt::format("{}", fmt::join(words, "; "));
+}
+
+// What the columns are.
+std::string columnsInWords(const Bench& bench) {
+    return fmt::format(
+        "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign test of "
+        "frames of the same round{}",
+        bench.compiler.empty()
+            ? ""
+            : fmt::format("; VGPRs: vector registers per lane of the pipelines that shade, pass after pass, "
+                          "by the compiler of {}",
+                          bench.compiler));
+}
+
+}  // namespace
+
+std::string LayerWay::name() const {
+    const std::string_view path_name = nameOf(path());
+    return has_gbuffer
+               ? fmt::format("{} by {}", path_name, layers == Layers::gbuffer ? "G-buffer" : "forward")
+               : std::string(path_name);
+}
+
+std::vector<LayerRow> layerRows(const Bench& bench) {
+    std::vector<LayerRow> rows;
+    for (const BenchRow& row : bench.rows) {
+        if (!row.cover) continue;
+        const std::uint64_t lights = row.requested_lights.value();
+        if (rows.empty() || rows.back().cover != *row.cover || rows.back().lights != lights)
+            rows.push_back({*row.cover, lights});
+        rows.back().ways.at(wayOf(row.settings)) = &row;
+    }
+    std::ranges::for_each(rows, compareWays);
+    return rows;
+}
+
+std::vector<std::string> layersInWords(const Bench& bench) {
+    const std::vector<LayerRow> rows = layerRows(bench);
+    // Single ways first.
+    std::map<std::pair<std::size_t, std::vector<std::size_t>>, std::vector<const LayerRow*>> outcomes;
+    for (const LayerRow& row : rows)
+        if (!row.fastest.empty()) outcomes[{row.fastest.size(), row.fastest}].push_back(&row);
+    std::vector<std::string> words;
+    for (const auto& [fastest, where] : outcomes) words.push_back(outcomeInWords(where, rows.size()));
+    for (std::size_t way = 0; way < layerWays.size(); ++way)
+        if (auto bytes = bytesInWords(rows, way)) words.push_back(std::move(*bytes));
+    return words;
+}
+
+namespace {
+
+output::Cell fastestCell(const std::vector<std::size_t>& fastest) {
+    if (fastest.empty()) return output::either("-", "");
+    if (fastest.size() == layerWays.size()) return "no significant difference";
+    return fmt::format("{}", fmt::join(namesOf(fastest), " or "));
+}
+
+output::Table layerTable(const Bench& bench) {
+    using output::Column;
+    output::Table table{
+        .columns = {{"covered", Column::words}, {"lights", Column::number}, {"fastest", Column::words}},
+        .style = "",
+        .groups = {{"", 3}},
+        .note = columnsInWords(bench)};
+    const bool registers = !bench.compiler.empty();
+    for (const LayerWay& way : layerWays) {
+        table.groups.emplace_back(way.name(), registers ? 4 : 3);
+        table.columns.insert(table.columns.end(), {{"ms (min to max)", Column::number},
+                                                   {"B/pixel", Column::number},
+                                                   {"all B/pixel", Column::number}});
+        if (registers) table.columns.push_back({"VGPRs", Column::number});
+    }
+    for (const LayerRow& row : layerRows(bench)) {
+        output::Row& out = table.rows.emplace_back(
+            output::Row{{coverName(row.cover), fmt::format("{}", row.lights), fastestCell(row.fastest)}});
+        for (const BenchRow* const way : row.ways) {
+            if (way == nullptr) {
+                out.cells.insert(out.cells.end(), registers ? 4 : 3, output::either("-", ""));
+                continue;
+            }
+            out.cells.emplace_back(timeInWords(way->time));
+            out.cells.emplace_back(fmt::format("{}", way->bytes.gbuffer_per_pixel));
+            out.cells.emplace_back(fmt::format("{}", imageBytesPerPixel(*way)));
+            if (registers) out.cells.emplace_back(registersInWords(*way));
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+std::string layersText(const Bench& bench) {
+    std::string out = inText(layerTable(bench)) + columnsInWords(bench) + "\n";
+    for (const std::string& sentence : layersInWords(bench)) out += sentence + "\n";
+    return out;
+}
+
+std::vector<output::Block> layerBlocks(const Bench& bench) {
+    if (layerRows(bench).empty()) return {};
+    const std::vector<std::string> words = layersInWords(bench);
+    return {output::Heading{2, "Where each way is the fastest"},
+            output::List{{words.begin(), words.end()}, "box says"}, layerTable(bench)};
+}
+
+nlohmann::ordered_json layersJson(const Bench& bench) {
+    using Json = nlohmann::ordered_json;
+    Json rows = Json::array();
+    for (const LayerRow& row : layerRows(bench)) {
+        Json ways = Json::array(), fastest = Json::array();
+        for (std::size_t i = 0; i < row.ways.size(); ++i) {
+            const BenchRow* const way = row.ways.at(i);
+            if (way == nullptr) continue;
+            Json registers = Json::array();
+            for (const PassRegisters& pass : way->registers)
+                registers.push_back({{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}});
+            ways.push_back(
+                {{"name", layerWays.at(i).name()},
+                 {"ms", {{"median", way->time.median}, {"min", way->time.min}, {"max", way->time.max}}},
+                 {"bytes_per_pixel", way->bytes.gbuffer_per_pixel},
+                 {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
+                 {"registers", registers}});
+        }
+        for (const std::string& name : namesOf(row.fastest)) fastest.push_back(name);
+        rows.push_back({{"covered", row.cover.kind},
+                        {"percent", row.cover.percent},
+                        {"lights", row.lights},
+                        {"ways", ways},
+                        {"fastest", fastest},
+                        {"lead", row.lead}});
+    }
+    return {{"compiler", bench.compiler}, {"rows", rows}, {"words", layersInWords(bench)}};
+}
+
+}  // namespace diptych::bench

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The benchmark's table of layers by what they cover, with made-up times.
+#include "compare/bench/conclusion.h"
+#include "compare/bench/layer_table.h"
+#include "compare/bench/registers.h"
+#include "compare/cli/command_line.h"
+#include "shared/scene/builtin/builtin.h"
+#include "tests/support/errors.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace diptych {
+namespace {
+
+using namespace bench;
+
+BenchOptions layerOptions(std::vector<std::string> words = {}) {
+    words.insert(words.begin(), {"bench", "--table", "layers"});
+    return cli::parseCommandLine(words).bench;
+}
+
+std::string layerRefusal(const std::vector<std::string>& words) {
+    return faultOf([&] { makeBenchCases("builtin:gallery", Settings(), layerOptions(words)); });
+}
+
+TEST(BenchLayers, EachKindAndShareIsTimedUnderEachLightCountInThreeWays) {
+    const BenchOptions options = layerOptions();
+    const BenchCases cases = makeBenchCases("builtin:gallery", Settings(), options);
+    std::set<std::tuple<std::string_view, int, std::uint32_t>> groups;
+    for (const BenchGroup& group : cases.groups) {
+        groups.insert({group.cover->kind, group.cover->percent, *group.lights});
+        std::vector<std::string> names;
+        for (const Settings& s : group.settings)
+            names.push_back(modeName(s.path, s.assign, partsOf(options, s)));
+        EXPECT_EQ(names, (std::vector<std::string>{"deferred, clustered, layers gbuffer",
+                                                   "deferred, clustered, layers forward",
+                                                   "forward_plus, clustered"}));
+    }
+    EXPECT_EQ(cases.groups.size(), 39u) << "4 kinds by 3 shares, and none of them once, by 3 light counts";
+    EXPECT_EQ(groups.size(), 39u);
+    EXPECT_TRUE(groups.contains({"", 0, 1u}) && groups.contains({"glass", 100, 1024u}));
+    EXPECT_FALSE(options.kernels);
+    const auto settingsOf = [](const std::vector<std::string>& words) {
+        return makeBenchCases("builtin:gallery", Settings(), layerOptions(words)).groups[0].settings;
+    };
+    ASSERT_EQ(settingsOf({"--paths", "forward_plus"}).size(), 1u);
+    EXPECT_EQ(settingsOf({"--assign", "tiled"})[2].assign, Assignment::tiled);
+    EXPECT_EQ(makeBenchCases("", Settings(), layerOptions({"--light-counts", "4,16"})).groups.size(), 26u);
+}
+
+// The scene holds what the row says.
+TEST(BenchLayers, EveryGroupHasItsSceneAndAName) {
+    const std::set<std::pair<std::string, std::uint32_t>> layers{{"", 0},
+                                                                 {"coated", gpu::LAYER_CLEARCOAT},
+                                                                 {"woven", gpu::LAYER_SHEEN},
+                                                                 {"brushed", gpu::LAYER_ANISOTROPY},
+                                                                 {"glass", gpu::LAYER_TRANSMISSION}};
+    for (const BenchGroup& group : makeBenchCases("", Settings(), layerOptions()).groups) {
+        ASSERT_TRUE(group.scene.starts_with("builtin:"));
+        const Scene scene = makeBuiltin(group.scene.substr(8));
+        EXPECT_EQ(scene.lights.size(), *group.lights) << group.scene;
+        std::uint32_t all = 0;
+        std::size_t tiles = 0;
+        for (const Node& node : scene.nodes) {
+            const int material = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].material;
+            const std::uint32_t own = layersOf(scene.materials[static_cast<std::size_t>(material)]);
+            all |= own;
+            tiles += own != 0;
+        }
+        EXPECT_TRUE(layers.contains({std::string(group.cover->kind), all})) << group.scene;
+        EXPECT_EQ(tiles, static_cast<std::size_t>(4 * group.cover->percent)) << group.scene;
+    }
+    EXPECT_EQ(coverName({}), "no layers");
+    EXPECT_EQ(coverName({"woven", 5}), "5 % woven");
+    const BenchSkip skip{Path::deferred, Assignment::tiled, {}, 64, {}, "why", {}, Cover{"glass", 25}};
+    EXPECT_EQ(skipName(skip), "deferred, tiled, 64 lights, 25 % glass");
+}
+
+TEST(BenchLayers, WhatTheTableHasNoColumnForIsRefused) {
+    EXPECT_TRUE(layerRefusal({"--assign", "tiled,every"}).starts_with("--table layers: takes one --assign"));
+    for (const auto& [list, value] :
+         {std::pair{"--sizes", "8x8"}, {"--transparencies", "sorted"}, {"--lightings", "compute"}})
+        EXPECT_TRUE(layerRefusal({list, value}).starts_with("--table layers: takes no --sizes")) << list;
+    EXPECT_TRUE(layerRefusal({"--kernels", "only"}).starts_with("--kernels only: "));
+    EXPECT_TRUE(layerRefusal({"--axes", "lights"}).starts_with("--axes: needs --table growth"));
+    EXPECT_TRUE(layerRefusal({"--assign", "per_object"}).find("per_object") != std::string::npos);
+    EXPECT_EQ(layerRefusal({}), "");
+}
+
+using Milliseconds = std::vector<double>;
+
+// Adds the ways of a row: forward+, deferred by G-buffer, deferred by forward. Empty: not timed.
+void addWays(Bench& bench, const Cover& cover, std::uint32_t lights, const std::vector<Milliseconds>& ways) {
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        if (ways[way].empty()) continue;
+        BenchRow row;
+        row.settings.path = layerWays.at(way).path();
+        row.settings.layers = layerWays.at(way).layers;
+        row.settings.size = {64, 36};
+        row.requested_lights = row.counters.lights = lights;
+        row.cover = cover;
+        row.ms = ways[way];
+        Milliseconds sorted = row.ms;
+        std::ranges::sort(sorted);
+        row.time = {sorted[sorted.size() / 2], sorted.front(), sorted.back(),
+                    static_cast<int>(sorted.size())};
+        row.bytes.gbuffer_per_pixel = way == 0 ? 4u : way == 1 && !cover.kind.empty() ? 28u : 24u;
+        row.bytes.picture_images = (row.bytes.gbuffer_per_pixel + 16) * 64 * 36;
+        row.parts = partsOf(bench.options, row.settings);
+        bench.rows.push_back(std::move(row));
+    }
+}
+
+Milliseconds always(double ms) {
+    return Milliseconds(6, ms);
+}
+
+Bench layerBench() {
+    Bench bench;
+    bench.scene = "layers";
+    bench.options.table = BenchTable::layers;
+    const Milliseconds a{20, 22, 18, 20, 22, 18}, b{22, 18, 20, 22, 18, 20}, c{18, 20, 22, 18, 20, 22};
+    addWays(bench, {}, 1, {a, b, c});
+    addWays(bench, {"coated", 5}, 1, {always(10), always(14), always(12)});
+    addWays(bench, {"coated", 5}, 64, {always(30), a, b});
+    addWays(bench, {"coated", 25}, 1, {always(10), always(13), always(15)});
+    addWays(bench, {"coated", 25}, 64, {always(30), always(20), always(26)});
+    return bench;
+}
+
+TEST(BenchLayers, ARowHasThreeWaysAndItsFastest) {
+    const Bench bench = layerBench();
+    const std::vector<LayerRow> rows = layerRows(bench);
+    ASSERT_EQ(rows.size(), 5u);
+    using Ways = std::vector<std::size_t>;
+    EXPECT_EQ(rows[0].fastest, (Ways{0, 1, 2})) << "nothing differs";
+    EXPECT_EQ(rows[0].lead, 0);
+    EXPECT_EQ(rows[1].cover, (Cover{"coated", 5}));
+    EXPECT_EQ(rows[1].lights, 1u);
+    EXPECT_EQ(rows[1].fastest, Ways{0});
+    EXPECT_DOUBLE_EQ(rows[1].lead, 1.2) << "of the next, not of the slowest";
+    EXPECT_EQ(rows[2].fastest, (Ways{1, 2})) << "these two scatter around each other";
+    EXPECT_EQ(rows[4].fastest, Ways{1});
+    EXPECT_EQ(rows[4].ways[2]->settings.layers, Layers::forward);
+    EXPECT_EQ(rows[4].ways[0]->settings.path, Path::forward_plus);
+    EXPECT_TRUE(conclusionsOf(bench).empty()) << "layersInWords() replaces them";
+
+    Bench few;
+    few.options.table = BenchTable::layers;
+    addWays(few, {}, 1, {{10, 10, 10}, {20, 20, 20}, {}});
+    addWays(few, {}, 64, {{}, always(10), {}});
+    addWays(few, {}, 1024, {always(10), {}, always(20)});
+    const std::vector<LayerRow> some = layerRows(few);
+    EXPECT_EQ(some[0].fastest, (Ways{0, 1})) << "three rounds prove nothing";
+    EXPECT_EQ(some[0].ways[2], nullptr);
+    EXPECT_TRUE(some[1].fastest.empty()) << "nothing to compare with";
+    EXPECT_EQ(some[2].fastest, Ways{0});
+    EXPECT_TRUE(layerRows(Bench()).empty());
+}
+
+TEST(BenchLayers, SaysWhereEachWayWins) {
+    EXPECT_EQ(
+        layersInWords(layerBench()),
+        (std::vector<std::string>{
+            "forward_plus is the fastest in 2 of 5 rows (the next takes up to 1.30 times as long: 25 % "
+            "coated, 1 light): 5, 25 % coated under 1 light",
+            "deferred by G-buffer is the fastest in 1 of 5 rows (the next takes up to 1.30 times as "
+            "long: 25 % coated, 64 lights): 25 % coated under 64 lights",
+            "deferred by G-buffer and deferred by forward are the fastest, without a significant "
+            "difference between them, in 1 of 5 rows: 5 % coated under 64 lights",
+            "no significant difference between the ways in 1 of 5 rows: no layers under 1 light",
+            "forward_plus stores 4 bytes per pixel of depth; all its images 20",
+            "deferred by G-buffer stores 24 to 28 bytes per pixel of G-buffer and depth; all its images "
+            "40 to 44",
+            "deferred by forward stores 24 bytes per pixel of G-buffer and depth; all its images 40"}));
+    Bench wide;
+    wide.options.table = BenchTable::layers;
+    for (const Cover& cover :
+         {Cover(), Cover{"woven", 5}, Cover{"woven", 100}, Cover{"glass", 5}, Cover{"glass", 100}})
+        for (const std::uint32_t lights : {1u, 64u}) addWays(wide, cover, lights, {always(1), always(2), {}});
+    EXPECT_TRUE(layersInWords(wide)[0].ends_with(
+        ": no layers under 1, 64 lights; 5, 100 % woven, glass under 1, 64 lights"))
+        << layersInWords(wide)[0];
+}
+
+TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
+    Bench bench = layerBench();
+    EXPECT_EQ(benchEnd(bench).find("VGPRs"), std::string::npos) << "no compiler was asked";
+    bench.compiler = "a GPU";
+    bench.rows[3].registers = {{"shade", 64, 96}};                            // 5 % coated: forward_plus
+    bench.rows[5].registers = {{"shade", 64, 64}, {"shade layers", 96, 96}};  // deferred by forward
+    const std::string text = benchEnd(bench), page = benchHtml(bench);
+    for (const char* words :
+         {"deferred by G-buffer", "5 % coated", "20 (18 to 22)", "64 to 96", "64; 96", "a GPU",
+          "no significant difference", "deferred by G-buffer or deferred by forward"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+        EXPECT_NE(page.find(words), std::string::npos) << words;
+    }
+    for (const std::string& words : layersInWords(bench))
+        EXPECT_NE(text.find(words + "\n"), std::string::npos);
+    const auto json = nlohmann::json::parse(benchJson(bench, {}))["layers"];
+    EXPECT_EQ(json["compiler"], "a GPU");
+    ASSERT_EQ(json["rows"].size(), 5u);
+    const auto& row = json["rows"][1];
+    EXPECT_EQ(row["covered"], "coated");
+    EXPECT_EQ(row["percent"], 5);
+    EXPECT_EQ(row["lights"], 1);
+    EXPECT_EQ(row["fastest"], nlohmann::json::array({"forward_plus"}));
+    EXPECT_EQ(row["ways"][2]["name"], "deferred by forward");
+    EXPECT_EQ(row["ways"][2]["ms"]["median"], 12.0);
+    EXPECT_EQ(row["ways"][1]["bytes_per_pixel"], 28);
+    EXPECT_EQ(row["ways"][1]["image_bytes_per_pixel"], 44);
+    EXPECT_EQ(row["ways"][2]["registers"][1]["pass"], "shade layers");
+    EXPECT_EQ(row["ways"][0]["registers"][0]["most"], 96.0);
+    EXPECT_EQ(json["words"].size(), 7u);
+    // A panel per light count; in each a line per way.
+    const std::string plot = benchPlot(bench, PlotPlace::file);
+    const auto countOf = [&](const std::string& words) {
+        std::size_t count = 0;
+        for (std::size_t at = plot.find(words); at != plot.npos; at = plot.find(words, at + 1)) ++count;
+        return count;
+    };
+    EXPECT_EQ(countOf(">covered, %<"), 2u);
+    EXPECT_EQ(countOf("class=\"trace\" d=\""), 2u * 3 + 3) << "and in the legend";
+    EXPECT_EQ(countOf("series deferred layers\""), 3u);
+    EXPECT_EQ(countOf("deferred by forward, 25 % coated: 26 (26 to 26) ms"), 1u);
+}
+
+TEST(BenchLayers, RegistersAreThoseOfPassesThatShade) {
+    PipelineRequest request{.pass = "shade layers"};
+    EXPECT_FALSE(shades(request)) << "it evaluates no light";
+    request.variant().set(gpu::FEATURE_point_lights);
+    EXPECT_TRUE(shades(request));
+    request.pass = "transmission";
+    EXPECT_TRUE(shades(request));
+    request.pass = "assign lights";
+    EXPECT_FALSE(shades(request));
+    std::vector<PassRegisters> passes;
+    addRegisters(passes, "shade", 96);
+    addRegisters(passes, "shade", 64);
+    addRegisters(passes, "shade", 80);
+    addRegisters(passes, "transmission", 128);
+    ASSERT_EQ(passes.size(), 2u);
+    EXPECT_EQ(passes[0].least, 64);
+    EXPECT_EQ(passes[0].most, 96);
+    EXPECT_EQ(passes[1].pass, "transmission");
+    EXPECT_EQ(passes[1].least, 128);
+}
+
+}  // namespace
+}  // namespace diptych
