@@ -95,6 +95,8 @@ void scaleLengths(Case& pushed, double factor) {
         if (light.kind == LightKind::point || light.kind == LightKind::spot)
             light.intensity = static_cast<float>(double{light.intensity} * factor * factor);
     }
+    // Nodes scale a volume's thickness, but not the distance over which it absorbs.
+    for (Material& material : pushed.scene.materials) material.attenuation_distance *= f;
     Camera& camera = pushed.camera();
     camera.near *= factor;
     camera.far *= factor;

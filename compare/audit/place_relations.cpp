@@ -6,6 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -99,6 +100,12 @@ void shiftTiles(Related& related, const Subject&) {
     related.map.border = border;
 }
 
+std::string lacksFixedBorder(const Subject& subject) {
+    if (std::ranges::any_of(subject.given.scene.materials, transmits))
+        return "surfaces with transmission read the picture up to its border, which moves";
+    return lacksWithShadows(subject);
+}
+
 std::string lacksWithoutFar(const Subject& subject) {
     if (subject.view.camera.orthographic) return "the camera is orthographic";
     return lacksWithShadows(subject);
@@ -151,7 +158,7 @@ std::vector<Relation> placeRelations() {
          .changes = "the picture has 6 more pixels on each side, so tiles begin at other pixels",
          .equality = Equality::rounding,
          .because = "another division computes the ray through a pixel",
-         .lacks = lacksWithShadows,
+         .lacks = lacksFixedBorder,
          .change = shiftTiles},
         {.name = "near_halved",
          .changes = "the near plane is half as far away, without a far plane",

@@ -38,10 +38,8 @@ public:
 
     std::string svg(PlotPlace place) const {
         Drawing drawing;
-        const std::vector<Tick> ticks = fewerNames(across_.ticks());
-        drawing.axes(
-            box_, ticks, [this](double m) { return x(m); }, axisName(), up_.ticks(),
-            [this](double e) { return y(e); }, "relative error");
+        drawing.axes(box_, {fewerNames(across_.ticks()), [this](double m) { return x(m); }, axisName()},
+                     {up_.ticks(), [this](double e) { return y(e); }, "relative error"});
         std::string out = drawing.group();
         for (const double limit : {1e-3, 1e-2})
             out += fmt::format("<line class=\"budget\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",

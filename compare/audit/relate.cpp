@@ -68,7 +68,7 @@ std::map<int, double> packedBounds(const Settings& settings) {
     if (!hasGBuffer(settings.path)) return {};
     Requirements needs;
     needs.emission = true;
-    needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
+    needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
     std::map<int, double> bounds;
     for (const int mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))
@@ -240,6 +240,28 @@ std::uint64_t RelationMeasurer::tied() {
     return *tied_;
 }
 
+void RelationMeasurer::check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& given,
+                             const Drawn& changed) {
+    Image packed;
+    if (hasGBuffer(of.series.path) && !of.tolerance.packed.empty()) {
+        packed = packedLight(related);
+        of.tolerance.packed_light = &packed;
+    }
+    if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
+        of.tolerance.blended = &reference->blended;
+    for (const std::string& failed : {given.failed[i], changed.failed[i]})
+        if (of.comparison.failed.empty()) of.comparison.failed = failed;
+    if (of.comparison.failed.empty()) {
+        Frame back = mappedBack(*changed.frames[i], related.map);
+        of.comparison = evaluate(*given.frames[i], back, of.tolerance);
+        if (!of.comparison.passes()) {
+            of.given = given.frames[i];
+            of.changed = std::move(back);
+        }
+    }
+    of.tolerance.packed_light = of.tolerance.blended = nullptr;
+}
+
 RelationResult RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
     RelationResult result;
     result.relation = &relation;
@@ -282,24 +304,7 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
             addReference(changed, related.changed, after);
         }
         of.tolerance = toleranceOf(relation, related, after[i]);
-        Image packed;
-        if (hasGBuffer(series_[i].path) && !of.tolerance.packed.empty()) {
-            packed = packedLight(related);
-            of.tolerance.packed_light = &packed;
-        }
-        if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
-            of.tolerance.blended = &reference->blended;
-        for (const std::string& failed : {given.failed[i], changed.failed[i]})
-            if (of.comparison.failed.empty()) of.comparison.failed = failed;
-        if (of.comparison.failed.empty()) {
-            Frame back = mappedBack(*changed.frames[i], related.map);
-            of.comparison = evaluate(*given.frames[i], back, of.tolerance);
-            if (!of.comparison.passes()) {
-                of.given = given.frames[i];
-                of.changed = std::move(back);
-            }
-        }
-        of.tolerance.packed_light = of.tolerance.blended = nullptr;
+        check(of, i, related, given, changed);
         result.series.push_back(std::move(of));
     }
     // Visibility among coinciding surfaces is arbitrary.

@@ -63,12 +63,15 @@ private:
     Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
     // Adds the series that draw() omitted.
     static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
-    // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1. Of a case, in place of
+    // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, in place of
     // its lit; or the sum of both cases, in the base's pixels.
     Frame packedLight(const Case& of);
     Image packedLight(const Related& related);
     RelationTolerance toleranceOf(const Relation& relation, const Related& related,
                                   const Settings& settings) const;
+    // Compares the images of series i within `of.tolerance`.
+    void check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& given,
+               const Drawn& changed);
 
     Device& device_;
     const Subject& subject_;

@@ -236,9 +236,9 @@ private:
 
     bool isBesideBlended(std::size_t pixel) const {
         if (!tolerance_.blended) return false;
-        bool found = tolerance_.blended->data[pixel] > 0;
-        around(*tolerance_.blended, pixel,
-               [&](std::size_t other) { found = found || tolerance_.blended->data[other] > 0; });
+        const auto covered = [&](std::size_t at) { return *tolerance_.blended->pixel(at) > 0; };
+        bool found = covered(pixel);
+        around(*tolerance_.blended, pixel, [&](std::size_t other) { found = found || covered(other); });
         return found;
     }
 

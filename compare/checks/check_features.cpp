@@ -20,11 +20,26 @@
 namespace diptych {
 namespace {
 
-constexpr const char* slotNames[gpu::SLOT_COUNT] = {
-    "base colour",       "metallic-roughness", "normal",       "occlusion",       "emission",
-    "specular",          "specular colour",    "lightmap",     "clear coat",      "clear coat roughness",
-    "clear coat normal", "anisotropy",         "sheen colour", "sheen roughness", "iridescence",
-    "film thickness"};
+constexpr const char* slotNames[gpu::SLOT_COUNT] = {"base colour",
+                                                    "metallic-roughness",
+                                                    "normal",
+                                                    "occlusion",
+                                                    "emission",
+                                                    "specular",
+                                                    "specular colour",
+                                                    "lightmap",
+                                                    "clear coat",
+                                                    "clear coat roughness",
+                                                    "clear coat normal",
+                                                    "anisotropy",
+                                                    "sheen colour",
+                                                    "sheen roughness",
+                                                    "iridescence",
+                                                    "film thickness",
+                                                    "transmission",
+                                                    "thickness",
+                                                    "diffuse transmission",
+                                                    "colour of diffuse transmission"};
 
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
@@ -130,8 +145,21 @@ std::string samplingOf(const Scene& scene, const Primitive& primitive, const Tex
     return out;
 }
 
+std::string secondTexcoordOf(const Primitive& primitive, const TextureSlot& slot) {
+    if (slot.texcoord != 1) return {};
+    return primitive.texcoords[1].empty() ? "one texel everywhere, because TEXCOORD_1 is missing"
+                                          : "laid out by TEXCOORD_1";
+}
+
+const char* tangentsOf(const Primitive& primitive) {
+    return primitive.tangents_made ? "generated tangents" : "the mesh's own tangents";
+}
+
 bool isDeep(const Scene& scene, const TextureSlot& slot) {
     return imageOf(scene, slot).deep();
+}
+std::string colorDepthOf(const Scene& scene, const TextureSlot& slot) {
+    return isDeep(scene, slot) ? "more than 8 bits per component" : "";
 }
 
 // Integers are scaled to [0, 1]; floats are not scaled.
@@ -180,6 +208,8 @@ CheckFeatures featuresOf(const Scene& scene, const std::vector<Material>& materi
     add(CheckFeature::anisotropy, (layers & gpu::LAYER_ANISOTROPY) != 0);
     add(CheckFeature::sheen, (layers & gpu::LAYER_SHEEN) != 0);
     add(CheckFeature::iridescence, (layers & gpu::LAYER_IRIDESCENCE) != 0);
+    add(CheckFeature::transmission, (layers & gpu::LAYER_TRANSMISSION) != 0);
+    add(CheckFeature::diffuse_transmission, (layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0);
     add(CheckFeature::vertex_colors,
         std::ranges::any_of(primitive.colors, [](const glm::vec4& c) { return c != glm::vec4(1); }));
     add(CheckFeature::alpha_mask, m.alpha_mode == AlphaMode::mask);
@@ -228,10 +258,15 @@ std::string CheckSentences::ofMask(const Primitive& primitive) {
 
 std::string CheckSentences::ofBlending(const Primitive& primitive) {
     const Material& m = materialOf(materials_, primitive);
-    const bool transmits = !m.unlit && m.transmission > 0;
-    return leastAlpha(primitive) >= 1 && !transmits
+    return leastAlpha(primitive) >= 1 && !transmits(m)
                ? "Blended, but its alpha is 1 everywhere: nothing behind it shows through."
                : "Transparent: surfaces behind it show through, more where its alpha is lower.";
+}
+
+std::string CheckSentences::ofTransmission(const Primitive& primitive) {
+    return materialOf(materials_, primitive).thickness > 0
+               ? "Opaque surfaces behind it show through, bent as by a lens, blurred where it is rough."
+               : "Opaque surfaces behind it show through in place, blurred where it is rough.";
 }
 
 std::string CheckSentences::ofMorphTargets(const Instance& instance) {
@@ -249,13 +284,7 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
             return bySlot(m, transformOf) +
                    ". Arrows, frames and seams in the texture are in the right place.";
         case CheckFeature::second_texcoord:
-            return bySlot(m,
-                          [&](const TextureSlot& slot) -> std::string {
-                              if (slot.texcoord != 1) return {};
-                              return primitive.texcoords[1].empty()
-                                         ? "one texel everywhere, because TEXCOORD_1 is missing"
-                                         : "laid out by TEXCOORD_1";
-                          }) +
+            return bySlot(m, [&](const TextureSlot& slot) { return secondTexcoordOf(primitive, slot); }) +
                    ". It fits the surface, neither stretched nor torn.";
         case CheckFeature::sampler:
             return bySlot(m, [&](const TextureSlot& slot) { return samplingOf(scene_, primitive, slot); }) +
@@ -264,18 +293,22 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
             return fmt::format(
                 "Bumps rise out of the surface and are lit from the same side as the flat parts beside them "
                 "({}).",
-                primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
+                tangentsOf(primitive));
         case CheckFeature::clearcoat:
             return "A clear coat reflects over it: its highlight lies on that of the base and follows the "
                    "coat's own normals and roughness.";
         case CheckFeature::anisotropy:
             return fmt::format("Highlights are stretched along the surface, as on brushed metal ({}).",
-                               primitive.tangents_made ? "generated tangents" : "the mesh's own tangents");
+                               tangentsOf(primitive));
         case CheckFeature::sheen:
             return "A soft sheen lies over it, brightest towards its outline, as on cloth.";
         case CheckFeature::iridescence:
             return "A thin film tints what it reflects: the colours change with the angle, as on a soap "
                    "bubble.";
+        case CheckFeature::transmission:
+            return ofTransmission(primitive);
+        case CheckFeature::diffuse_transmission:
+            return "Light from behind shines through it without an image, as through paper or a leaf.";
         case CheckFeature::vertex_colors:
             return "Vertex colours tint it: gradients are smooth; ticks stand out, crosses do not.";
         case CheckFeature::alpha_mask:
@@ -290,10 +323,7 @@ std::string CheckSentences::of(const Instance& instance, CheckFeature feature) {
         case CheckFeature::unlit:
             return "Flat colour without shading or highlights, independent of the lights.";
         case CheckFeature::deep_image:
-            return bySlot(m,
-                          [&](const TextureSlot& slot) -> std::string {
-                              return isDeep(scene_, slot) ? "more than 8 bits per component" : "";
-                          }) +
+            return bySlot(m, [&](const TextureSlot& slot) { return colorDepthOf(scene_, slot); }) +
                    ". Gradients run without steps.";
         case CheckFeature::skin:
             return "Follows its joints: no vertex is left behind and no part is torn off.";

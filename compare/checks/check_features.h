@@ -14,25 +14,27 @@
 namespace diptych {
 
 // name, heading in the report.
-#define CHECK_FEATURES(X)                         \
-    X(texture_transform, "texture transforms")    \
-    X(second_texcoord, "second UV set")           \
-    X(sampler, "samplers")                        \
-    X(normal_map, "normal maps")                  \
-    X(clearcoat, "clear coats")                   \
-    X(anisotropy, "anisotropy")                   \
-    X(sheen, "sheen")                             \
-    X(iridescence, "iridescence")                 \
-    X(vertex_colors, "vertex colours")            \
-    X(alpha_mask, "alpha masks")                  \
-    X(blend, "blending")                          \
-    X(double_sided, "double-sided surfaces")      \
-    X(mirrored, "mirrored instances")             \
-    X(unlit, "unlit materials")                   \
-    X(deep_image, "images with more than 8 bits") \
-    X(skin, "skins")                              \
-    X(morph, "morph targets")                     \
-    X(flat, "flat normals")                       \
+#define CHECK_FEATURES(X)                           \
+    X(texture_transform, "texture transforms")      \
+    X(second_texcoord, "second UV set")             \
+    X(sampler, "samplers")                          \
+    X(normal_map, "normal maps")                    \
+    X(clearcoat, "clear coats")                     \
+    X(anisotropy, "anisotropy")                     \
+    X(sheen, "sheen")                               \
+    X(iridescence, "iridescence")                   \
+    X(transmission, "transmission")                 \
+    X(diffuse_transmission, "diffuse transmission") \
+    X(vertex_colors, "vertex colours")              \
+    X(alpha_mask, "alpha masks")                    \
+    X(blend, "blending")                            \
+    X(double_sided, "double-sided surfaces")        \
+    X(mirrored, "mirrored instances")               \
+    X(unlit, "unlit materials")                     \
+    X(deep_image, "images with more than 8 bits")   \
+    X(skin, "skins")                                \
+    X(morph, "morph targets")                       \
+    X(flat, "flat normals")                         \
     X(orientation, "orientation")
 
 enum class CheckFeature {
@@ -75,6 +77,7 @@ private:
     float leastAlpha(const Primitive& primitive);
     std::string ofMask(const Primitive& primitive);
     std::string ofBlending(const Primitive& primitive);
+    std::string ofTransmission(const Primitive& primitive);
     std::string ofMorphTargets(const Instance& instance);
 
     const Scene& scene_;

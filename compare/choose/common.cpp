@@ -193,18 +193,20 @@ private:
         return fit;
     }
 
+    // By scene, finalist, round: log times. Behind the finalists: the scene's own choice.
+    using Rounds = std::vector<std::vector<std::vector<double>>>;
+
     void raceFor(const std::vector<std::size_t>& finalists) {
         const std::size_t n = finalists.size();
         std::vector<Settings> frames;
         for (const std::size_t i : finalists) frames.push_back(all()[i].settings);
-        // By scene, finalist, round: log times. Behind the finalists: the scene's own choice.
-        std::vector<std::vector<std::vector<double>>> rounds(own_.size());
+        Rounds rounds(own_.size());
         const auto draw = [&](std::span<const std::size_t> order) {
             std::vector<double> logs(order.size(), 0.0);
             inEachScene(0.7, 1, "finalists of all scenes", [&](std::size_t scene) {
                 std::vector<Settings> drawn = frames;
                 // Each round starts and ends with the scene's own choice, unless it is a finalist.
-                const bool chose = own_[scene]->chosen && ownPlace(scene, frames) == n;
+                const bool chose = own_[scene]->chosen && ownPlace(scene, finalists) == n;
                 if (chose)
                     drawn.push_back(withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings));
                 std::vector<std::size_t> with;
@@ -232,12 +234,14 @@ private:
             for (double& log : logs) log = std::exp(log);
             return logs;
         };
-        const Ranking result = rankByTime(n, draw, options_.rounds, options_.rounds);
+        setWinner(finalists, rankByTime(n, draw, options_.rounds, options_.rounds), rounds);
+    }
+    void setWinner(const std::vector<std::size_t>& finalists, const Ranking& result, const Rounds& rounds) {
         found_.significant = result.significant;
         found_.chosen = finalists[result.winner];
         found_.ties.clear();
         std::optional<std::size_t> second;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t k = 0; k < finalists.size(); ++k) {
             CommonCandidate& candidate = all()[finalists[k]];
             candidate.race_time = result.finalists[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
@@ -250,16 +254,18 @@ private:
         found_.slower.assign(own_.size(), std::nullopt);
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
-            const std::size_t place = ownPlace(scene, frames);
+            const std::size_t place = ownPlace(scene, finalists);
             found_.slower[scene] = place == result.winner
                                        ? Slowdown{}
                                        : slowdown(rounds[scene][result.winner], rounds[scene][place]);
         }
     }
     // Index of the scene's own choice in `finalists`; their count if it is not there.
-    std::size_t ownPlace(std::size_t scene, const std::vector<Settings>& finalists) const {
+    std::size_t ownPlace(std::size_t scene, const std::vector<std::size_t>& finalists) const {
         const Settings own = withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings);
-        return static_cast<std::size_t>(std::ranges::find(finalists, own) - finalists.begin());
+        const auto found = std::ranges::find_if(
+            finalists, [&](std::size_t i) { return found_.candidates[i].settings == own; });
+        return static_cast<std::size_t>(found - finalists.begin());
     }
 
     static double mean(const std::vector<double>& values) {

@@ -61,7 +61,7 @@ struct Choices {
     std::optional<CommonReport> all;   // with several scenes
 };
 
-// Of the only scene, or the joint choice. Empty if nothing fits.
+// The only scene's choice, or the joint one. Empty if nothing fits.
 std::optional<Settings> chosenSettings(const Choices& choices);
 
 // "the fastest with FLIP at most 0.01"

@@ -130,6 +130,21 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
     return *loaded_;
 }
 
+Choice SceneChooser::search(LoadedScene& loaded, const Settings& given,
+                            const std::vector<Settings>& candidates, const Stage& progress) const {
+    SearchOptions options;
+    options.budget = question_.budget;
+    options.changes = singleChanges(candidates);
+    options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
+        std::optional<Settings> made = combined(given, of, changes);
+        const bool drawn = question_.grid.empty() ? made && !drawingProblem(device_, *made)
+                                                  : made && std::ranges::count(candidates, *made) > 0;
+        return drawn ? made : std::nullopt;
+    };
+    options.progress = [&](double done, std::string_view what) { progress.at(done, std::string(what)); };
+    return choose::search(tableOf(candidates), *loaded.evaluator, options);
+}
+
 ChoiceReport SceneChooser::choose(const std::string& where) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, where);
@@ -162,18 +177,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
     loaded.evaluator.emplace(loaded.renderer, references, question_.figure, question_.drawing);
 
-    SearchOptions search;
-    search.budget = report.budget;
-    search.changes = singleChanges(candidates);
-    search.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
-        std::optional<Settings> made = combined(given, of, changes);
-        const bool drawn = question_.grid.empty() ? made && !drawingProblem(device_, *made)
-                                                  : made && std::ranges::count(candidates, *made) > 0;
-        return drawn ? made : std::nullopt;
-    };
-    const Stage searching = stage.part(0.2, 0.95);
-    search.progress = [&](double done, std::string_view what) { searching.at(done, std::string(what)); };
-    report.choice = choose::search(tableOf(candidates), *loaded.evaluator, search);
+    report.choice = search(loaded, given, candidates, stage.part(0.2, 0.95));
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));

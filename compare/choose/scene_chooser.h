@@ -46,6 +46,9 @@ public:
 private:
     struct LoadedScene;  // a scene, read and uploaded
     LoadedScene& load(const std::string& scene, const Stage& progress);
+    // `given`: Settings that candidates change.
+    Choice search(LoadedScene& loaded, const Settings& given, const std::vector<Settings>& candidates,
+                  const Stage& progress) const;
     HeldOutCamera atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
                             const std::string& camera);
     std::optional<SensitivityReport> sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,

@@ -153,10 +153,15 @@ private:
                              }};
         };
     }
-    auto figured(double (*of_figures)(const Figures&)) const {
-        return [of = of_, of_figures](MadeScene& made, const std::array<Settings, 2>& settings) {
+    // Adds a modified scene whose figures measure the property.
+    template <class Make>
+    void addFigured(Property& property, double (*of_figures)(const Figures&), Make make,
+                    bool bakedLights = false) const {
+        const auto valueOf = [of = of_, of_figures](MadeScene& made,
+                                                    const std::array<Settings, 2>& settings) {
             return of_figures(figuresOf(of, made.views, made.renderer, made.viewpoints, settings));
         };
+        property.others.push_back(withScene(make, valueOf, bakedLights));
     }
 
     static double overdrawOf(const Figures& figures) { return ratioOf(figures.fragments, figures.covered); }
@@ -176,9 +181,8 @@ private:
             property.not_varied = "this device does not count fragments, or no surface is opaque";
         for (const int copies : {1, 3})
             if (property.not_varied.empty())
-                property.others.push_back(
-                    withScene([copies](const Scene& scene) { return withOverdraw(scene, copies); },
-                              figured(overdrawOf)));
+                addFigured(property, overdrawOf,
+                           [copies](const Scene& scene) { return withOverdraw(scene, copies); });
         return property;
     }
 
@@ -197,9 +201,9 @@ private:
         if (lights.empty()) property.not_varied = "the scene has no light to remove or copy";
         for (const double factor : {0.5, 2.0, 4.0}) {
             if (lights.empty() || (factor < 1 && lights.size() < 2)) continue;
-            property.others.push_back(
-                withScene([lights, factor](const Scene& scene) { return withLights(scene, lights, factor); },
-                          figured(lightsOf), true));
+            addFigured(
+                property, lightsOf,
+                [lights, factor](const Scene& scene) { return withLights(scene, lights, factor); }, true);
         }
         return property;
     }
@@ -266,8 +270,7 @@ private:
                           .value = trianglesOf(here_),
                           .least = 1,
                           .most = 1e8};
-        property.others.push_back(
-            withScene([](const Scene& scene) { return withEmptyTriangles(scene, 8); }, figured(trianglesOf)));
+        addFigured(property, trianglesOf, [](const Scene& scene) { return withEmptyTriangles(scene, 8); });
         return property;
     }
 

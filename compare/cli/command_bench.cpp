@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
+#include "compare/bench/registers.h"
 #include "compare/cli/commands.h"
 #include "compare/files/output.h"
 #include "compare/run/print.h"
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 namespace diptych::cli {
@@ -27,6 +30,8 @@ void checkBenchOptions(const Options& options) {
     if (isReference(options.settings.path))
         throw std::runtime_error(
             "--path reference: bench does not time the reference; use deferred or forward_plus");
+    if (!options.compile_on.empty() && options.bench.table != BenchTable::layers)
+        throw std::runtime_error("--compile-on: bench needs --table layers for it; plan needs no table");
 }
 
 BenchCases casesOf(const Options& options, const BenchOptions& bench) {
@@ -34,6 +39,13 @@ BenchCases casesOf(const Options& options, const BenchOptions& bench) {
     Settings given = options.settings;
     given.camera = options.cameras.front();
     return makeBenchCases(options.scenes.front(), given, bench);
+}
+
+// What is timed, as outputs call it: the scene, or the table if it has scenes of its own.
+std::string subjectOf(const Options& options, BenchTable table) {
+    if (table == BenchTable::growth) return "growth of frame time";
+    if (table == BenchTable::layers) return "layers by what they cover";
+    return options.scenes.front();
 }
 
 // --path X means --paths X if --paths is missing.
@@ -54,20 +66,24 @@ int runBench(const Options& options) {
     if (!options.channels.empty()) note(options, "--channels is not used: bench writes no channels");
 
     Progress progress(progressOutput(options));
+    std::optional<RegisterCounter> registers;
+    if (!options.compile_on.empty()) registers.emplace(options.compile_on, deviceOptions(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    const bool grows = requested.table == BenchTable::growth;
-    Bench bench{grows ? "growth of frame time" : options.scenes.front(),
+    const bool live = requested.table == BenchTable::modes || requested.table == BenchTable::msaa;
+    Bench bench{subjectOf(options, requested.table),
                 options.settings,
                 requested,
                 reportDevice(device),
                 options.runs,
                 {},
                 cases.skips,
-                {}};
+                {},
+                registers ? registers->info().name : ""};
     const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const Stage whole(progress, bench.scene);
     const double groups = static_cast<double>(cases.groups.size()) + (requested.kernels ? 0.5 : 0.0);
+    const std::shared_ptr<PipelineSet> pipelines = makePipelineSet(device);
     for (std::size_t i = 0; i < cases.groups.size(); ++i) {
         const BenchGroup& group = cases.groups[i];
         const double from = static_cast<double>(i) / groups, to = static_cast<double>(i + 1) / groups;
@@ -75,8 +91,9 @@ int runBench(const Options& options) {
         if (isHopeless(bench, group)) continue;
         const Scene scene = loadShown(group.scene, options.settings, whole.part(from, read));
         const std::size_t first = bench.rows.size();
-        measureGroup(device, group, scene, bench, whole.part(read, to));
-        if (!grows) print(benchTable(bench, first));
+        measureGroup(device, pipelines, group, scene, bench, whole.part(read, to));
+        if (registers) registers->count(scene, std::span(bench.rows).subspan(first));
+        if (live) print(benchTable(bench, first));
     }
     if (requested.kernels)
         bench.kernels =

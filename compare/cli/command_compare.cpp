@@ -59,7 +59,7 @@ std::optional<Frame> readBaseline(const Options& options, const std::vector<Sett
 int compareOneScene(const Options& options, const std::vector<Settings>& settings,
                     std::optional<Frame> baseline, const std::filesystem::path& folder) {
     const PictureChoice picture = pictureChoice(options);
-    const CompareOptions compare = compareOptions(options);
+    CompareOptions compare = compareOptions(options);
     const experiment::Compared compared = comparedOf(options);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
@@ -68,33 +68,27 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     KeptReferences kept(folder, true);
     RenderOptions render = judgedOptions(renderOptions(options), settings, isTraced(settings, baseline),
                                          other != nullptr, options.twice);
-    render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-        return kept.open(key, floats);
-    };
+    render.keep = kept.opener();
     const std::string& name = options.scenes.front();
     const Stage drawn_stage = Stage(progress, name).part(0, experiment::sharesOf(render).drawn);
     const double loading = loadingShare(name, render, settings.size());
     const Scene scene = loadShown(name, options.settings, drawn_stage.part(0, loading));
     const double ours = loading + compared.ourShare() * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);
-    experiment::TextureProbe probe;
-    experiment::AgainstDevice against{other ? *other : device, nullptr,
-                                      precisionsOf(device, other ? *other : device)};
+    experiment::Devices devices(device, other.get(), false);
     experiment::DrawnScene drawn =
-        experiment::drawScene(scene, compared, settings, device, render, probe, drawn_stage.part(ours, 1),
-                              nullptr, other ? &against : nullptr);
-    checkValidation(device);
-    if (other) checkValidation(*other);
-    const ReportDevice here = reportDevice(device);
+        experiment::drawScene(scene, compared, settings, devices, render, drawn_stage.part(ours, 1));
+    for (const Device* of : devices.all()) checkValidation(*of);
     std::string updated;
     if (options.update_baseline)
         updated = updateBaseline(options.baseline_file,
-                                 renewing(options, baseline ? &*baseline : nullptr, drawn.frames), here);
+                                 renewing(options, baseline ? &*baseline : nullptr, drawn.frames),
+                                 reportDevice(device));
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = experiment::sharesOf(render);
-    Report report = experiment::reportOf(compared, compare, std::move(drawn), std::move(baseline), here,
-                                         other ? reportDevice(*other) : ReportDevice(), againFolder(folder),
-                                         stage.part(drawing, comparing));
+    compare.progress = stage.part(drawing, comparing);
+    Report report = experiment::reportOf(compared, compare, std::move(drawn), std::move(baseline), devices,
+                                         againFolder(folder));
     double explained = comparing;
     if (isExplained(options.explain, report)) {
         explained = 0.5 * (1 + comparing);

@@ -57,13 +57,13 @@ Settings testOf(const Options& options, const Settings& baseline, std::string& n
 }
 
 // Prints the explanation, and writes it if -o is given.
-void leave(const Options& options, const PictureChoice& picture, const Device& device,
-           const Explanation& explanation, const ExplainedPictures& of, const Frame& baseline,
-           const Frame& test) {
+void leave(const Options& options, const PictureChoice& picture, const Explanation& explanation,
+           const ExplainedPictures& of, const Frame& baseline, const Frame& test) {
     std::string json;
     if (!options.out.empty())
-        json = writeExplanation(explanation, of, baseline, test, picture, device.info().name, options.out,
-                                options.force);
+        json = writeExplanation(
+            explanation, of, {litPicture(baseline, baseline, picture), litPicture(test, baseline, picture)},
+            options.out, options.force);
     wipeProgress();
     if (options.json) {
         printOut("{}", json.empty() ? jsonText(toJson(explanation, of)) + "\n" : json);
@@ -142,8 +142,9 @@ int explainScene(const Options& options) {
     const Stage stage(progress, of.scene);
     const Scene scene = loadShown(of.scene, options.settings, stage.part(0, 0.1));
     Device device(deviceOptions(options));
+    of.device = device.info().name;
     const std::unique_ptr<Device> other = againstDevice(options);
-    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
+    say(options, "on " + of.device + (other ? " and " + other->info().name : ""));
     SceneViews views(scene);
     Renderer renderer(device, views);
     RenderOptions drawing = renderOptions(options);
@@ -159,7 +160,7 @@ int explainScene(const Options& options) {
                     : other  ? Renderer(*other, views).draw(test, drawing)
                              : renderer.draw(test, drawing);
     if (other)
-        of.baseline += " on " + device.info().name,
+        of.baseline += " on " + of.device,
             of.test = fmt::format("{} on {}", nameOf(test.path), other->info().name);
     Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     if (other) {
@@ -171,7 +172,7 @@ int explainScene(const Options& options) {
         checkValidation(*other);
     }
     checkValidation(device);
-    leave(options, picture, device, explanation, of, a, b);
+    leave(options, picture, explanation, of, a, b);
     return 0;
 }
 
@@ -221,7 +222,7 @@ int explainFiles(const Options& options) {
                                              options.scenes[0], options.scenes[1]));
     std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
     if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);
-    const ExplainedPictures of{
+    ExplainedPictures of{
         where,
         options.scenes[0],
         options.scenes[1],
@@ -232,12 +233,13 @@ int explainFiles(const Options& options) {
     const Stage stage(progress, where);
     const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    of.device = device.info().name;
+    say(options, "on " + of.device);
     SceneViews views(scene);
     Renderer renderer(device, views);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.3, 1));
     checkValidation(device);
-    leave(options, picture, device, explanation, of, a, b);
+    leave(options, picture, explanation, of, a, b);
     return 0;
 }
 

@@ -204,9 +204,7 @@ int runFrames(const Options& options) {
         const Stage drawing = stage.part(begun, begun + each);
         render.progress = drawing.part(0, drawnShare(render));
         KeptReferences kept(writer.output().path, writer.output().kind == OutputKind::folder);
-        render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-            return kept.open(key, floats);
-        };
+        render.keep = kept.opener();
         const Frame frame = source.draw(settings, render);
         if (device) checkValidation(*device);
         drawing.at(drawnShare(render), "write");

@@ -218,17 +218,22 @@ void addExplain(CLI::App& app, Options& options, ParsedOptions& parsed) {
         ->allow_extra_args(false);
 }
 
+void addCompileOn(CLI::App& app, Options& options, const char* what, const char* group) {
+    app.add_option("--compile-on", options.compile_on,
+                   fmt::format("{}: index or part of a name, or an AMD GPU family (vega10, navi21, navi31, "
+                               "gfx1201, ...), for which RADV of Mesa 25 compiles without the GPU",
+                               what))
+        ->type_name("DEVICE")
+        ->group(group);
+}
+
 void addPlan(CLI::App& app, Options& options) {
     addFiles(app, options, "not accepted: plan writes no file; use --json");
     app.add_flag("--estimate", options.estimate,
                  "render the frames, count their workload, and estimate their time on some GPUs")
         ->group("Plan");
-    app.add_option("--compile-on", options.compile_on,
-                   "compile each pipeline for this device and print the compiler's statistics: index "
-                   "or part of a name, or an AMD GPU family (vega10, navi21, navi31, gfx1201, ...), "
-                   "for which RADV of Mesa 25 compiles without the GPU")
-        ->type_name("DEVICE")
-        ->group("Plan");
+    addCompileOn(app, options, "compile each pipeline for this device and print the compiler's statistics",
+                 "Plan");
 }
 
 void addSceneCommand(CLI::App& app, const std::string& command, Options& options, ParsedOptions& parsed) {
@@ -278,6 +283,9 @@ void addSceneCommand(CLI::App& app, const std::string& command, Options& options
     } else if (command == "bench") {
         addFiles(app, options, "folder for the page, table and plot (diptych-bench)");
         addBench(app, parsed);
+        addCompileOn(app, options,
+                     "--table layers: also the registers of shading, from this device's compiler",
+                     "Benchmark");
     } else if (command == "plan") {
         addPlan(app, options);
     } else {

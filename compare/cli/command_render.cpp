@@ -38,9 +38,7 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
                            KeptReferences& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
-    render.keep = [&kept](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-        return kept.open(key, floats);
-    };
+    render.keep = kept.opener();
     render.channels = channelsFor(output.kind, options, render.channels);
     std::vector<Frame> frames;
     const double drawn = drawnShare(render);

@@ -274,8 +274,9 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
     app.option_defaults()->group("Benchmark");
     app.add_option("--table", parsed.bench_table,
                    "modes: every mode; msaa: each path by samples per pixel, with and without blended "
-                   "surfaces, and its memory; growth: each path as one quantity grows (modes)")
-        ->type_name("modes|msaa|growth");
+                   "surfaces, and its memory; growth: each path as one quantity grows; layers: forward+ and "
+                   "both --layers of deferred by what coats, sheen, brushed surfaces and glass cover (modes)")
+        ->type_name("modes|msaa|growth|layers");
     app.add_option(
            "--axes", parsed.bench_axes,
            "quantities of --table growth: triangles, draws, instances, textures, lights, pixels (all)")
@@ -292,7 +293,7 @@ void addBench(CLI::App& app, ParsedOptions& parsed) {
         ->type_name(acceptedValues("lighting") + ",...");
     app.add_option("--light-counts", parsed.light_counts,
                    "light counts to time: of builtin:spheres, of a --lights file with {} in its name, or of "
-                   "a seeded rig (the scene's own lights)")
+                   "a seeded rig (the scene's own lights; --table layers: 1,64,1024)")
         ->type_name("N,...");
     app.add_option("--max-ms", parsed.max_ms,
                    "longer frames are not repeated or tried with more lights, ms (2000)")

@@ -95,7 +95,7 @@ struct Options {
     SelectionOptions selection;                 // compare: pixels
     bool allow_noise = false;                   // compare
     bool estimate = false;                      // plan: estimates times on other GPUs
-    std::string compile_on;                     // plan: a device or GPU family; empty: none
+    std::string compile_on;                     // plan, bench: a device or GPU family; empty: none
     bool explain = false;                       // compare: explains lit even where it passes
     std::vector<external::Renderer> renderers;  // compare, explain, tradeoff: --renderer
     std::vector<std::string> renderer_words;    // words of the command line that name them

@@ -29,13 +29,14 @@ std::vector<std::string> materialNames(const Scene& scene) {
 // Measured texture sampling of the device, a tolerance for comparisons with a traced reference. Empty if
 // not needed.
 std::optional<TextureSampling> texelsFor(const Compared& compared, const std::vector<Settings>& settings,
-                                         Device& device, bool textures, TextureProbe& probe) {
+                                         Devices& devices, bool textures) {
     const bool scenes = std::ranges::any_of(settings, [](const Settings& s) {
         return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
     });
     if (!textures || !compared.withReference() || !scenes) return {};
-    if (!probe) probe = probeTextures(device, settings.front().textures);  // the same for all Settings
-    return probe;
+    if (!devices.texels)  // the same for all Settings
+        devices.texels = probeTextures(devices.device, settings.front().textures);
+    return devices.texels;
 }
 
 // Index of the left panel's Frame in the report. The view's Frames begin at `first`.
@@ -46,6 +47,11 @@ std::size_t leftPanel(const Compared& compared, std::size_t first) {
     return first + static_cast<std::size_t>(path - drawn_paths.begin());
 }
 
+// Index of the Frame by the view's first path.
+std::size_t shownOf(const Compared& compared, std::size_t first) {
+    return first + compared.paths().size() - drawn_paths.size();
+}
+
 // Short device name for Frames and files: "SwiftShader" for "SwiftShader Device (Subzero)".
 std::string shortName(const std::string& device) {
     const auto end =
@@ -54,10 +60,11 @@ std::string shortName(const std::string& device) {
 }
 
 // Inserts the other device's Frames after those of each view, and adds the inputs of their verdicts.
-void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, AgainstDevice& against,
-                    std::vector<Frame> there, const std::shared_ptr<PipelineSet>& pipelines,
-                    DrawnScene& drawn) {
-    Renderer renderer(device, views, pipelines);
+void addOtherDevice(SceneViews& views, Devices& devices, std::vector<Frame> there, DrawnScene& drawn) {
+    const Scene& scene = views.scene();
+    Device& device = devices.device;
+    Devices::Against& against = *devices.against;
+    Renderer renderer(device, views, devices.pipelines);
     if (!scene.textures.empty() && !against.precision[0].texels)
         against.precision = precisionsOf(device, against.device, true, there.front().settings.textures);
     const auto note = [](Frame& frame, const Device& on) {
@@ -83,11 +90,13 @@ void addOtherDevice(const Scene& scene, SceneViews& views, Device& device, Again
     drawn.frames = std::move(frames);
 }
 
-// Renders the view of `shown` with every external renderer. A failed renderer becomes an error of the report.
-void drawExternals(SceneViews& views, const Frame& shown, const Compared& compared, std::size_t baseline,
+// Renders a view, whose Frames begin at `first`, with every external renderer. A failed renderer becomes an
+// error of the report.
+void drawExternals(SceneViews& views, const Compared& compared, std::size_t first,
                    const std::function<void(const std::string&)>& on_step, const Stage& stage,
                    DrawnScene& drawn) {
     const Scene& scene = views.scene();
+    const Frame& shown = drawn.frames[shownOf(compared, first)];
     const SceneView& view = views.at(viewRequest(shown.settings));
     const auto all = static_cast<double>(compared.renderers.size());
     for (std::size_t i = 0; i < compared.renderers.size(); ++i) {
@@ -99,7 +108,7 @@ void drawExternals(SceneViews& views, const Frame& shown, const Compared& compar
         external::Attempt attempt = external::drawExternally(renderer, scene, view, shown.settings);
         if (attempt.frame) {
             drawn.external.push_back(
-                {std::move(*attempt.frame), view.needs, baseline, compared.renderer_words});
+                {std::move(*attempt.frame), view.needs, leftPanel(compared, first), compared.renderer_words});
         } else {
             drawn.errors.push_back({scene.name,
                                     fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
@@ -117,45 +126,57 @@ std::vector<Path> Compared::paths() const {
     return paths;
 }
 
+Devices::Devices(Device& of, Device* other, bool sharePipelines)
+    : device(of),
+      pipelines(sharePipelines ? makePipelineSet(of) : nullptr),
+      against(other ? std::optional(Against{*other, sharePipelines ? makePipelineSet(*other) : nullptr,
+                                            precisionsOf(of, *other)})
+                    : std::nullopt) {}
+
+std::vector<const Device*> Devices::all() const {
+    std::vector<const Device*> all{&device};
+    if (against) all.push_back(&against->device);
+    return all;
+}
+
 Shares sharesOf(const RenderOptions& render) {
     const double frames = framesIn(render);
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
 }
 
 DrawnScene drawScene(const Scene& scene, const Compared& compared, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
-                     const std::shared_ptr<PipelineSet>& pipelines, AgainstDevice* against) {
+                     Devices& devices, const RenderOptions& render, const Stage& outside) {
     DrawnScene drawn;
     SceneViews views(scene);
     for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
     RenderOptions first = render, second = render;
-    if (against) {
+    if (devices.against) {
         first.progress = render.progress.part(0, 0.5);
         second.progress = render.progress.part(0.5, 1);
     }
-    drawn.frames = renderAll(device, views, settings, first, pipelines);
-    const std::size_t together = compared.paths().size();
-    for (std::size_t k = 0; k < drawn.frames.size(); k += together) {
-        const Frame& shown = drawn.frames[k + together - 2];
+    drawn.frames = renderAll(devices.device, views, settings, first, devices.pipelines);
+    for (std::size_t k = 0; k < drawn.frames.size(); k += compared.paths().size()) {
+        const Frame& shown = drawn.frames[shownOf(compared, k)];
         drawn.visual_checks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
         drawn.materials.push_back(materialNames(scene));
-        drawExternals(views, shown, compared, leftPanel(compared, k), render.on_step, outside, drawn);
+        drawExternals(views, compared, k, render.on_step, outside, drawn);
         letGo(shown);
     }
-    if (against)
-        addOtherDevice(scene, views, device, *against,
-                       renderAll(against->device, views, settings, second, against->pipelines), pipelines,
+    if (const auto& other = devices.against)
+        addOtherDevice(views, devices, renderAll(other->device, views, settings, second, other->pipelines),
                        drawn);
-    drawn.texels = texelsFor(compared, settings, device, !scene.textures.empty(), probe);
+    drawn.texels = texelsFor(compared, settings, devices, !scene.textures.empty());
     return drawn;
 }
 
 namespace {
 
 Report comparisonsOf(const Compared& compared, const CompareOptions& compare, DrawnScene drawn,
-                     std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against) {
-    if (!drawn.across.empty())
-        return makeDeviceReport(std::move(drawn.frames), drawn.needs, device, against, compare,
+                     std::optional<Frame> baseline, const Devices& devices) {
+    const ReportDevice device = reportDevice(devices.device);
+    if (devices.against)
+        return makeDeviceReport(std::move(drawn.frames), drawn.needs,
+                                {device, reportDevice(devices.against->device)}, compare,
                                 std::move(drawn.across), std::move(drawn.visual_checks));
     if (compared.withReference())
         return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
@@ -171,14 +192,12 @@ Report comparisonsOf(const Compared& compared, const CompareOptions& compare, Dr
 }  // namespace
 
 Report reportOf(const Compared& compared, CompareOptions compare, DrawnScene drawn,
-                std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
-                const std::string& again, const Stage& progress) {
-    compare.progress = progress;
+                std::optional<Frame> baseline, const Devices& devices, const std::string& again) {
     compare.rules = rulesOfScene(compare.rules, drawn.frames.front().scene);
     compare.texels = drawn.texels;
     std::vector<ExternalPicture> external = std::move(drawn.external);
     std::vector<SceneError> errors = std::move(drawn.errors);
-    Report report = comparisonsOf(compared, compare, std::move(drawn), std::move(baseline), device, against);
+    Report report = comparisonsOf(compared, compare, std::move(drawn), std::move(baseline), devices);
     addExternalPictures(report, std::move(external), compare);
     report.errors = std::move(errors);
     for (Comparison& comparison : report.comparisons)

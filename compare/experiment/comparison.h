@@ -55,26 +55,32 @@ struct DrawnScene {
     std::vector<AcrossDevices> across{};
 };
 
-// The other device of --against-device, and data that scenes share: its pipelines and both devices'
-// precision. Texture precision is measured at the first textured scene.
-struct AgainstDevice {
+// The device that renders, the other one of --against-device, and data that scenes share. Pipelines are
+// nullptr if each scene has its own.
+struct Devices {
+    // Renders every Frame too. The precision is both devices'; of textures it is measured at the first
+    // textured scene.
+    struct Against {
+        Device& device;
+        std::shared_ptr<PipelineSet> pipelines;
+        std::array<DevicePrecision, 2> precision;
+    };
+    // `sharePipelines`: of several scenes.
+    Devices(Device& device, Device* other, bool sharePipelines);
+    std::vector<const Device*> all() const;  // one or two
+
     Device& device;
     std::shared_ptr<PipelineSet> pipelines;
-    std::array<DevicePrecision, 2> precision;
+    std::optional<TextureSampling> texels{};  // measured at the first use
+    std::optional<Against> against;
 };
 
-// The device's texture sampling, measured at the first use.
-using TextureProbe = std::optional<TextureSampling>;
-// `outside`: progress of external renderers. `pipelines`: shared with other scenes; nullptr: its own.
-// `against`: renders every Frame there too.
+// `outside`: progress of external renderers.
 DrawnScene drawScene(const Scene& scene, const Compared& compared, const std::vector<Settings>& settings,
-                     Device& device, const RenderOptions& render, TextureProbe& probe, const Stage& outside,
-                     const std::shared_ptr<PipelineSet>& pipelines = nullptr,
-                     AgainstDevice* against = nullptr);
+                     Devices& devices, const RenderOptions& render, const Stage& outside);
 
 // The scene's comparisons and errors. Commands in the report write to `again`.
 Report reportOf(const Compared& compared, CompareOptions compare, DrawnScene drawn,
-                std::optional<Frame> baseline, const ReportDevice& device, const ReportDevice& against,
-                const std::string& again, const Stage& progress);
+                std::optional<Frame> baseline, const Devices& devices, const std::string& again);
 
 }  // namespace diptych::experiment

@@ -15,14 +15,16 @@
 
 namespace diptych::experiment {
 
-// Error metrics of lit over pixels with a surface in the reference: the same pixels for every row.
-struct ErrorFigure {
+// A metric: its key in JSON, its title in tables and its description.
+struct NamedMetric {
     std::string_view name, title, means;
 };
+
+// Error metrics of lit over pixels with a surface in the reference: the same pixels for every row.
 inline constexpr std::array errorFigures{
-    ErrorFigure{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
-    ErrorFigure{"relative_rmse", "relative RMSE", "root mean square of the relative error"},
-    ErrorFigure{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
+    NamedMetric{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
+    NamedMetric{"relative_rmse", "relative RMSE", "root mean square of the relative error"},
+    NamedMetric{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
 };
 using Errors = std::array<double, errorFigures.size()>;
 

@@ -15,7 +15,7 @@
 
 namespace diptych::experiment {
 
-// FNV-1a, 64 bits (Fowler, Noll and Vo 1991), as 16 hexadecimal digits. Of Frames: over all channels.
+// FNV-1a, 64 bits (Fowler, Noll and Vo 1991), as 16 hexadecimal digits. Frames: over all channels.
 std::string fingerprint(std::string_view bytes);
 std::string fingerprint(std::span<const Frame* const> frames);
 

@@ -21,10 +21,11 @@ bool hasPlace(const Light& light) {
 }
 
 // Properties of a scene: surfaces that reflect irradiance, specular surfaces, an environment, windowed
-// spherical harmonics, skinned or morphed vertices, blended materials, textured materials, layers.
+// spherical harmonics, skinned or morphed vertices, blended materials, glass, textured materials, layers of
+// opaque surfaces.
 struct Reflectors {
     bool base = true, specular = true, environment = true, windowed = true, deformed = true, blended = true,
-         textured = true, layered = true;
+         glass = true, textured = true, layered = true;
 };
 bool readsTextures(const Material& material) {
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
@@ -33,7 +34,7 @@ bool readsTextures(const Material& material) {
 }
 Reflectors reflectorsOf(const Scene* scene) {
     if (!scene) return {};
-    Reflectors found{false, false, scene->environment.has_value(), true, false, false, false, false};
+    Reflectors found{false, false, scene->environment.has_value(), true, false, false, false, false, false};
     for (const Mesh& mesh : scene->meshes)
         for (const Primitive& primitive : mesh.primitives) {
             found.deformed = found.deformed || !primitive.joint_sets.empty() || !primitive.targets.empty();
@@ -41,9 +42,10 @@ Reflectors reflectorsOf(const Scene* scene) {
             const Material material = primitive.material < 0
                                           ? Material{}
                                           : scene->materials[static_cast<std::size_t>(primitive.material)];
-            found.blended = found.blended || blends(material);
+            found.glass = found.glass || transmits(material);
+            found.blended = found.blended || (blends(material) && !transmits(material));
             found.textured = found.textured || readsTextures(material);
-            found.layered = found.layered || layersOf(material) != 0;
+            found.layered = found.layered || (!blends(material) && layersOf(material) != 0);
             if (material.unlit) continue;
             const bool textured = material.metallic_roughness_texture.texture >= 0;
             // A sheen reflects irradiance; a film reflects even where F0 is 0.
@@ -73,7 +75,7 @@ public:
         if (lights.empty()) reset("pixel-lights", "there is no light");
         if (!any([](const Light& light) { return isArea(light.kind); }))
             reset("area-lights", "there is no area light");
-        if (!surfaces.layered) reset("layers", "no material has a layer");
+        if (!surfaces.layered) reset("layers", "no opaque material has a layer");
         if (!surfaces.textured) reset("textures", "no material reads a texture");
         if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
@@ -86,9 +88,13 @@ public:
             reset("specular-albedo",
                   "no ambient, split-sum or multiply scattered light uses the directional albedo");
         if (!surfaces.deformed) reset("skinning", "no vertex is skinned or morphed");
-        if (!surfaces.blended)
-            for (const std::string_view option : {"transparency", "transparency-layers"})
-                reset(option, "no material has alphaMode BLEND or transmits light");
+        if (!surfaces.blended) {
+            const std::string_view why = surfaces.glass
+                                             ? "no material has alphaMode BLEND: glass has one order"
+                                             : "no material has alphaMode BLEND or transmits light";
+            if (!surfaces.glass || row_.transparency != Transparency::off) reset("transparency", why);
+            reset("transparency-layers", why);
+        }
         noteHaze();
     }
     const Settings& row() const { return row_; }

@@ -23,8 +23,7 @@ namespace diptych {
 struct AblationCause {
     enum class Kind { channel, residual, component, exposure, setting };
     Kind kind;
-    // Of a channel: index into surfaceChannels(); of a component: index into
-    // LightingComponents::components().
+    // A channel's index into surfaceChannels(), or a component's into LightingComponents::components().
     std::size_t index = 0;
     std::string name, shows;  // "normals", or a Setting's option; description
 

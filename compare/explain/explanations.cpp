@@ -44,9 +44,8 @@ struct ShownScene {
 
 // `layers`: those of the scene (Requirements::layers); the channels of others are not needed.
 bool hasAll(const Frame& frame, const std::vector<int>& channels, std::uint32_t layers) {
-    return std::ranges::all_of(channels, [&](int mode) {
-        return frame.channels.contains(mode) || (layerOf(mode) != 0 && (layers & layerOf(mode)) == 0);
-    });
+    return std::ranges::all_of(
+        channels, [&](int mode) { return frame.channels.contains(mode) || !mayShow(mode, layers); });
 }
 
 // Another renderer's file declares no lighting Settings: assume ours.

@@ -79,7 +79,7 @@ output::Table table(const Explanation& e) {
         .note =
             "Shares are Shapley values: the part of the mean lit difference that swapping the cause "
             "removes, averaged over all orders of swapping. Shares and the unexplained part add up to "
-            "100 %. Of FLIP: the same for the mean of HDR-FLIP. Alone: only this cause is swapped; last: "
+            "100 %. For FLIP: the same for the mean of HDR-FLIP. Alone: only this cause is swapped; last: "
             "it is swapped after all others. Largest at: share of the affected pixels where this cause "
             "is the largest. There: its share at its worst pixel, W/(sr m^2)."};
     const auto add = [&](const char* title, Column::Kind kind, const auto& cellOf) {
@@ -181,7 +181,7 @@ std::string explanationSection(const Explanation& e, const ExplainedPictures& of
     return out + inHtml(table(e)) + inHtml(remarks(e, of)) + shareMaps(e, source) + "</section>\n";
 }
 
-std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, const std::string& device) {
+std::string explanationHtml(const Explanation& e, const ExplainedPictures& of) {
     std::string pictures =
         "<h2>The pictures</h2>\n<div class=\"maps\">" +
         figure(litFiles[0], "lit of the baseline", markup(of.baseline) + ", the baseline") +
@@ -195,7 +195,7 @@ std::string explanationHtml(const Explanation& e, const ExplainedPictures& of, c
         .title = "why lit differs, " + of.scene,
         .heading = of.scene,
         .about = {Span(of.test, Span::foreign), " against ", Span(of.baseline, Span::foreign),
-                  fmt::format(", {}\u00d7{}, on {}", e.dominant.width, e.dominant.height, device)},
+                  fmt::format(", {}\u00d7{}, on {}", e.dominant.width, e.dominant.height, of.device)},
         .blocks = {output::Drawing{explanationSection(e, of, [](const std::string& name) { return name; }) +
                                    pictures}},
         .files = {"explain.json"}};

@@ -20,7 +20,6 @@ std::string explanationSection(const Explanation& explanation, const ExplainedPi
 
 // index.html, to be written beside explanationMaps(), dominantFile and the lit images below.
 inline constexpr const char* litFiles[] = {"lit.baseline.png", "lit.test.png"};
-std::string explanationHtml(const Explanation& explanation, const ExplainedPictures& of,
-                            const std::string& device);
+std::string explanationHtml(const Explanation& explanation, const ExplainedPictures& of);
 
 }  // namespace diptych

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 
 namespace diptych {
@@ -101,6 +102,82 @@ std::vector<std::uint8_t> changesWithEmission(const Image& change, const std::ve
     return with;
 }
 
+// The residual of each term, and of lit. The latter is `seen` minus the sum of a side's terms, minus the same
+// for our lighting: the background and blended surfaces.
+TermImages residualOf(const Image& seen, const Terms& terms, const LitSurfaces& own) {
+    TermImages residual;
+    std::array<float*, 6> out{};
+    for (std::size_t t = 0; t < out.size(); ++t) {
+        residual.at(t) = Image(seen.width, seen.height, 3);
+        out.at(t) = residual.at(t).data.data();
+    }
+    const Terms ours = termsOf(own.terms);
+    forEach(seen.data.size(), [&](std::size_t i) {
+        const auto theirs = termsAt(terms, i), mine = termsAt(ours, i);
+        const float emission = std::as_const(*own.emission).data[i];
+        const float beyond = seen.data[i] - sumOf(theirs, emission);
+        const float our_beyond = std::as_const(own.lit).data[i] - sumOf(mine, emission);
+        for (std::size_t t = 0; t < theirs.size(); ++t) {
+            const float left = theirs.at(t) - mine.at(t);
+            out.at(t)[i] = std::isfinite(left) ? left : 0.0f;
+        }
+        const float left = beyond - our_beyond;
+        out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
+    });
+    return residual;
+}
+
+// The change of each term, and of lit, when taken from the baseline.
+TermImages changeOf(const TermImages& baseline, const TermImages& test) {
+    TermImages change;
+    for (std::size_t t = 0; t < change.size(); ++t) {
+        const Image &a = baseline.at(t), &b = test.at(t);
+        change.at(t) = Image(a.width, a.height, 3);
+        float* const out = change.at(t).data.data();
+        forEach(a.data.size(), [&](std::size_t i) { out[i] = a.data[i] - b.data[i]; });
+    }
+    return change;
+}
+
+// Moves from `change` the direct light that changes with the channel of `a` and `b`. `value`: the test's
+// terms.
+TermImages takeDirectLight(TermImages& change, const Terms& value, const Image* a, const Image* b,
+                           const auto& part) {
+    TermImages taken;
+    for (const std::size_t t : {diffuseTerm, specularTerm}) {
+        const Image& term = *value.at(t);
+        if (!a || !b || a->pixels() != term.pixels() || b->pixels() != term.pixels()) return {};
+        taken.at(t) = Image(term.width, term.height, 3);
+        float *const out = taken.at(t).data.data(), *const left = change.at(t).data.data();
+        forEach(term.data.size(), [&](std::size_t i) {
+            out[i] = part(left[i], term.data[i], a->pixel(i / 3)[0], b->pixel(i / 3)[0]);
+            left[i] -= out[i];
+        });
+    }
+    return taken;
+}
+
+// The change beyond the sum of terms, by where it is.
+struct ChangeBeyond {
+    Image background, blended, emitting, other;
+};
+
+ChangeBeyond changeBeyond(const Image& change, const std::array<const Image*, 2>& ids,
+                          const std::vector<std::uint8_t>& blended, const std::vector<std::uint8_t>& emits) {
+    const Image blank(change.width, change.height, 3);
+    ChangeBeyond parts{blank, blank, blank, blank};
+    for (std::size_t i = 0; i < change.data.size(); ++i) {
+        const bool surface =
+            ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
+        Image& part = !surface                          ? parts.background
+                      : blended[i / 3] != 0             ? parts.blended
+                      : !emits.empty() && emits[i] != 0 ? parts.emitting
+                                                        : parts.other;
+        part.data[i] = change.data[i];
+    }
+    return parts;
+}
+
 bool isNothing(const Image& image) {
     return std::ranges::all_of(image.data, [](float value) { return value == 0; });
 }
@@ -148,114 +225,60 @@ Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
 
 LightingComponents::LightingComponents(const Frame& baseline, const Frame& test, const Image& lit,
                                        const std::array<LitSurfaces, 2>& own) {
-    const auto blank = [&] { return Image(lit.width, lit.height, 3); };
-    const std::array<Terms, 2> files{termsOf(baseline), termsOf(test)},
-        ours{termsOf(own[0].terms), termsOf(own[1].terms)};
-    // The residual of each term, and of lit. The latter is lit minus the sum of a side's terms, minus the
-    // same for our lighting: the background and blended surfaces.
-    std::array<std::array<Image, 6>, 2> residual;
-    const std::vector<std::uint8_t> blended = blendedIn(own);
-    for (std::size_t side = 0; side < 2; ++side) {
-        for (Image& image : residual.at(side)) image = blank();
-        std::array<float*, 6> out{};
-        for (std::size_t t = 0; t < out.size(); ++t) out.at(t) = residual.at(side).at(t).data.data();
-        const Image& seen = side == 0 ? *channelIn(baseline, gpu::DEBUG_lit) : lit;
-        forEach(seen.data.size(), [&](std::size_t i) {
-            const auto theirs = termsAt(files.at(side), i), mine = termsAt(ours.at(side), i);
-            const float emission = std::as_const(*own.at(side).emission).data[i];
-            const float beyond = seen.data[i] - sumOf(theirs, emission);
-            const float our_beyond = std::as_const(own.at(side).lit).data[i] - sumOf(mine, emission);
-            for (std::size_t t = 0; t < theirs.size(); ++t) {
-                const float left = theirs.at(t) - mine.at(t);
-                out.at(t)[i] = std::isfinite(left) ? left : 0.0f;
-            }
-            const float left = beyond - our_beyond;
-            out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
-        });
-    }
-    // The change of each term when taken from the baseline.
-    std::array<Image, 6> change;
-    for (std::size_t t = 0; t < change.size(); ++t) {
-        change.at(t) = blank();
-        float* const out = change.at(t).data.data();
-        const float *const a = std::as_const(residual[0].at(t)).data.data(),
-                           *const b = std::as_const(residual[1].at(t)).data.data();
-        forEach(change.at(t).data.size(), [&](std::size_t i) { out[i] = a[i] - b[i]; });
-    }
-    const auto add = [&](std::string name, std::string shows, std::array<Image, 6> adds) {
-        bool nothing = true;
-        for (Image& image : adds) {
-            if (!image.empty() && isNothing(image)) image = Image();
-            nothing = nothing && image.empty();
-        }
-        if (!nothing) components_.push_back({std::move(name), std::move(shows), std::move(adds)});
-    };
-    // Applies to the last added component.
-    const auto isOfLights = [&](const std::string& name, LightChange how) {
-        if (!components_.empty() && components_.back().name == name) components_.back().lights = how;
-    };
+    const std::array<Terms, 2> terms{termsOf(baseline), termsOf(test)};
+    residual_ = residualOf(lit, terms[1], own[1]);
+    TermImages change =
+        changeOf(residualOf(*channelIn(baseline, gpu::DEBUG_lit), terms[0], own[0]), residual_);
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
-    const auto share = [&](std::string name, std::string shows, gpu::uint mode, const auto& part) {
-        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
-        if (!a || !b || a->pixels() != lit.pixels() || b->pixels() != lit.pixels()) return;
-        std::array<Image, 6> adds;
-        for (const std::size_t t : {diffuseTerm, specularTerm}) {
-            adds.at(t) = blank();
-            float *const out = adds.at(t).data.data(), *const left = change.at(t).data.data();
-            const float* const value = files[1].at(t)->data.data();
-            forEach(lit.data.size(), [&](std::size_t i) {
-                out[i] = part(left[i], value[i], a->pixel(i / 3)[0], b->pixel(i / 3)[0]);
-                left[i] -= out[i];
-            });
-        }
-        add(std::move(name), std::move(shows), std::move(adds));
+    const auto share = [&](std::string name, std::string shows, gpu::uint mode, LightChange how,
+                           const auto& part) {
+        add({std::move(name), std::move(shows),
+             takeDirectLight(change, terms[1], channelIn(baseline, mode), channelIn(test, mode), part), how});
     };
     share("shadow_visibility", "direct light that changes with the visibility of the sun",
-          gpu::DEBUG_shadow_visibility, shadowPart);
-    isOfLights("shadow_visibility", LightChange::seen);
+          gpu::DEBUG_shadow_visibility, LightChange::seen, shadowPart);
     share("local_visibility", "direct light that changes with the visibility of point and spot lights",
-          gpu::DEBUG_local_visibility, shadowPart);
-    isOfLights("local_visibility", LightChange::seen);
+          gpu::DEBUG_local_visibility, LightChange::seen, shadowPart);
     share("light_count", "direct light where the number of evaluated lights differs", gpu::DEBUG_light_count,
-          [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
-    isOfLights("light_count", LightChange::whole);
-    const auto term = [&](std::string name, std::string shows, std::size_t t) {
-        std::array<Image, 6> adds;
-        adds.at(t) = std::move(change.at(t));
-        add(std::move(name), std::move(shows), std::move(adds));
+          LightChange::whole, [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
+    const auto term = [&](std::string name, std::string shows, std::initializer_list<std::size_t> of,
+                          std::optional<LightChange> how = {}) {
+        TermImages adds;
+        for (const std::size_t t : of) adds.at(t) = std::move(change.at(t));
+        add({std::move(name), std::move(shows), std::move(adds), how});
     };
-    term("direct diffuse", "direct light reflected by the diffuse lobe", diffuseTerm);
-    isOfLights("direct diffuse", LightChange::factor);
-    term("direct specular", "direct light reflected by the specular lobe", specularTerm);
-    isOfLights("direct specular", LightChange::factor);
-    term("ambient light", "reflected ambient and environment light", ambientTerm);
-    std::array<Image, 6> air;
-    air.at(hazeTerm) = std::move(change.at(hazeTerm));
-    air.at(transmittanceTerm) = std::move(change.at(transmittanceTerm));
-    add("haze in the air", "transmittance and scattered light of the haze", std::move(air));
-    std::array<Image, 6> behind, over, emitted, order;
-    for (std::array<Image, 6>* const component : {&behind, &over, &emitted, &order})
-        component->at(wholeTerm) = blank();
-    const std::array<const Image*, 2> ids{channelIn(baseline, gpu::DEBUG_material_id),
-                                          channelIn(test, gpu::DEBUG_material_id)};
-    const std::vector<std::uint8_t> emits = changesWithEmission(change.at(wholeTerm), blended, own, files);
-    for (std::size_t i = 0; i < lit.data.size(); ++i) {
-        const bool surface =
-            ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
-        std::array<Image, 6>& component = !surface                          ? behind
-                                          : blended[i / 3] != 0             ? over
-                                          : !emits.empty() && emits[i] != 0 ? emitted
-                                                                            : order;
-        component.at(wholeTerm).data[i] = std::as_const(change.at(wholeTerm)).data[i];
+    term("direct diffuse", "direct light that the diffuse lobes reflect or transmit", {diffuseTerm},
+         LightChange::factor);
+    term("direct specular", "direct light reflected by the specular lobe", {specularTerm},
+         LightChange::factor);
+    term("ambient light", "ambient and environment light, reflected or transmitted", {ambientTerm});
+    term("haze in the air", "transmittance and scattered light of the haze", {hazeTerm, transmittanceTerm});
+    const std::vector<std::uint8_t> blended = blendedIn(own);
+    ChangeBeyond beyond =
+        changeBeyond(change.at(wholeTerm),
+                     {channelIn(baseline, gpu::DEBUG_material_id), channelIn(test, gpu::DEBUG_material_id)},
+                     blended, changesWithEmission(change.at(wholeTerm), blended, own, terms));
+    const auto whole = [&](std::string name, std::string shows, Image& of) {
+        change.at(wholeTerm) = std::move(of);
+        term(std::move(name), std::move(shows), {wholeTerm});
+    };
+    whole("background", "pixels without a surface and without blending", beyond.background);
+    whole("transparency", "fragments blended over surfaces and background, and transmission through surfaces",
+          beyond.blended);
+    whole("sum with emission", "difference between lit and the sum of its terms, only where surfaces emit",
+          beyond.emitting);
+    whole("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
+          beyond.other);
+}
+
+void LightingComponents::add(Component component) {
+    bool nothing = true;
+    for (Image& image : component.adds) {
+        if (!image.empty() && isNothing(image)) image = Image();
+        nothing = nothing && image.empty();
     }
-    add("background", "pixels without a surface and without blending", std::move(behind));
-    add("transparency", "fragments blended over surfaces and background", std::move(over));
-    add("sum with emission", "difference between lit and the sum of its terms, only where surfaces emit",
-        std::move(emitted));
-    add("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
-        std::move(order));
-    residual_ = std::move(residual[1]);
+    if (!nothing) components_.push_back(std::move(component));
 }
 
 Image LightingComponents::directLight(const Component& component, const LightChannels& of) {

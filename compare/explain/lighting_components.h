@@ -35,6 +35,9 @@ struct LitSurfaces {
     Image unblended;
 };
 
+// An image for each term of lit, and one for lit itself.
+using TermImages = std::array<Image, 6>;
+
 // The components in which two Frames differ beyond their channels and Settings. Taking a component from
 // the baseline changes its terms to the baseline's.
 class LightingComponents {
@@ -47,7 +50,7 @@ public:
     struct Component {
         std::string name, shows;  // "direct diffuse"
         // Change of each term, and of lit, when taken from the baseline: W x H x 3; empty: none.
-        std::array<Image, 6> adds;
+        TermImages adds;
         std::optional<LightChange> lights{};  // for direct light: how lights may have changed
     };
     // Change of direct light by a component; and the part of direct light in the component's lobes, W x H
@@ -61,7 +64,9 @@ public:
     Image lit(const LitSurfaces& surfaces, const std::vector<bool>& taken) const;
 
 private:
-    std::array<Image, 6> residual_;  // of the test: of each term, and of lit
+    void add(Component component);  // unless it changes nothing
+
+    TermImages residual_;  // of the test
     std::vector<Component> components_;
 };
 

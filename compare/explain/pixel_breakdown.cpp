@@ -65,8 +65,7 @@ const Image* imageOf(const Frame& frame, int mode) {
 RenderOptions drawingOf(const Requirements& needs, const Stage& progress) {
     RenderOptions drawing;
     for (const DebugMode& mode : debugModes())
-        if (layerOf(mode.number) == 0 || (needs.layers & layerOf(mode.number)) != 0)
-            drawing.channels.push_back(mode.number);
+        if (mayShow(mode.number, needs.layers)) drawing.channels.push_back(mode.number);
     drawing.runs = 0;
     drawing.through_gbuffer = true;
     drawing.progress = progress;
@@ -351,8 +350,7 @@ private:
                     environment.at(side) =
                         plus(environment.at(side), alone.at(side).at({}, query_.x, query_.y), -1);
             }
-            add(PixelTerm::Kind::environment, {}, environment,
-                rgb(rest.reflected.diffuse + rest.reflected.specular), rest.uncertainty);
+            add(PixelTerm::Kind::environment, {}, environment, rgb(rest.reflected.sum()), rest.uncertainty);
         }
         if (together && !view_.lights.empty()) takeLightsTogether(environment);
         const auto takeChannel = [&](PixelTerm::Kind kind, gpu::uint mode, const Rgb3& nothing) {

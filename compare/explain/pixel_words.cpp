@@ -107,7 +107,7 @@ std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
         case PixelTerm::Kind::haze:
             return "haze";
         case PixelTerm::Kind::blended:
-            return "blended fragments";
+            return "blended fragments, transmission";
         case PixelTerm::Kind::sum:
             return "sum of the terms";
         case PixelTerm::Kind::lit:
@@ -293,6 +293,66 @@ std::string verdictLine(const PixelBreakdown& breakdown) {
                : fmt::format("FAIL: at this pixel beyond tolerance: {}\n", fmt::join(beyond, ", "));
 }
 
+Json numbersJson(std::span<const double> values) {
+    Json list = Json::array();
+    for (const double v : values) list.push_back(finiteOrNull(v));
+    return list;
+}
+
+Json stepsJson(const PixelBreakdown& breakdown) {
+    const auto orNull = [](const PixelValue& value) {
+        return value.empty() ? Json(nullptr) : numbersJson(value);
+    };
+    Json steps = Json::array();
+    for (const PixelStep& step : breakdown.steps) {
+        Json one{{"number", step.mode->number},         {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->metric)}, {"baseline", orNull(step.values[0])},
+                 {"test", orNull(step.values[1])},      {"reference", orNull(step.reference)}};
+        if (step.isCompared()) {
+            one["difference"] = finiteOrNull(step.difference);
+            one["differs"] = step.differs;
+            one["tolerance"] = finiteOrNull(step.tolerance.max);
+            one["within"] = !step.beyond;
+            if (step.explained) one["explained"] = *step.explained;
+        }
+        one["because"] = step.tolerance.because;
+        steps.push_back(std::move(one));
+    }
+    return steps;
+}
+
+Json lightsJson(const PixelBreakdown& breakdown) {
+    Json lights = Json::array();
+    for (std::size_t i = 0; i < breakdown.lights.size(); ++i) {
+        const PixelLightFacts& facts = breakdown.lights[i];
+        Json one{{"light", i},
+                 {"name", facts.name},
+                 {"kind", facts.kind},
+                 {"distance", finiteOrNull(facts.distance)},
+                 {"range", finiteOrNull(facts.range)},
+                 {"casts", facts.casts}};
+        for (std::size_t side = 0; side < 2; ++side)
+            one[side == 0 ? "in_baseline_list" : "in_test_list"] =
+                breakdown.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
+        lights.push_back(std::move(one));
+    }
+    return lights;
+}
+
+Json termsJson(const PixelBreakdown& breakdown) {
+    Json terms = Json::array();
+    for (const PixelTerm& term : breakdown.terms)
+        terms.push_back({{"kind", nameOf(term.kind)},
+                         {"lights", term.lights},
+                         {"baseline", numbersJson(term.values[0])},
+                         {"test", numbersJson(term.values[1])},
+                         {"reference", term.reference ? numbersJson(*term.reference) : Json(nullptr)},
+                         {"uncertainty", term.uncertainty},
+                         {"difference", finiteOrNull(term.difference)},
+                         {"differs", term.differs}});
+    return terms;
+}
+
 }  // namespace
 
 std::string firstDifference(const PixelBreakdown& breakdown) {
@@ -338,51 +398,6 @@ std::string inWords(const PixelBreakdown& breakdown) {
 }
 
 nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
-    const auto numbers = [](std::span<const double> values) {
-        Json list = Json::array();
-        for (const double v : values) list.push_back(finiteOrNull(v));
-        return list;
-    };
-    const auto orNull = [&](const PixelValue& value) {
-        return value.empty() ? Json(nullptr) : numbers(value);
-    };
-    Json steps = Json::array(), lights = Json::array(), terms = Json::array();
-    for (const PixelStep& step : breakdown.steps) {
-        Json one{{"number", step.mode->number},         {"name", step.mode->name},
-                 {"metric", nameOf(step.mode->metric)}, {"baseline", orNull(step.values[0])},
-                 {"test", orNull(step.values[1])},      {"reference", orNull(step.reference)}};
-        if (step.isCompared()) {
-            one["difference"] = finiteOrNull(step.difference);
-            one["differs"] = step.differs;
-            one["tolerance"] = finiteOrNull(step.tolerance.max);
-            one["within"] = !step.beyond;
-            if (step.explained) one["explained"] = *step.explained;
-        }
-        one["because"] = step.tolerance.because;
-        steps.push_back(std::move(one));
-    }
-    for (std::size_t i = 0; i < breakdown.lights.size(); ++i) {
-        const PixelLightFacts& facts = breakdown.lights[i];
-        Json one{{"light", i},
-                 {"name", facts.name},
-                 {"kind", facts.kind},
-                 {"distance", finiteOrNull(facts.distance)},
-                 {"range", finiteOrNull(facts.range)},
-                 {"casts", facts.casts}};
-        for (std::size_t side = 0; side < 2; ++side)
-            one[side == 0 ? "in_baseline_list" : "in_test_list"] =
-                breakdown.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
-        lights.push_back(std::move(one));
-    }
-    for (const PixelTerm& term : breakdown.terms)
-        terms.push_back({{"kind", nameOf(term.kind)},
-                         {"lights", term.lights},
-                         {"baseline", numbers(term.values[0])},
-                         {"test", numbers(term.values[1])},
-                         {"reference", term.reference ? numbers(*term.reference) : Json(nullptr)},
-                         {"uncertainty", term.uncertainty},
-                         {"difference", finiteOrNull(term.difference)},
-                         {"differs", term.differs}});
     const auto [step, term] = breakdown.first();
     Json first = nullptr;
     if (step) first = step->mode->name;
@@ -403,12 +418,12 @@ nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
         {"blended", breakdown.blended},
         {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
                                      : Json(nullptr)},
-        {"position", breakdown.shown ? numbers(breakdown.position) : Json(nullptr)},
-        {"steps", std::move(steps)},
-        {"lights", std::move(lights)},
+        {"position", breakdown.shown ? numbersJson(breakdown.position) : Json(nullptr)},
+        {"steps", stepsJson(breakdown)},
+        {"lights", lightsJson(breakdown)},
         {"drawn_alone", breakdown.drawn_alone},
-        {"terms", std::move(terms)},
-        {"residual_rounding", numbers(breakdown.residual_rounding)},
+        {"terms", termsJson(breakdown)},
+        {"residual_rounding", numbersJson(breakdown.residual_rounding)},
         {"first_difference", std::move(first)},
         {"summary", firstDifference(breakdown)}};
 }

@@ -21,6 +21,7 @@ struct ExplainedPictures {
 
     std::string scene, baseline, test;
     std::vector<Command> commands{};  // the first repeats the explanation
+    std::string device{};             // that lights the channels
 };
 
 // Above this fraction of the distance the text calls the unexplained part significant.

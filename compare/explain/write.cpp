@@ -24,17 +24,16 @@ Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice
 }
 
 std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
-                             const Frame& baseline, const Frame& test, const PictureChoice& choice,
-                             const std::string& device, const std::filesystem::path& path, bool force) {
+                             std::array<Image8, 2> lit, const std::filesystem::path& path, bool force) {
     ListedFolder folder(path, explanationManifest, force);
     std::vector<NamedPicture> pictures = explanationMaps(explanation);
-    pictures.push_back({litFiles[0], litPicture(baseline, baseline, choice)});
-    pictures.push_back({litFiles[1], litPicture(test, baseline, choice)});
+    for (std::size_t side = 0; side < 2; ++side)
+        pictures.push_back({litFiles[side], std::move(lit.at(side))});
     pictures.push_back({dominantFile, dominantPicture(explanation, pictures.back().picture)});
     for (const NamedPicture& picture : pictures) folder.list(picture.name);
     tbb::parallel_for(std::size_t{0}, pictures.size(),
                       [&](std::size_t i) { writePng(folder / pictures[i].name, pictures[i].picture); });
-    folder.put("index.html", explanationHtml(explanation, of, device));
+    folder.put("index.html", explanationHtml(explanation, of));
     return folder.finish(toJson(explanation, of));
 }
 

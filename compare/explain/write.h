@@ -6,6 +6,7 @@
 #include "compare/explain/words.h"
 #include "compare/picture/picture.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -17,10 +18,9 @@ inline constexpr const char* explanationManifest = "explain.json";
 Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice);
 
 // Writes index.html, explain.json and the images. Replaces an earlier explanation atomically; replaces
-// anything else only with `force`. `device`: its name. Returns the text of explain.json. Throws
-// std::runtime_error naming the folder or file.
+// anything else only with `force`. `lit`: litPicture() of both sides. Returns the text of explain.json.
+// Throws std::runtime_error naming the folder or file.
 std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
-                             const Frame& baseline, const Frame& test, const PictureChoice& choice,
-                             const std::string& device, const std::filesystem::path& folder, bool force);
+                             std::array<Image8, 2> lit, const std::filesystem::path& folder, bool force);
 
 }  // namespace diptych

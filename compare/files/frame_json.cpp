@@ -43,6 +43,24 @@ FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json) {
     return camera;
 }
 
+namespace {
+
+Json countersJson(const FrameCounters& counters) {
+    return {{"nonfinite_pixels", counters.nonfinite_pixels},
+            {"overflowed_lists", counters.overflowed_lists},
+            {"lights", counters.lights},
+            {"unsorted", {{"fragments", counters.unsorted.fragments}, {"pixels", counters.unsorted.pixels}}},
+            {"shadow_pages",
+             {{"requested", counters.shadow_pages.requested},
+              {"resident", counters.shadow_pages.resident},
+              {"fallback", counters.shadow_pages.fallback},
+              {"drawn", counters.shadow_pages.drawn}}},
+            {"unreproduced_pixels", counters.unreproduced_pixels},
+            {"energy_cut", counters.energy_cut}};
+}
+
+}  // namespace
+
 Json jsonOf(const Frame& frame) {
     Json passes = Json::array();
     for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
@@ -53,7 +71,6 @@ Json jsonOf(const Frame& frame) {
     for (const auto& [mode, of] : frame.noise)
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
     const FrameTime& time = frame.time;
-    const FrameCounters& counters = frame.counters;
     Json repaired = Json::object();
     for (const auto& [mode, pixels] : frame.repaired) {
         const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
@@ -65,46 +82,34 @@ Json jsonOf(const Frame& frame) {
         hidden = {{"mean", frame.hidden_light->mean},
                   {"p99", frame.hidden_light->p99},
                   {"pixels_above_a_tenth", frame.hidden_light->pixels}};
-    return {
-        {"name", frame.name},
-        {"path", isUnknown || frame.origin.external ? Json(nullptr) : Json(nameOf(frame.settings.path))},
-        {"scene", frame.scene},
-        {"camera", jsonOf(frame.camera)},
-        {"size", {frame.settings.size.width, frame.settings.size.height}},
-        {"settings", isUnknown ? Json(nullptr) : parseOrderedJson(toJson(frame.settings))},
-        {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
-        {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
-        {"made_in_ms", frame.made_in_ms},
-        {"uncertainty", frame.relative_uncertainty},
-        {"hidden_light", hidden},
-        {"passes", passes},
-        {"bytes",
-         {{"images", frame.bytes.images},
-          {"buffers", frame.bytes.buffers},
-          {"gbuffer_per_pixel", frame.bytes.gbuffer_per_pixel}}},
-        {"counters",
-         {{"nonfinite_pixels", counters.nonfinite_pixels},
-          {"overflowed_lists", counters.overflowed_lists},
-          {"lights", counters.lights},
-          {"unsorted", {{"fragments", counters.unsorted.fragments}, {"pixels", counters.unsorted.pixels}}},
-          {"shadow_pages",
-           {{"requested", counters.shadow_pages.requested},
-            {"resident", counters.shadow_pages.resident},
-            {"fallback", counters.shadow_pages.fallback},
-            {"drawn", counters.shadow_pages.drawn}}},
-          {"unreproduced_pixels", counters.unreproduced_pixels},
-          {"energy_cut", counters.energy_cut}}},
-        {"noise", noise},
-        {"changed_buffers", frame.changed_buffers},
-        {"repaired", repaired},
-        {"origin",
-         {{"file", frame.origin.file},
-          {"device", frame.origin.device},
-          {"driver", frame.origin.driver},
-          {"commit", frame.origin.commit},
-          {"external", frame.origin.external},
-          {"granted", frame.origin.granted}}},
-        {"notes", frame.notes}};
+    return {{"name", frame.name},
+            {"path", isUnknown || frame.origin.external ? Json(nullptr) : Json(nameOf(frame.settings.path))},
+            {"scene", frame.scene},
+            {"camera", jsonOf(frame.camera)},
+            {"size", {frame.settings.size.width, frame.settings.size.height}},
+            {"settings", isUnknown ? Json(nullptr) : parseOrderedJson(toJson(frame.settings))},
+            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
+            {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
+            {"made_in_ms", frame.made_in_ms},
+            {"uncertainty", frame.relative_uncertainty},
+            {"hidden_light", hidden},
+            {"passes", passes},
+            {"bytes",
+             {{"images", frame.bytes.images},
+              {"buffers", frame.bytes.buffers},
+              {"gbuffer_per_pixel", frame.bytes.gbuffer_per_pixel}}},
+            {"counters", countersJson(frame.counters)},
+            {"noise", noise},
+            {"changed_buffers", frame.changed_buffers},
+            {"repaired", repaired},
+            {"origin",
+             {{"file", frame.origin.file},
+              {"device", frame.origin.device},
+              {"driver", frame.origin.driver},
+              {"commit", frame.origin.commit},
+              {"external", frame.origin.external},
+              {"granted", frame.origin.granted}}},
+            {"notes", frame.notes}};
 }
 
 }  // namespace diptych

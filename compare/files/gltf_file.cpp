@@ -116,6 +116,21 @@ void addReflection(const Material& material, Json& written, Json& extensions) {
                                             {"specularColorFactor", specular}};
 }
 
+void addVolume(const Material& material, Json& extensions) {
+    if (material.thickness > 0) {
+        Json& volume = extensions["KHR_materials_volume"];
+        volume = {{"thicknessFactor", material.thickness},
+                  {"attenuationColor", listOf(glm::dvec3(material.attenuation_color))}};
+        if (material.attenuation_distance > 0) volume["attenuationDistance"] = material.attenuation_distance;
+    }
+    if (material.dispersion > 0)
+        extensions["KHR_materials_dispersion"] = {{"dispersion", material.dispersion}};
+    if (material.diffuse_transmission > 0)
+        extensions["KHR_materials_diffuse_transmission"] = {
+            {"diffuseTransmissionFactor", material.diffuse_transmission},
+            {"diffuseTransmissionColorFactor", listOf(glm::dvec3(material.diffuse_transmission_color))}};
+}
+
 }  // namespace
 
 Json gltfMaterial(const Material& material) {
@@ -134,6 +149,7 @@ Json gltfMaterial(const Material& material) {
     if (material.unlit) extensions["KHR_materials_unlit"] = Json::object();
     if (material.transmission > 0)
         extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
+    addVolume(material, extensions);
     if (material.clearcoat > 0)
         extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clearcoat},
                                                  {"clearcoatRoughnessFactor", material.clearcoat_roughness}};
@@ -154,11 +170,19 @@ Json gltfMaterial(const Material& material) {
 }
 
 std::vector<std::string> gltfMaterialExtensions() {
-    return {"KHR_materials_ior",       "KHR_materials_specular",
-            specularGlossiness,        "KHR_materials_emissive_strength",
-            "KHR_materials_unlit",     "KHR_materials_transmission",
-            "KHR_materials_clearcoat", "KHR_materials_anisotropy",
-            "KHR_materials_sheen",     "KHR_materials_iridescence"};
+    return {"KHR_materials_ior",
+            "KHR_materials_specular",
+            specularGlossiness,
+            "KHR_materials_emissive_strength",
+            "KHR_materials_unlit",
+            "KHR_materials_transmission",
+            "KHR_materials_clearcoat",
+            "KHR_materials_anisotropy",
+            "KHR_materials_sheen",
+            "KHR_materials_iridescence",
+            "KHR_materials_volume",
+            "KHR_materials_dispersion",
+            "KHR_materials_diffuse_transmission"};
 }
 
 Json gltfCamera(const Camera& camera, double aspect) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/metrics/order.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,7 +12,12 @@ namespace diptych::metrics {
 namespace {
 
 constexpr std::size_t bins = (0x7f800000u >> 16) + 1;  // includes infinity
-constexpr std::size_t parts = 8;                       // fixed, so that the order of sums is fixed
+
+// Parts that threads count. They depend on the number of values alone, so that the order of sums is fixed. A
+// part costs a histogram, as long as 2^16 values take.
+std::size_t partsOf(std::size_t values) {
+    return std::clamp<std::size_t>(values >> 16, 1, 8);
+}
 
 struct Part {
     std::vector<std::uint32_t> count;
@@ -43,6 +47,7 @@ void add(Part& part, std::span<const float> values) {
 
 Order::Order(std::size_t count, Values values)
     : length_(count), values_(std::move(values)), count_(bins), weight_(bins) {
+    const std::size_t parts = partsOf(length_);
     std::vector<Part> found(parts);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
         found[i] = {std::vector<std::uint32_t>(bins), std::vector<double>(bins)};
@@ -68,21 +73,21 @@ Order::Order(std::span<const float> values)
 std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) const {
     std::vector<std::uint8_t> place(bins);  // index in `wanted` + 1; 0: not wanted
     for (std::size_t i = 0; i < wanted.size(); ++i) place[wanted[i]] = static_cast<std::uint8_t>(i + 1);
-    const std::vector<Bin> none(wanted.size(), Bin(std::size_t{1} << 16));
-    tbb::enumerable_thread_specific<std::vector<Bin>> found(none);
+    const std::size_t parts = partsOf(length_);
+    std::vector<std::vector<Bin>> found(parts);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
-        std::vector<Bin>& low = found.local();
+        std::vector<Bin>& low = found[i];
+        low.assign(wanted.size(), Bin(std::size_t{1} << 16));
         values_(length_ * i / parts, length_ * (i + 1) / parts, [&](std::span<const float> piece) {
             for (const float v : piece)
                 if (const std::uint8_t at = isThere(v) ? place[keyOf(v) >> 16] : 0; at > 0)
                     ++low[at - 1u][keyOf(v) & 0xffffu];
         });
     });
-    std::vector<Bin> sum = none;
-    for (const std::vector<Bin>& part : found)
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            std::ranges::transform(sum[i], part[i], sum[i].begin(), std::plus());
-    return sum;
+    for (std::size_t part = 1; part < parts; ++part)
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            std::ranges::transform(found[0][i], found[part][i], found[0][i].begin(), std::plus());
+    return std::move(found[0]);
 }
 
 std::vector<float> Order::nearestRanks(std::span<const double> shares) const {

@@ -40,15 +40,14 @@ struct Moments {
     float *sum, *difference, *sum2, *difference2;
 };
 
-DIPTYCH_WIDE_LANES void momentsOf(const float* __restrict a, const float* __restrict b, float* __restrict sum,
-                                  float* __restrict difference, float* __restrict sum2,
-                                  float* __restrict difference2, int n) {
+DIPTYCH_WIDE_LANES void momentsOf(const float* __restrict a, const float* __restrict b, const Moments m,
+                                  int n) {
     for (int i = 0; i < n; ++i) {
         const float s = a[i] + b[i], d = a[i] - b[i];
-        sum[i] = s;
-        difference[i] = d;
-        sum2[i] = s * s;
-        difference2[i] = d * d;
+        m.sum[i] = s;
+        m.difference[i] = d;
+        m.sum2[i] = s * s;
+        m.difference2[i] = d * d;
     }
 }
 
@@ -81,7 +80,7 @@ public:
           filtered_(size(4 * width_)) {
         for (int y = 0; y < rows_; ++y) {
             const std::size_t at = size(y) * size(width);
-            momentsOf(reference + at, test + at, row(y, 0), row(y, 1), row(y, 2), row(y, 3), width_);
+            momentsOf(reference + at, test + at, {row(y, 0), row(y, 1), row(y, 2), row(y, 3)}, width_);
         }
     }
 

@@ -134,8 +134,8 @@ void StandardPass::measure(int y, Row& row) const {
     const std::vector<std::size_t> infinitePixels = even ? std::vector<std::size_t>() : clean(y, row);
     row.absolute.resize(size(width));
     row.relative.resize(size(width));
-    pixelErrors(row.absolute.data(), row.relative.data(), row.test, row.reference, reference_.components,
-                floor_, width);
+    pixelErrors(row.absolute.data(), row.relative.data(),
+                {row.test, row.reference, reference_.components, width}, floor_);
     row.infinite = infinitePixels.size();
     for (const std::size_t x : infinitePixels) row.absolute[x] = row.relative[x] = HUGE_VALF;
     if (whole) return;

@@ -93,17 +93,16 @@ DIPTYCH_WIDE_LANES void addRow(RowSums& sums, const float* __restrict test, cons
     }
 }
 
-void pixelErrors(float* absolute, float* relative, const float* test, const float* reference, int components,
-                 double floor, int n) {
-    switch (components) {
+void pixelErrors(float* absolute, float* relative, const PixelRow& row, double floor) {
+    switch (row.components) {
         case 1:
-            return errorsOf<1>(absolute, relative, test, reference, floor, n);
+            return errorsOf<1>(absolute, relative, row.test, row.reference, floor, row.pixels);
         case 2:
-            return errorsOf<2>(absolute, relative, test, reference, floor, n);
+            return errorsOf<2>(absolute, relative, row.test, row.reference, floor, row.pixels);
         case 3:
-            return errorsOf<3>(absolute, relative, test, reference, floor, n);
+            return errorsOf<3>(absolute, relative, row.test, row.reference, floor, row.pixels);
         default:
-            return errorsOf<4>(absolute, relative, test, reference, floor, n);
+            return errorsOf<4>(absolute, relative, row.test, row.reference, floor, row.pixels);
     }
 }
 

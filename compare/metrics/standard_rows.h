@@ -20,10 +20,13 @@ struct RowSums {
 // whose sums are exact up to 2^53.
 void addRow(RowSums& sums, const float* test, const float* reference, int n);
 
-// Per pixel of 1 to 4 finite components: the largest |t-r|, and that over max(largest |r|, floor), 0 / 0
-// being 0. n pixels.
-void pixelErrors(float* absolute, float* relative, const float* test, const float* reference, int components,
-                 double floor, int n);
+// Pixels of 1 to 4 finite components.
+struct PixelRow {
+    const float *test, *reference;
+    int components, pixels;
+};
+// Per pixel: the largest |t-r|, and that over max(largest |r|, floor), 0 / 0 being 0.
+void pixelErrors(float* absolute, float* relative, const PixelRow& row, double floor);
 
 // Whether all n values are finite.
 bool allFinite(const float* values, int n);

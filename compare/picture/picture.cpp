@@ -44,11 +44,16 @@ bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;
     return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position ||
            mode.number == gpu::DEBUG_shaded_samples || mode.number == gpu::DEBUG_iridescence_ior ||
-           mode.number == gpu::DEBUG_iridescence_thickness || isHeat(mode);
+           mode.number == gpu::DEBUG_iridescence_thickness ||
+           mode.number == gpu::DEBUG_transmission_thickness ||
+           mode.number == gpu::DEBUG_attenuation_distance || mode.number == gpu::DEBUG_dispersion ||
+           isHeat(mode);
 }
 // Unit of a normalised channel, after a space; empty if it has none.
 const char* normalisedUnit(const DebugMode& mode) {
-    if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior) return "";
+    if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior ||
+        mode.number == gpu::DEBUG_dispersion)
+        return "";
     return mode.number == gpu::DEBUG_iridescence_thickness ? " nm" : " m";
 }
 

@@ -31,21 +31,21 @@ void Drawing::text(const char* kind, double x, double y, const std::string& word
 
 // The vertical axis is named above it: a rotated name beside it would collide with the ticks if text is
 // large.
-void Drawing::axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x,
-                   const std::string& xName, const std::vector<Tick>& up, const Place& y,
-                   const std::string& yName) {
-    for (const Tick& tick : across) {
-        line(tick.text.empty() ? "minor" : "grid", x(tick.value), box.top, x(tick.value), box.bottom);
-        text("tick middle", x(tick.value), box.bottom + 20, tick.text);
+void Drawing::axes(const PlotBox& box, const Axis& across, const Axis& up) {
+    for (const Tick& tick : across.ticks) {
+        const double x = across.place(tick.value);
+        line(tick.text.empty() ? "minor" : "grid", x, box.top, x, box.bottom);
+        text("tick middle", x, box.bottom + 20, tick.text);
     }
-    for (const Tick& tick : up) {
-        line(tick.text.empty() ? "minor" : "grid", box.left, y(tick.value), box.right, y(tick.value));
-        text("tick end", box.left - 8, y(tick.value) + 4, tick.text);
+    for (const Tick& tick : up.ticks) {
+        const double y = up.place(tick.value);
+        line(tick.text.empty() ? "minor" : "grid", box.left, y, box.right, y);
+        text("tick end", box.left - 8, y + 4, tick.text);
     }
     line("axis", box.left, box.bottom, box.right, box.bottom);
     line("axis", box.left, box.top, box.left, box.bottom);
-    text("name middle", (box.left + box.right) / 2, box.bottom + 47, xName);
-    text("name", nameLeft, box.top - 12, yName);
+    text("name middle", (box.left + box.right) / 2, box.bottom + 47, across.name);
+    text("name", nameLeft, box.top - 12, up.name);
 }
 
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,

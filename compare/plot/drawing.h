@@ -26,11 +26,13 @@ public:
     void text(const char* kind, double x, double y, const std::string& words);  // escaped
     void add(const std::string& markup) { lines_ += markup; }
 
-    // Ticks, grid and names of two axes; `x` and `y` map values to positions. The names need 50 units
-    // below the box and 30 above.
-    using Place = std::function<double(double)>;
-    void axes(const PlotBox& box, const std::vector<Tick>& across, const Place& x, const std::string& xName,
-              const std::vector<Tick>& up, const Place& y, const std::string& yName);
+    struct Axis {
+        std::vector<Tick> ticks;
+        std::function<double(double)> place;  // maps a value to its position
+        std::string name;
+    };
+    // Ticks, grid and names of two axes. The names need 50 units below the box and 30 above.
+    void axes(const PlotBox& box, const Axis& across, const Axis& up);
 
     std::string group() const { return "<g>" + lines_ + texts_ + "</g>"; }  // text on top
 

@@ -35,9 +35,8 @@ double ErrorOverTime::y(double error) const {
 
 std::string ErrorOverTime::axes(const std::string& error_name) const {
     Drawing drawing;
-    drawing.axes(
-        box_, time_.ticks(), [this](double ms) { return x(ms); }, "time of a frame, ms", error_.ticks(),
-        [this](double error) { return y(error); }, error_name);
+    drawing.axes(box_, {time_.ticks(), [this](double ms) { return x(ms); }, "time of a frame, ms"},
+                 {error_.ticks(), [this](double error) { return y(error); }, error_name});
     if (zeros_) {
         drawing.line("gap", box_.left, box_.bottom - lane, box_.right, box_.bottom - lane);
         drawing.text("tick end", box_.left - 8, y(0) + 4, "0");

@@ -26,7 +26,7 @@ struct ChannelPictures {
     double error_top = 0;  // the error at the end of the error map's colours
     // The limit for each error in the map; empty if the verdict does not limit single errors.
     std::optional<double> error_limit;
-    // Of the difference; filled in by encode().
+    // The difference's; filled in by encode().
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;
 };

@@ -32,13 +32,9 @@ Collection::Collection(const CollectionQuestion& question, const SceneItems& ite
                        Device* other, Progress& progress)
     : question_(question),
       items_(items),
-      device_(device),
-      other_(other),
       progress_(progress),
       kept_(question.folder, "scenes", question.key),
-      pipelines_(makePipelineSet(device)),
-      against_{other ? *other : device, other ? makePipelineSet(*other) : nullptr,
-               precisionsOf(device, other ? *other : device)} {
+      devices_(device, other, true) {
     checkDevice();
     findKept();
     checkHeaders();
@@ -47,10 +43,9 @@ Collection::Collection(const CollectionQuestion& question, const SceneItems& ite
 // All parts of a report come from the same device, or the same two devices.
 void Collection::checkDevice() {
     Json device = Json::array();
-    for (const Device* of : {&device_, other_})
-        if (of)
-            for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
-                device.push_back(word);
+    for (const Device* of : devices_.all())
+        for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
+            device.push_back(word);
     const Json there = kept_.find("device");
     if (there.is_object() && there.value("device", Json()) != device)
         throw std::runtime_error(
@@ -121,25 +116,21 @@ void Collection::compareAll() {
 ReportPart Collection::compareOne(const Item& item, const Scene& scene, const Stage& stage) {
     KeptReferences references(question_.folder, true);
     RenderOptions render = question_.drawing;
-    render.keep = [&](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-        return references.open(key, floats);
-    };
+    render.keep = references.opener();
     const auto [drawing, comparing] = experiment::sharesOf(render);
     const double ours = question_.compared.ourShare() * drawing;
     render.progress = stage.part(0, ours);
-    experiment::DrawnScene drawn =
-        experiment::drawScene(scene, question_.compared, question_.settings, device_, render, probe_,
-                              stage.part(ours, drawing), pipelines_, other_ ? &against_ : nullptr);
-    checkValidation(device_);
-    if (other_) checkValidation(*other_);
-    Report report =
-        experiment::reportOf(question_.compared, question_.compare, std::move(drawn), {},
-                             reportDevice(device_), other_ ? reportDevice(*other_) : ReportDevice(),
-                             againBeside(question_.folder), stage.part(drawing, comparing));
+    experiment::DrawnScene drawn = experiment::drawScene(scene, question_.compared, question_.settings,
+                                                         devices_, render, stage.part(ours, drawing));
+    for (const Device* of : devices_.all()) checkValidation(*of);
+    CompareOptions compare = question_.compare;
+    compare.progress = stage.part(drawing, comparing);
+    Report report = experiment::reportOf(question_.compared, compare, std::move(drawn), {}, devices_,
+                                         againBeside(question_.folder));
     double explained = comparing;
     if (isExplained(question_.explanation.all, report)) {
         explained = 0.5 * (1 + comparing);
-        addExplanations(question_.explanation, device_, report, stage.part(comparing, explained));
+        addExplanations(question_.explanation, devices_.device, report, stage.part(comparing, explained));
     }
     ReportOptions written = question_.report;
     written.progress = stage.part(explained, 1);

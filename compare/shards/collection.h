@@ -21,7 +21,7 @@
 
 namespace diptych::shards {
 
-// What is asked.
+// The inputs of a collection.
 struct CollectionQuestion {
     std::vector<Settings> settings;  // all cameras, times and paths
     experiment::Compared compared;
@@ -59,13 +59,9 @@ private:
 
     const CollectionQuestion& question_;
     const SceneItems& items_;
-    Device& device_;
-    Device* const other_;
     Progress& progress_;
     CheckpointFolder kept_;
-    const std::shared_ptr<PipelineSet> pipelines_;
-    experiment::AgainstDevice against_;
-    experiment::TextureProbe probe_;
+    experiment::Devices devices_;
     std::map<const Item*, ReportPart> parts_;
     std::multimap<const Item*, SceneError> errors_;  // of the scene or of external renderers
 };

@@ -5,6 +5,8 @@
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/json_text.h"
 
+#include <span>
+
 namespace diptych::tradeoff {
 namespace {
 
@@ -37,11 +39,17 @@ Json frontsOf(const Tradeoff& tradeoff) {
     return fronts;
 }
 
+Json metricsJson(std::span<const NamedMetric> metrics) {
+    Json list = Json::array();
+    for (const NamedMetric& metric : metrics)
+        list.push_back({{"name", metric.name}, {"title", metric.title}, {"means", metric.means}});
+    return list;
+}
+
 }  // namespace
 
 std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files) {
-    Json rows = Json::array(), skips = Json::array(), figures = Json::array(), shadows = Json::array(),
-         samples = Json::array();
+    Json rows = Json::array(), skips = Json::array();
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         Json json{{"row", i + 1},
@@ -56,12 +64,6 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
     }
     for (const SweepSkip& skip : tradeoff.skips)
         skips.push_back({{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}});
-    for (const ErrorFigure& figure : errorFigures)
-        figures.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
-    for (const ShadowFigure& figure : shadowFigures)
-        shadows.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
-    for (const SampleFigure& figure : sampleFigures)
-        samples.push_back({{"name", figure.name}, {"title", figure.title}, {"means", figure.means}});
     const SweepCost& cost = tradeoff.cost;
     const std::optional<Spread> drift = driftOf(tradeoff);
     const Json json{
@@ -79,9 +81,9 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
         {"reference",
          {{"settings", parseOrderedJson(toJson(tradeoff.reference))},
           {"picture", tradeoff.reference_picture}}},
-        {"errors", figures},
-        {"shadow_figures", shadows},
-        {"sample_figures", samples},
+        {"errors", metricsJson(errorFigures)},
+        {"shadow_figures", metricsJson(shadowFigures)},
+        {"sample_figures", metricsJson(sampleFigures)},
         {"rows", rows},
         {"fronts", frontsOf(tradeoff)},
         {"skipped", skips},

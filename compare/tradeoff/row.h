@@ -16,9 +16,9 @@
 
 namespace diptych::tradeoff {
 
-using experiment::ErrorFigure;
 using experiment::errorFigures;
 using experiment::Errors;
+using experiment::NamedMetric;
 
 struct CameraRow {
     std::string camera;             // title: "default view"

@@ -44,7 +44,7 @@ FigureTable sampleTable(const Tradeoff& tradeoff) {
                       "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
                       "is that of all samples. The other modes are compared with exact.",
                       figureHead()};
-    for (const SampleFigure& figure : sampleFigures) addFigure(table, figure.title, figure.means);
+    for (const NamedMetric& figure : sampleFigures) addFigure(table, figure.title, figure.means);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (const std::optional<SampleShares> shares = samplesOf(tradeoff.rows[i]))
             table.table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", *shares));

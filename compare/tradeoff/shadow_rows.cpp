@@ -55,7 +55,7 @@ FigureTable shadowTable(const Tradeoff& tradeoff) {
         "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
         "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
         figureHead()};
-    for (const ShadowFigure& figure : shadowFigures) addFigure(table, figure.title, figure.means);
+    for (const NamedMetric& figure : shadowFigures) addFigure(table, figure.title, figure.means);
     table.table.columns.push_back({"dominated in", output::Column::words, 12});
     for (const ShadowRow& row : shadowRowsOf(tradeoff)) {
         output::Row& cells =

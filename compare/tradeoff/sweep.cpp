@@ -97,9 +97,7 @@ experiment::ReferenceFrames Sweep::drawReferences() {
     const SweepClock::time_point uploaded = SweepClock::now();
     RenderOptions drawing = question_.drawing;
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
-    drawing.keep = [this](std::uint64_t key, std::size_t floats) -> reference::Checkpoint& {
-        return kept_references_.open(key, floats);
-    };
+    drawing.keep = kept_references_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
         renderer_, tradeoff_.given, question_.cameras, question_.picture, drawing);
     tradeoff_.cost.reference = msSince(uploaded);

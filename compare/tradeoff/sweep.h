@@ -21,7 +21,7 @@
 
 namespace diptych::tradeoff {
 
-// What is asked.
+// The inputs of a sweep.
 struct SweepQuestion {
     std::string scene;
     std::vector<std::string> cameras;

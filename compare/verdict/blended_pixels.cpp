@@ -5,6 +5,7 @@
 #include "shared/contract/debug_mode.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace diptych {
 namespace {
@@ -20,26 +21,56 @@ void within(const Image& image, std::size_t pixel, int radius, const Visit& visi
 
 }  // namespace
 
-BlendedPixels::BlendedPixels(const FramePair& pair) {
+BlendedPixels::BlendedPixels(const FramePair& pair) : pair_(pair) {
     const bool first = isReferenceFrame(pair.baseline);
     if (first == isReferenceFrame(pair.test)) return;
     const Frame& reference = first ? pair.baseline : pair.test;
-    const auto lit = reference.channels.find(static_cast<int>(gpu::DEBUG_lit));
-    if (reference.blended.empty() || lit == reference.channels.end()) return;
-    share_ = &reference.blended;
-    lit_ = &lit->second;
+    if (reference.blended.empty()) return;
+    reference_ = &reference;
+    for (const float v : reference.unblended.data)
+        if (std::isfinite(v)) brightest_ = std::max(brightest_, double{v});
+}
+
+const Image* BlendedPixels::imageOf(const DebugMode& mode) const {
+    const bool moved = mode.number == static_cast<int>(gpu::DEBUG_lit) ||
+                       mode.number == static_cast<int>(gpu::DEBUG_lit_transmission) || isOfGlass(mode);
+    return reference_ && moved ? &reference_->channels.at(mode.number) : nullptr;
+}
+
+double BlendedPixels::throughGlass(const DebugMode& mode, std::size_t pixel) const {
+    if (!isLit(mode.number) || !imageOf(mode)) return 0;
+    const Image& glass = reference_->blended;
+    double share = 0;
+    within(glass, pixel, 1, [&](std::size_t i) { share = std::max(share, double{glass.pixel(i)[1]}); });
+    return share > 0 ? std::max(share * brightest_, metrics::largestFinite(glass.pixel(pixel) + 2, 1)) : 0;
 }
 
 double BlendedPixels::allowed(const DebugMode& mode, std::size_t pixel) const {
-    if (!share_ || mode.number != static_cast<int>(gpu::DEBUG_lit)) return 0;
+    const Image* const image = imageOf(mode);
+    if (!image) return 0;
     bool covered = false;
-    within(*share_, pixel, 1, [&](std::size_t i) { covered = covered || *share_->pixel(i) > 0; });
+    within(*image, pixel, 1, [&](std::size_t i) { covered = covered || *reference_->blended.pixel(i) > 0; });
     if (!covered) return 0;
     double range = 0;
-    within(*lit_, pixel, 2, [&](std::size_t i) {
-        range = std::max(range, metrics::distance(lit_->pixel(i), lit_->pixel(pixel), mode.width));
+    within(*image, pixel, 2, [&](std::size_t i) {
+        range = std::max(range, metrics::distance(image->pixel(i), image->pixel(pixel), mode.width));
     });
-    return range;
+    return range + throughGlass(mode, pixel) + texel(mode);
+}
+
+double BlendedPixels::texel(const DebugMode& mode) const {
+    if (!isOfGlass(mode) || pair_.needs.textures == 0) return 0;
+    return mode.texels == TexelUse::length   ? double{pair_.needs.volume_thickness_range} / 255
+           : mode.texels == TexelUse::number ? 1.0 / 255
+                                             : 0;
+}
+
+bool BlendedPixels::anyGlass() const {
+    if (!reference_) return false;
+    const Image& shares = reference_->blended;
+    for (std::size_t i = 0; i < shares.pixels(); ++i)
+        if (shares.pixel(i)[1] > 0) return true;
+    return false;
 }
 
 }  // namespace diptych

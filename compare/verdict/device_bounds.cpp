@@ -70,6 +70,8 @@ double perTexel(const DebugMode& mode, const Requirements& needs) {
             return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
         case TexelUse::thickness:
             return double{needs.film_thickness_range};
+        case TexelUse::length:
+            return double{needs.volume_thickness_range};
         case TexelUse::none:  // texels at most remove its layer
             return 0;
         default:
@@ -158,6 +160,7 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
             return Kind::id;
         case ChannelStage::surface:
         case ChannelStage::map:
+            if (sourceOf(mode.number).part == MaterialPart::transmission) return Kind::pane;
             return mode.metric == Metric::exact ? Kind::step : Kind::surface;
     }
     return Kind::surface;
@@ -173,7 +176,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       place_(mode, pair, baseline_, test_),
       facet_(pair),
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
-      per_texel_(perTexel(mode, pair.needs)),
+      per_texel_(kind_ == Kind::pane && pair.needs.textures == 0 ? 0 : perTexel(mode, pair.needs)),
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
       texels_(imageOf(across_.texels, mode.number)),
       expected_(imageOf(across_.relit, mode.number)),
@@ -211,6 +214,10 @@ double DeviceBounds::operator()(std::size_t i) const {
             return (place_(i) + rounding) / unit;
         case Kind::surface:
             return (place_(i) + rounding + textures(i)) / unit + bits_;
+        case Kind::pane:
+            return (std::min(toNeighbours(baseline_, i), toNeighbours(test_, i)) + rounding +
+                    filterRounding(across_, false) * per_texel_) /
+                   unit;
         case Kind::light:
             return 2 * shadingRounding * std::max(1.0, rounded_as_ / size) + shadowed_.relative(i);
         case Kind::seen:
@@ -234,12 +241,18 @@ double DeviceBounds::error(std::size_t i) const {
 
 double DeviceBounds::blendedApart(std::size_t i) const {
     if (!unblended_[0] || !unblended_[1]) return 0;
-    double beside = metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width);
-    for (const Image* image : {&baseline_, &test_})
-        aroundPixel(*image, i, [&](std::size_t j, unsigned) {
-            beside = std::max(beside, metrics::distance(image->pixel(i), image->pixel(j), mode_.width));
-        });
+    const double beside =
+        std::max({metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width),
+                  toNeighbours(baseline_, i), toNeighbours(test_, i)});
     return std::max(0.0, metrics::distance(baseline_.pixel(i), test_.pixel(i), mode_.width) - beside);
+}
+
+double DeviceBounds::toNeighbours(const Image& image, std::size_t i) const {
+    double most = 0;
+    aroundPixel(image, i, [&](std::size_t j, unsigned) {
+        most = std::max(most, metrics::distance(image.pixel(i), image.pixel(j), mode_.width));
+    });
+    return most;
 }
 
 std::string DeviceBounds::because() const {
@@ -269,6 +282,9 @@ std::string DeviceBounds::because() const {
                 words += fmt::format("; plus the quantization bound of both G-buffers, {:.3g}", bits_);
             return words;
         }
+        case Kind::pane:
+            return "surfaces with transmission, drawn over others: no more than neighbouring pixels differ" +
+                   std::string(per_texel_ > 0 ? decoding() : "");
         case Kind::light:
             return fmt::format(
                 "{} shades the surfaces that {} rendered, both in float32: 1e-4 each{} before blending; "
@@ -281,7 +297,7 @@ std::string DeviceBounds::because() const {
             return "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show another "
                    "triangle";
         case Kind::part:
-            return "a part of lit_specular and lit_ambient, which are compared";
+            return "a part of lit, which is compared";
         case Kind::list:
             return "each device uses the cell size that is cheapest on it; lights missing from a list show "
                    "in lit";

@@ -57,10 +57,12 @@ public:
     std::string because() const;
 
 private:
-    enum class Kind { id, step, place, facet, surface, light, part, seen, list };
+    enum class Kind { id, step, place, facet, surface, pane, light, part, seen, list };
     static Kind kindOf(const DebugMode& mode);
 
     bool isBeside(std::size_t i) const;
+    // Largest change of the channel to a neighbouring pixel of the image.
+    double toNeighbours(const Image& image, std::size_t i) const;
     bool isColor() const;
     double textures(std::size_t i) const;
     // Difference of a decoded colour of this value.

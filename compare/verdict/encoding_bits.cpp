@@ -48,7 +48,7 @@ bool isQuantised(int mode, GBufferEncoding encoding, const Requirements& needs) 
         case MaterialPart::dielectric:
             return needs.dielectric_specular;
         default:
-            return (needs.layers & layerOf(mode)) != 0;
+            return (needs.surface_layers & layerOf(mode)) != 0;
     }
 }
 

@@ -52,7 +52,7 @@ struct StoredField {
     double largestBound() const;  // of any value, in the channel's metric; index: infinite
 };
 
-// Of a channel of a G-buffer of this encoding; empty where it is stored exactly or not at all.
+// A channel's field in a G-buffer of this encoding; empty if it is stored exactly or not at all.
 std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs);
 
 // The channels of all fields of Surface that lighting reads: lit is a function of them and of inputs that

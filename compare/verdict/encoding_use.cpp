@@ -11,7 +11,8 @@
 namespace diptych {
 namespace {
 
-// Of components in [0, 1], each bounded by its own value. 0 and 1 have codes of their own; NaN has no bound.
+// For components in [0, 1], each bounded by its own value. 0 and 1 have codes of their own; NaN has no
+// bound.
 template <class Bound>
 PixelUse componentsUse(const float* read, const float* own, int components, const Bound& bound) {
     PixelUse use;
@@ -81,7 +82,7 @@ std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair
     const auto mine = deferred->channels.find(mode.number), theirs = forward->channels.find(mode.number);
     if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};
     const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
-    // Of every sample that both have, by pixel: deferred's and forward+'s.
+    // Images of each sample that both have: deferred's and forward+'s.
     std::vector<std::pair<const Image*, const Image*>> samples{{&mine->second, &theirs->second}};
     const auto read = deferred->further_samples.find(mode.number),
                own = forward->further_samples.find(mode.number);

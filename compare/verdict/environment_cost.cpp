@@ -11,13 +11,14 @@
 namespace diptych {
 namespace {
 
+bool isDiffuse(const DebugMode& mode) {
+    return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse) ||
+           mode.number == static_cast<int>(gpu::DEBUG_lit_transmission);
+}
 // The costs are sums over the lobes of the base, the sheen and the clear coat, so they bound the parts too.
 bool isSpecular(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit_specular) ||
-           (isLit(mode.number) && layerOf(mode.number) != 0);
-}
-bool isDiffuse(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse);
+           (isLit(mode.number) && layerOf(mode.number) != 0 && !isDiffuse(mode));
 }
 bool isAll(const DebugMode& mode) {
     return mode.number == static_cast<int>(gpu::DEBUG_lit) ||

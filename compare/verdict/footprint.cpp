@@ -3,6 +3,7 @@
 
 #include "compare/metrics/flip.h"
 #include "compare/metrics/pixel.h"
+#include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/neighbours.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -61,7 +63,8 @@ public:
           baseline_(pair.baseline.channels.at(mode.number)),
           test_(pair.test.channels.at(mode.number)),
           error_(mode.metric, mode.kind, baseline_, pair.coverage),
-          environment_(pair) {
+          environment_(pair),
+          blended_(pair) {
         for (const DebugMode& of : debugModes())
             if ((of.number == mode.number || (isLit(mode.number) && isSurface(of))) &&
                 pair.baseline.channels.contains(of.number) && pair.test.channels.contains(of.number))
@@ -76,14 +79,16 @@ public:
     Footprints operator()() {
         Footprints result;
         std::vector<std::uint8_t> detailed(baseline_.pixels(), 0);
-        std::vector<double> used;
+        std::vector<double> used, others_used;  // of all pixels; without those of glass
         double largest = 0;
         for (int y = 0; y < baseline_.height; ++y)
             for (int x = 0; x < baseline_.width; ++x) {
                 const std::size_t i = indexOf(baseline_, x, y);
                 if (!pair_.coverage.covered[i]) continue;
                 const double error = error_(test_.pixel(i), baseline_.pixel(i));
-                const double bound = isInside(x, y) ? boundAt(x, y) : -1;
+                const double glass = blended_.throughGlass(mode_, i);
+                const double bound = glass > 0 ? glassBound(i, glass) : isInside(x, y) ? boundAt(x, y) : -1;
+                result.glass += glass > 0;
                 // A number against NaN is always an error.
                 if (bound < 0 && std::isfinite(error)) {
                     detailed[i] = 1;
@@ -94,6 +99,7 @@ public:
                                      : std::isinf(error) ? error  // whatever its bound
                                                          : error / std::max(bound, 0.0);
                 used.push_back(share);
+                if (!(glass > 0)) others_used.push_back(share);
                 result.beyond += share > 1;
                 if (share > largest) {
                     largest = share;
@@ -102,14 +108,8 @@ public:
                 }
             }
         result.smooth = used.size();
-        if (!used.empty()) {
-            // Filtered alpha masks may show the background at whole pixels of a hole's edge.
-            const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
-            const auto rank =
-                static_cast<std::size_t>(std::ceil(most * static_cast<double>(used.size()))) - 1;
-            std::ranges::nth_element(used, used.begin() + static_cast<std::ptrdiff_t>(rank));
-            result.used = used[rank];
-        }
+        // Wide bounds of glass do not raise the number of other pixels that may be beyond theirs.
+        result.used = std::max(ranked(std::move(used)), ranked(std::move(others_used)));
         const auto others = static_cast<std::uint64_t>(std::ranges::count(detailed, 1));
         if (isGeometry(mode_) || mode_.kind == ChannelKind::id)
             result.edges = others;
@@ -119,6 +119,16 @@ public:
     }
 
 private:
+    // The value that nearly all are at most; 0 without any.
+    double ranked(std::vector<double> used) const {
+        if (used.empty()) return 0;
+        // Filtered alpha masks may show the background at whole pixels of a hole's edge.
+        const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
+        const auto rank = static_cast<std::size_t>(std::ceil(most * static_cast<double>(used.size()))) - 1;
+        std::ranges::nth_element(used, used.begin() + static_cast<std::ptrdiff_t>(rank));
+        return used[rank];
+    }
+
     // Whether each image shows a single material, or the background, all around. The two materials need
     // not be equal: a difference is an error.
     bool isInside(int x, int y) const {
@@ -167,6 +177,8 @@ private:
                 return code;
             case TexelUse::thickness:
                 return code * double{pair_.needs.film_thickness_range};
+            case TexelUse::length:
+                return code * double{pair_.needs.volume_thickness_range};
             case TexelUse::direction:
                 // Three components of 2 t - 1.
                 return 2 * std::sqrt(3.0) * code * (isAngle(mode.metric) ? degreesPerRadian : 1);
@@ -242,6 +254,12 @@ private:
                (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
     }
 
+    double glassBound(std::size_t i, double glass) const {
+        const double unit = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
+        return (glass + uncertainty(i) + environment_.allowed(mode_, i)) / unit + shadingRounding +
+               encoding(i, unit);
+    }
+
     // Uncertainty of a sampled reference at 99.9 % confidence.
     double uncertainty(std::size_t i) const {
         const Image& known =
@@ -303,6 +321,7 @@ private:
     const Image &baseline_, &test_;
     PixelError error_;
     EnvironmentCost environment_;
+    BlendedPixels blended_;
     std::map<int, double> bounds_;  // encodingBound() of the surface's channels
     std::array<double, 256> exact_{};
     // Largest relative decoding error over codes from this one on: a factor may have darkened the texel,
@@ -317,6 +336,8 @@ Tolerance footprintTolerance(const Footprints& footprints) {
         "{} with smooth surroundings in both images; the bound of each is the reference's change within two "
         "pixels, 8-bit texel filtering, G-buffer quantization and 1e-4",
         counted(footprints.smooth, "pixel"));
+    if (footprints.glass > 0)
+        because += fmt::format("; {} may have {}", counted(footprints.glass, "pixel"), throughGlassBecause);
     if (footprints.detailed > 0)
         because += fmt::format("; the other {} may have a mean FLIP of {} and have {:.3g}",
                                footprints.detailed, detailFlip, footprints.flip);

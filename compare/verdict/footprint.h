@@ -21,9 +21,11 @@ namespace diptych {
 inline constexpr double detailFlip = 0.3;
 
 struct Footprints {
-    std::uint64_t smooth = 0;    // pixels with a bound of their own
-    std::uint64_t beyond = 0;    // smooth pixels out of tolerance
-    double used = 0;             // error over the bound, at 99.9 % of the smooth pixels
+    std::uint64_t smooth = 0;  // pixels with a bound of their own
+    std::uint64_t glass = 0;   // of these: light through rough or refracting glass
+    std::uint64_t beyond = 0;  // smooth pixels out of tolerance
+    // Error over the bound at 99.9 % of the smooth pixels, with or without those of glass, whichever is more.
+    double used = 0;
     int x = -1, y = -1;          // smooth pixel with the highest use
     double most = 0;             // largest bound, in the channel's metric
     std::uint64_t detailed = 0;  // pixels compared by FLIP

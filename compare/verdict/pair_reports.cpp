@@ -118,12 +118,12 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
 }
 
 Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
-                        ReportDevice device, ReportDevice against, const CompareOptions& options,
+                        std::array<ReportDevice, 2> devices, const CompareOptions& options,
                         std::vector<AcrossDevices> across, std::vector<std::vector<FeatureChecks>> checks) {
     const auto start = std::chrono::steady_clock::now();
     Report report;
-    report.device = std::move(device);
-    report.against = std::move(against);
+    report.device = std::move(devices[0]);
+    report.against = std::move(devices[1]);
     report.frames = std::move(frames);
     const auto all = static_cast<double>(report.frames.size());
     double done = 0;

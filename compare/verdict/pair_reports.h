@@ -6,6 +6,7 @@
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,11 +32,12 @@ Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirem
                            std::vector<std::vector<FeatureChecks>> checks,
                            const std::vector<std::vector<std::string>>& materials);
 
-// Both paths on two devices. Frames come in fours: both paths of one scene and camera on `device` and on
-// `against`. Compares both paths on each device, and each path on both. `across`: one per scene, camera
-// and path; `needs`: one per frame of `device`; `checks`: one per scene and camera, or none.
+// Both paths on two devices. Frames come in fours: both paths of one scene and camera on the first of
+// `devices` and on the other. Compares both paths on each device, and each path on both. `across`: one per
+// scene, camera and path; `needs`: one per frame of the first device; `checks`: one per scene and camera, or
+// none.
 Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
-                        ReportDevice device, ReportDevice against, const CompareOptions& options,
+                        std::array<ReportDevice, 2> devices, const CompareOptions& options,
                         std::vector<AcrossDevices> across,
                         std::vector<std::vector<FeatureChecks>> checks = {});
 

@@ -83,6 +83,14 @@ Factors factorsOf(const Material& m, std::size_t slot) {
             return {m.iridescence, 0, 0, 0};
         case gpu::SLOT_iridescence_thickness:
             return {0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least), 0, 0};
+        case gpu::SLOT_transmission:
+            return {m.transmission, 0, 0, 0};
+        case gpu::SLOT_thickness:
+            return {0, m.thickness, 0, 0};
+        case gpu::SLOT_diffuse_transmission:
+            return {0, 0, 0, m.diffuse_transmission};
+        case gpu::SLOT_diffuse_transmission_color:
+            return color(largestComponent(m.diffuse_transmission_color));
         default:
             return {};
     }
@@ -135,6 +143,10 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
         const double rough = m.sheen_roughness;
         uses.push_back({gpu::DEBUG_sheen_roughness, {rough, rough, rough, 0}, true});
     }
+    if (slot == gpu::SLOT_diffuse_transmission)
+        uses.push_back({gpu::DEBUG_diffuse_transmission_color,
+                        {0, 0, 0, largestComponent(m.diffuse_transmission_color)},
+                        true});
     if (slot == gpu::SLOT_iridescence) {
         const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
         uses.push_back({gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});

@@ -147,6 +147,12 @@ std::string_view unpackedBecause(const DebugMode& mode, const Requirements& need
             return "nothing in the scene has a sheen";
         case MaterialPart::iridescence:
             return "nothing in the scene has a thin film";
+        case MaterialPart::diffuse_transmission:
+            return "nothing in the scene transmits light diffusely";
+        case MaterialPart::transmission:
+            return "surfaces with transmission are drawn after either path, by the same shader";
+        case MaterialPart::transmitted:
+            return {};
     }
     return {};
 }
@@ -220,16 +226,24 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
                 "filter radius and one texel";
         if (const EnvironmentCost environment(pair); environment.any())
             result.because += environment.because(mode);
-        if (mode.number == static_cast<int>(gpu::DEBUG_lit) && BlendedPixels(pair).any())
+        const bool shown = mode.number == static_cast<int>(gpu::DEBUG_lit) ||
+                           mode.number == static_cast<int>(gpu::DEBUG_lit_transmission);
+        if (const BlendedPixels blended(pair); shown && blended.any()) {
             result.because +=
-                "; plus the image's change within two pixels where fragments are blended, because the "
-                "reference traces its own rays";
+                "; plus the image's change within two pixels where fragments are blended or glass stands, "
+                "because the reference traces its own rays";
+            if (blended.anyGlass()) result.because += fmt::format("; plus {}", throughGlassBecause);
+        }
         if (!reference.uncertainty.empty())
             result.because += "; plus the reference's uncertainty at each pixel, at 99.9 % confidence";
     } else {
         // Surfaces come from forward+'s own capture.
         result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
                         : Tolerance{0, "float32, nothing is packed"};
+        if (BlendedPixels::isOfGlass(mode))
+            result = {shadingRounding,
+                      "float32 against double, 1e-4; plus the image's change within two pixels and one code "
+                      "of a texture, because the reference traces these surfaces itself"};
         if (mode.number == static_cast<int>(gpu::DEBUG_transmittance))
             result = {1e-6, "float32 against quadrature in double, 1e-6"};
         if (mode.number == static_cast<int>(gpu::DEBUG_lit_haze))
@@ -320,7 +334,8 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
-    if (!isShaded(mode.number) || !isPathAgainstReference(pair)) return {};
+    if (!(isShaded(mode.number) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
+        return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;

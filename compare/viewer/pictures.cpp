@@ -86,7 +86,9 @@ Image8 signedPicture(const Image& errors, double top) {
 std::string unitOf(const DebugMode& mode) {
     if (mode.metric == Metric::relative && mode.kind == ChannelKind::color) return ", W/(sr m^2)";
     if (mode.number == static_cast<int>(gpu::DEBUG_depth) ||
-        mode.number == static_cast<int>(gpu::DEBUG_position))
+        mode.number == static_cast<int>(gpu::DEBUG_position) ||
+        mode.number == static_cast<int>(gpu::DEBUG_transmission_thickness) ||
+        mode.number == static_cast<int>(gpu::DEBUG_attenuation_distance))
         return ", m";
     if (mode.number == static_cast<int>(gpu::DEBUG_iridescence_thickness)) return ", nm";
     return {};

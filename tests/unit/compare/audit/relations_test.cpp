@@ -170,7 +170,7 @@ TEST(Relations, AFilmsLightMovesWithTheNormal) {
     EXPECT_FALSE(passesTurned(given, 60));
 }
 
-// What a half loses of a thickness is relative to it.
+// A half's rounding of a thickness is relative to it.
 TEST(Relations, APackedThicknessIsGrantedItsPart) {
     Frame given = twoWalls();
     constexpr auto thickness = static_cast<int>(gpu::DEBUG_iridescence_thickness);
@@ -384,6 +384,21 @@ TEST(Relations, WhatDoesNotApplyIsSaid) {
     EXPECT_NE(lacks("mirrored", odd), "");
 }
 
+// Nodes scale thicknesses; a volume absorbs the same over twice the length.
+TEST(Relations, ScalingKeepsWhatAVolumeAbsorbs) {
+    const Subject subject = related("transmission");
+    const Related scaled = changedBy("scaled", subject);
+    const std::vector<Material>&before = scaled.base.scene.materials, &after = scaled.changed.scene.materials;
+    bool any = false;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        any = any || before[i].attenuation_distance > 0;
+        EXPECT_EQ(after[i].attenuation_distance, 2 * before[i].attenuation_distance);
+        EXPECT_EQ(after[i].thickness, before[i].thickness);
+    }
+    EXPECT_TRUE(any);
+    EXPECT_NE(relationOf("tiles_shifted").lacks(subject), "") << "blurred light depends on the border";
+}
+
 TEST(Relations, LightIsSplitPermutedAndAddedAsItSays) {
     const Subject subject = related("gallery");
     const auto total = [](const Case& of) {
@@ -471,6 +486,15 @@ TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
     EXPECT_EQ(result.blame(false), Blame::none);
     result.series[1].comparison.failed = "no memory";
     EXPECT_FALSE(result.passes());
+}
+
+TEST(Relations, ThePageHeadsEachWithItsVerdict) {
+    SeriesResult drawn;
+    drawn.series.path = Path::deferred;
+    RelationAudit audit;
+    audit.relations.push_back({relationsOf(std::array{std::string("moved")}).front(), "", {drawn}});
+    const std::string page = relationsHtml(audit, {});
+    EXPECT_NE(page.find("<h3>moved <span class=\"verdict pass\">holds</span></h3>"), page.npos) << page;
 }
 
 TEST(Relations, AnUnknownNameIsRefused) {

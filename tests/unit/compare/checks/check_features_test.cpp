@@ -131,8 +131,17 @@ TEST(CheckFeatures, LayersOfLitMaterials) {
     EXPECT_EQ(what(scene, "iridescence"), "");
     scene.materials[0].iridescence = 0.5f;
     EXPECT_NE(what(scene, "iridescence").find("thin film"), std::string::npos);
+    EXPECT_EQ(what(scene, "transmission"), "");
+    scene.materials[0].transmission = 0.5f;
+    EXPECT_NE(what(scene, "transmission").find("show through in place"), std::string::npos);
+    scene.materials[0].thickness = 0.1f;
+    EXPECT_NE(what(scene, "transmission").find("bent as by a lens"), std::string::npos);
+    EXPECT_EQ(what(scene, "diffuse transmission"), "");
+    scene.materials[0].diffuse_transmission = 0.5f;
+    EXPECT_NE(what(scene, "diffuse transmission").find("Light from behind"), std::string::npos);
     scene.materials[0].unlit = true;
-    for (const char* layer : {"clear coats", "anisotropy", "sheen", "iridescence"})
+    for (const char* layer :
+         {"clear coats", "anisotropy", "sheen", "iridescence", "transmission", "diffuse transmission"})
         EXPECT_EQ(what(scene, layer), "") << layer;
 }
 

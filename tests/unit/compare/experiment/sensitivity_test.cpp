@@ -173,9 +173,33 @@ TEST(ExperimentSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
     material.unlit = true;
     EXPECT_GT(valuesOf(sensitive(), "transparency").size(), 3u);
     EXPECT_GT(valuesOf(sensitive(), "transparency-layers").size(), 1u);
-    material = {};
-    material.transmission = 0.5f;
-    EXPECT_GT(valuesOf(sensitive(), "transparency").size(), 3u);
+}
+
+// Glass alone has no order, but it can be left out. Its layers are in no G-buffer.
+TEST(ExperimentSensitivity, GlassIsVariedByWhetherItIsDrawn) {
+    Scene scene;
+    scene.meshes.resize(1);
+    scene.meshes[0].primitives.resize(1);
+    scene.materials.resize(1);
+    scene.meshes[0].primitives[0].material = 0;
+    Material& material = scene.materials[0];
+    material.transmission = material.clearcoat = 1;
+    Settings off;
+    off.transparency = Transparency::off;
+    SweepRows sweep = makeSweepRows({}, defaultGrids({}));
+    sweep.rows.push_back(off);
+    const auto sensitive = [&] { return sensitiveRows(sweep, {}, &scene); };
+    EXPECT_EQ(valuesOf(sensitive(), "transparency"), (std::set<std::string>{"off", "sorted"}));
+    EXPECT_EQ(valuesOf(sensitive(), "transparency-layers").size(), 1u);
+    EXPECT_EQ(reasonOf(sensitive(), "transparency", "weighted"),
+              "no material has alphaMode BLEND: glass has one order");
+    EXPECT_EQ(valuesOf(sensitive(), "layers").size(), 1u);
+    EXPECT_TRUE(std::ranges::any_of(sensitive().skips, [](const SweepSkip& skip) {
+        return skip.tried.size() == 2 && skip.tried[1].first == "layers" &&
+               skip.reason == "no opaque material has a layer";
+    }));
+    material.transmission = 0;
+    EXPECT_EQ(valuesOf(sensitive(), "layers").size(), 2u);
 }
 
 TEST(ExperimentSensitivity, HazeIsMarchedThroughWhereThereIsSome) {

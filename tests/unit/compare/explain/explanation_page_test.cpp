@@ -105,11 +105,11 @@ TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesGreen) {
 
 TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
     const ExplainedPictures of{
-        "a<b>.glb", "deferred", "forward_plus --haze on", {{"Again", "diptych explain a"}}};
+        "a<b>.glb", "deferred", "forward_plus --haze on", {{"Again", "diptych explain a"}}, "a device"};
     for (const std::size_t count : {0u, 1u, 9u}) {
         Explanation e = count > 0 ? made(count) : Explanation();
         e.causes.resize(count);
-        const std::string page = explanationHtml(e, of, "a device");
+        const std::string page = explanationHtml(e, of);
         EXPECT_EQ(markupFault(page, {"meta", "img", "br", "wbr"}), "") << count;
         EXPECT_EQ(page.find("<off>"), std::string::npos);
         EXPECT_EQ(countOf(page, "<tr><td>"), count);

@@ -87,7 +87,7 @@ TEST(Order, WeightedQuantilesAreThoseOfTheSortedValues) {
 }
 
 TEST(Order, ThreadsDoNotChangeTheSum) {
-    const std::vector<float> values = mixed(100003);
+    const std::vector<float> values = mixed(300007);
     const Order many(values);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(Order(values).sum(), many.sum());

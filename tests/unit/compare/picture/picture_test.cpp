@@ -39,7 +39,10 @@ TEST(Picture, FilmsAreShownOverTheirRange) {
     Frame frame = bothFrames()[0];
     for (const auto& [number, value, words] :
          {std::tuple{gpu::DEBUG_iridescence_ior, 1.5f, "grey, 0 to 1.5"},
-          {gpu::DEBUG_iridescence_thickness, 400.0f, "grey, 0 to 400 nm"}}) {
+          {gpu::DEBUG_iridescence_thickness, 400.0f, "grey, 0 to 400 nm"},
+          {gpu::DEBUG_transmission_thickness, 0.5f, "grey, 0 to 0.5 m"},
+          {gpu::DEBUG_attenuation_distance, 3.0f, "grey, 0 to 3 m"},
+          {gpu::DEBUG_dispersion, 1.5f, "grey, 0 to 1.5"}}) {
         const DebugMode& mode = debugMode(static_cast<int>(number));
         Image& image = frame.channels.at(mode.number);
         image.at(1, 2) = value;

@@ -158,6 +158,16 @@ TEST(Report, ThePageStandsAloneWithFailuresFirst) {
     }
 }
 
+TEST(Report, ThePageCountsThePixelsThatASecondRunChanged) {
+    std::vector<Frame> frames = bothFrames();
+    frames[0].noise = {{gpu::DEBUG_lit, {0, 0}}, {gpu::DEBUG_albedo, {0, 0}}};
+    frames[1].noise = {{gpu::DEBUG_lit, {2, 0.1}}, {gpu::DEBUG_albedo, {1, 0.1}}};
+    const fs::path out = folder() / "report";
+    writeReport(reportOf(std::move(frames)), out, {});
+    const std::string page = contentsOf(out / "index.html");
+    EXPECT_NE(page.find("a second run changed</td><td class=\"n\">0</td><td class=\"n\">2</td>"), page.npos);
+}
+
 TEST(Report, ASinglePageHoldsItsPictures) {
     const fs::path out = folder() / "report";
     ReportOptions options;

@@ -98,7 +98,8 @@ TEST(Shards, ASceneWeighsWhatItsFilesDo) {
     std::ofstream(root / "a b.bin") << std::string(5000, 'x');
     std::ofstream(root / "t.png") << std::string(700, 'x');
     const std::string text =
-        R"({"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,x"}],"images":[{"uri":"t.png"},{"bufferView":0},{"uri":"gone.png"}]})";
+        R"({"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,x"}],
+            "images":[{"uri":"t.png"},{"bufferView":0},{"uri":"gone.png"}]})";
     std::ofstream(root / "s.gltf") << text;
     std::string glb = "glTF";
     const auto word = [&](std::size_t value) {
@@ -133,7 +134,8 @@ TEST(Shards, ASceneWeighsWhatItsFilesDo) {
 TEST(Shards, TimingsAreThoseOfAReport) {
     const fs::path root = folder();
     std::ofstream(root / "report.json")
-        << R"({"frames":[{"scene":"a","made_in_ms":10},{"scene":"a","made_in_ms":5.5},{"scene":"b","made_in_ms":1}]})";
+        << R"({"frames":[{"scene":"a","made_in_ms":10},{"scene":"a","made_in_ms":5.5},
+                         {"scene":"b","made_in_ms":1}]})";
     for (const fs::path& name : {root, root / "report.json"})
         EXPECT_EQ(timingsOf(name), (std::map<std::string, double>{{"a", 15.5}, {"b", 1}}));
     std::ofstream(root / "empty.json") << R"({"frames":[]})";

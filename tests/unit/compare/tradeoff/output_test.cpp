@@ -264,5 +264,11 @@ TEST(LogAxis, TicksLieWithinAndSome) {
     EXPECT_EQ(axis.place(0), 0);
 }
 
+TEST(LogAxis, AboutADecadeHasTicksAtOneTwoAndFive) {
+    std::vector<double> values;
+    for (const Tick& tick : LogAxis({1.5, 12}).ticks()) values.push_back(tick.value);
+    EXPECT_EQ(values, (std::vector<double>{2, 5, 10}));
+}
+
 }  // namespace
 }  // namespace diptych

@@ -115,7 +115,7 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     const std::string text = inText(shadowTable(sweep)), page = inHtml(blocksOf(shadowTable(sweep)));
     EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
     EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
-    for (const ShadowFigure& figure : shadowFigures)
+    for (const NamedMetric& figure : shadowFigures)
         EXPECT_NE(page.find(figure.title), std::string::npos) << figure.title;
 }
 

@@ -246,6 +246,38 @@ TEST_F(AcrossDevicesPair, AThicknessIsGrantedTheRoundingOfItsRange) {
     EXPECT_EQ(faults(), "iridescence_thickness ");
 }
 
+// The material's index does not show a pane: at its edge each device may show what is beside it.
+TEST_F(AcrossDevicesPair, APaneMayEndAPixelBesideItsEdge) {
+    const auto endAt = [&](std::size_t frame, int column) {
+        for (int y = 0; y < across_side; ++y)
+            for (int x = 0; x < across_side; ++x)
+                at(frame, gpu::DEBUG_dispersion).at(x, y) = x < column ? 0.0f : 2.0f;
+    };
+    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_dispersion);
+    endAt(0, 20);
+    endAt(1, 21);
+    EXPECT_EQ(faults(), "");
+    endAt(1, 22);
+    EXPECT_EQ(faults(), "dispersion ") << "two pixels away";
+    endAt(1, 20);
+    *there(gpu::DEBUG_dispersion, 25, 5) = 2.1f;
+    EXPECT_EQ(faults(), "dispersion ") << "inside the pane";
+}
+
+// A texture of thicknesses rounds in its unit.
+TEST_F(AcrossDevicesPair, AVolumesThicknessIsGrantedTheRoundingOfItsRange) {
+    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_transmission_thickness);
+    for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
+    fill(0, gpu::DEBUG_transmission_thickness, 4);
+    fill(1, gpu::DEBUG_transmission_thickness, 4 + 0.9 * 3 / 255);
+    needs_.volume_thickness_range = 3;
+    EXPECT_EQ(faults(), "transmission_thickness ") << "no texture";
+    needs_.textures = 1;
+    EXPECT_EQ(faults(), "");
+    needs_.volume_thickness_range = 2;
+    EXPECT_EQ(faults(), "transmission_thickness ");
+}
+
 // No texture scales a film's index, though the weight's texture may take the film away.
 TEST_F(AcrossDevicesPair, AnIndexIsGrantedNoTexel) {
     for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_iridescence_ior);
@@ -401,6 +433,27 @@ TEST(TexelRanges, ABlackTexelTakesTheSheenAway) {
     const auto ranges = layerRanges(0, [](Material& m) { m.sheen_color_texture.texture = 0; });
     EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_color), 0.5, 1e-6);
     EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_roughness), 0.75, 1e-6);
+}
+
+// Alpha is the weight of diffuse transmission; without weight it has no colour.
+TEST(TexelRanges, AWeightOfZeroTakesDiffuseTransmissionAway) {
+    const auto weigh = [](Material& m) {
+        m.diffuse_transmission = 0.75f;
+        m.diffuse_transmission_color = {0.25f, 0.5f, 0};
+        m.diffuse_transmission_texture.texture = 0;
+    };
+    const auto kept = layerRanges(51, weigh), gone = layerRanges(0, weigh);
+    EXPECT_NEAR(rangeIn(kept, gpu::DEBUG_diffuse_transmission), 0.75 * 0.8, 1e-6);
+    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_diffuse_transmission_color), 0);
+    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_diffuse_transmission), 0.75, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_diffuse_transmission_color), 0.5, 1e-6);
+    const auto color = layerRanges(51, [](Material& m) {
+        m.diffuse_transmission = 0.75f;
+        m.diffuse_transmission_color = {0.25f, 0.5f, 0};
+        m.diffuse_transmission_color_texture.texture = 0;
+    });
+    EXPECT_NEAR(rangeIn(color, gpu::DEBUG_diffuse_transmission_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
+    EXPECT_EQ(rangeIn(color, gpu::DEBUG_diffuse_transmission), 0);
 }
 
 TEST(TexelRanges, OfAThicknessArePartsOfItsRange) {

@@ -26,8 +26,8 @@ Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
     frame.unblended = frame.channels[litMode];
     for (std::size_t i = 0; i < 3 * blendCovered; ++i) frame.channels[litMode].data[i] = 2;
     if (path == Path::reference) {
-        frame.blended = Image(blendWide, blendHigh, 1);
-        for (std::size_t i = 0; i < blendCovered; ++i) frame.blended.data[i] = 0.5f;
+        frame.blended = Image(blendWide, blendHigh, 3);
+        for (std::size_t i = 0; i < blendCovered; ++i) *frame.blended.pixel(i) = 0.5f;
     }
     return frame;
 }

@@ -24,8 +24,8 @@ struct PackedPair {
     PackedPair() {
         for (Frame& frame : frames) frame.settings.gbuffer = packedEncoding;
         needs.emission = needs.lightmap = needs.dielectric_specular = true;
-        needs.layers =
-            gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
+        needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN |
+                               gpu::LAYER_IRIDESCENCE | gpu::LAYER_DIFFUSE_TRANSMISSION;
         needs.max_emission = needs.min_emission = needs.max_lightmap = 1;
     }
     float* read(gpu::uint mode) { return &frames[0].channels.at(static_cast<int>(mode)).at(1, 2); }
@@ -159,7 +159,8 @@ TEST(EncodingUse, AnAbsentLayerIsExactlyZero) {
          {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_clearcoat_normal,
           gpu::DEBUG_anisotropy, gpu::DEBUG_anisotropy_direction, gpu::DEBUG_sheen_color,
           gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence, gpu::DEBUG_iridescence_ior,
-          gpu::DEBUG_iridescence_thickness}) {
+          gpu::DEBUG_iridescence_thickness, gpu::DEBUG_diffuse_transmission,
+          gpu::DEBUG_diffuse_transmission_color}) {
         PackedPair p;
         for (int c = 0; c < debugMode(static_cast<int>(mode)).width; ++c)
             p.own(mode)[c] = p.read(mode)[c] = 0;
@@ -208,14 +209,16 @@ TEST(EncodingUse, ANanIsBeyondEveryBound) {
 
 TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
     PackedPair p;
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_position, gpu::DEBUG_material_id,
-                                 gpu::DEBUG_lightmapped, gpu::DEBUG_specular})
+    for (const gpu::uint mode :
+         {gpu::DEBUG_lit, gpu::DEBUG_position, gpu::DEBUG_material_id, gpu::DEBUG_lightmapped,
+          gpu::DEBUG_specular, gpu::DEBUG_transmission, gpu::DEBUG_transmission_thickness})
         EXPECT_FALSE(p.use(mode)) << mode;
     p.needs = {};
     for (const gpu::uint mode :
          {gpu::DEBUG_emission, gpu::DEBUG_lightmap, gpu::DEBUG_dielectric_f0, gpu::DEBUG_dielectric_f90,
           gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_normal, gpu::DEBUG_anisotropy_direction,
-          gpu::DEBUG_sheen_color, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness})
+          gpu::DEBUG_sheen_color, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness,
+          gpu::DEBUG_diffuse_transmission, gpu::DEBUG_diffuse_transmission_color})
         EXPECT_FALSE(p.use(mode)) << "nothing is stored of " << mode;
     EXPECT_TRUE(p.use(gpu::DEBUG_albedo));
     for (Frame& frame : p.frames) frame.settings.gbuffer = GBufferEncoding::full;

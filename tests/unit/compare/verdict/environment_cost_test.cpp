@@ -60,6 +60,7 @@ TEST(EnvironmentCost, PartsOfSpecularLightAreGrantedAllOfIt) {
     EXPECT_GT(p.allowed(gpu::DEBUG_lit_specular), 0);
     for (const gpu::uint mode : {gpu::DEBUG_lit_clearcoat, gpu::DEBUG_lit_sheen})
         EXPECT_EQ(p.allowed(mode), p.allowed(gpu::DEBUG_lit_specular)) << mode;
+    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_transmission), p.allowed(gpu::DEBUG_lit_diffuse));
 }
 
 TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {

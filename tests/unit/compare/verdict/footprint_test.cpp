@@ -333,6 +333,21 @@ TEST(Footprint, TexelsOfAThicknessAreGrantedByItsRange) {
     }
 }
 
+// A code of a volume's thickness texture is 1/255 of the thickness that it scales.
+TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
+    CompareOptions options;
+    options.texels = exactTexels();
+    Requirements needs;
+    std::vector<Frame> frames = evenFrames();
+    for (float& v : channelIn(frames[1], gpu::DEBUG_transmission_thickness).data) v += 0.9f * 0.3f / 255;
+    for (const float range : {0.3f, 0.2f, 0.0f}) {
+        needs.volume_thickness_range = range;
+        EXPECT_EQ(judged(frames, gpu::DEBUG_transmission_thickness, options, needs).verdict,
+                  range == 0.3f ? Verdict::pass : Verdict::fail)
+            << range;
+    }
+}
+
 // As pictures, indices above 1 must not all be white.
 TEST(Footprint, DetailOfLargeIndicesIsJudged) {
     std::vector<Frame> frames = evenFrames();

@@ -58,7 +58,7 @@ TEST(Informative, ARuleForLitJudgesIt) {
 TEST(Informative, TheReportSaysWhatDiffers) {
     const Report report = informedReport({gpu::DEBUG_lit});
     EXPECT_EQ(verdictLine(report),
-              "pass: all 25 compared channels are within tolerance; 11 channels of light not counted: the "
+              "pass: all 32 compared channels are within tolerance; 12 channels of light not counted: the "
               "paths' Settings differ (4 more exist on one side only)");
     const std::string said =
         "deferred and forward_plus have different Settings: --assign clustered and per_object";

@@ -42,14 +42,17 @@ struct LayerPair {
     }
 };
 
-TEST(LayerTolerance, HalfStepsOfASheenAndOfAFilmsWeight) {
+TEST(LayerTolerance, HalfStepsOfASheenAFilmsWeightAndDiffuseTransmission) {
     for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard}) {
         LayerPair p;
-        p.encoding(e).needs.layers = gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
-        for (const gpu::uint mode : {gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence})
+        p.encoding(e).needs.surface_layers =
+            gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE | gpu::LAYER_DIFFUSE_TRANSMISSION;
+        for (const gpu::uint mode :
+             {gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence, gpu::DEBUG_diffuse_transmission})
             EXPECT_NEAR(p.of(mode).max, 0.5 / 255, 1e-6) << mode;
         constexpr double h = 0.5 / 255;
-        EXPECT_NEAR(p.of(gpu::DEBUG_sheen_color).max, 2 * h - h * h, 2e-6) << "the root is stored";
+        for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_diffuse_transmission_color})
+            EXPECT_NEAR(p.of(mode).max, 2 * h - h * h, 2e-6) << mode << ": the root is stored";
     }
 }
 
@@ -80,7 +83,7 @@ TEST(LayerTolerance, IndicesAtTheLastCodeHaveNoBound) {
 
 TEST(LayerTolerance, AnIndexIsGrantedTheBoundOfTheLargest) {
     LayerPair p;
-    p.needs.layers = gpu::LAYER_IRIDESCENCE;
+    p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
     p.own(gpu::DEBUG_iridescence_ior, 1.5f);
     for (const float decoded : {1.5f, 40.0f}) {
         p.decoded(gpu::DEBUG_iridescence_ior, decoded);
@@ -110,29 +113,39 @@ TEST(LayerTolerance, AThicknessHoldsTheBoundOfAHalf) {
         EXPECT_GE(worst, 0.98) << first << ": a bound that is never neared hides errors";
     }
     LayerPair p;
-    p.needs.layers = gpu::LAYER_IRIDESCENCE;
+    p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
     EXPECT_EQ(p.of(gpu::DEBUG_iridescence_thickness).max, 0x1p-11) << "relative to the thickness";
 }
 
 // A mean of 2^-16 nm gives a smallest denominator of 1e-3 of it, and half a step stays 2^-25 nm.
 TEST(LayerTolerance, AThicknessBelowTheLastExponentIsStillBound) {
     LayerPair p;
-    p.needs.layers = gpu::LAYER_IRIDESCENCE;
+    p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
     p.decoded(gpu::DEBUG_iridescence_thickness, 0x1p-16f);
     EXPECT_NEAR(p.of(gpu::DEBUG_iridescence_thickness).max, 0x1p-25 / (1e-3 * 0x1p-16), 1e-6);
 }
 
 TEST(LayerTolerance, AnAbsentSheenOrFilmIsNotStored) {
     LayerPair p;
-    p.encoding(GBufferEncoding::compact).needs.layers = gpu::LAYER_SHEEN;
+    p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_SHEEN;
     EXPECT_GT(p.of(gpu::DEBUG_sheen_roughness).max, 0);
     for (const gpu::uint mode :
          {gpu::DEBUG_iridescence, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness})
         EXPECT_EQ(p.of(mode).max, 0) << mode;
-    p.needs.layers = gpu::LAYER_IRIDESCENCE;
+    p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
     EXPECT_GT(p.of(gpu::DEBUG_iridescence_ior).max, 0);
     for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_sheen_roughness})
         EXPECT_EQ(p.of(mode).max, 0) << mode;
+}
+
+TEST(LayerTolerance, ALayerOfGlassAloneIsNotStored) {
+    LayerPair p;
+    p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_SHEEN;
+    p.needs.layers = gpu::LAYER_SHEEN | gpu::LAYER_TRANSMISSION;
+    EXPECT_GT(p.of(gpu::DEBUG_sheen_roughness).max, 0);
+    EXPECT_EQ(p.of(gpu::DEBUG_transmission).max, 0);
+    p.needs.surface_layers = 0;
+    EXPECT_EQ(p.of(gpu::DEBUG_sheen_roughness).max, 0);
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(Tolerance, HalfStepsOfEachPackedNumber) {
 TEST(Tolerance, HalfStepsOfEachLayer) {
     for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard}) {
         Pair p;
-        p.encoding(e).needs.layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
+        p.encoding(e).needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
         for (const gpu::uint mode :
              {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_anisotropy})
             EXPECT_NEAR(p.of(mode).max, 0.5 / 4095, 1e-6) << mode;
@@ -141,10 +141,10 @@ TEST(Tolerance, HalfStepsOfEachLayer) {
 
 TEST(Tolerance, AnAbsentLayerIsNotStored) {
     Pair p;
-    p.encoding(GBufferEncoding::compact).needs.layers = gpu::LAYER_ANISOTROPY;
+    p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_ANISOTROPY;
     EXPECT_EQ(p.of(gpu::DEBUG_clearcoat).max, 0);
     EXPECT_GT(p.of(gpu::DEBUG_anisotropy).max, 0);
-    p.needs.layers = gpu::LAYER_CLEARCOAT;
+    p.needs.surface_layers = gpu::LAYER_CLEARCOAT;
     EXPECT_GT(p.of(gpu::DEBUG_clearcoat).max, 0);
     EXPECT_EQ(p.of(gpu::DEBUG_anisotropy_direction).max, 0);
 }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Channels of surfaces with transmission against the reference in mode surface, which traces these surfaces
+// itself.
+#include "compare/verdict/blended_pixels.h"
+#include "compare/verdict/tolerance.h"
+#include "shared/contract/debug_mode.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych {
+namespace {
+
+constexpr int glassSide = 8;
+
+// A pane 2 m thick on the right half of the reference's picture, from column 4 on.
+struct GlassPair {
+    Frame reference, path;
+    Requirements needs;
+    Coverage covered = everyPixel(std::size_t{glassSide} * glassSide);
+
+    GlassPair() {
+        reference.settings.path = Path::reference;
+        path.settings.path = Path::forward_plus;
+        reference.blended = Image(glassSide, glassSide, 3);
+        reference.channels[thickness] = path.channels[thickness] = pane(4, 2);
+        for (std::size_t i = 0; i < reference.blended.pixels(); ++i)
+            reference.blended.pixel(i)[0] = reference.channels[thickness].data[i] > 0 ? 1.0f : 0.0f;
+    }
+    static Image pane(int column, float thick) {
+        Image image(glassSide, glassSide, 1);
+        for (int y = 0; y < glassSide; ++y)
+            for (int x = column; x < glassSide; ++x) image.at(x, y) = thick;
+        return image;
+    }
+    double excess() const {
+        const DebugMode& mode = debugMode(thickness);
+        const FramePair pair{reference, path, needs, covered};
+        return certainP999(mode, pair).value() / derivedTolerance(mode, pair).max;
+    }
+    static constexpr int thickness = static_cast<int>(gpu::DEBUG_transmission_thickness);
+};
+
+TEST(GlassChannels, EdgesMayBeBesideThoseOfTheReference) {
+    GlassPair p;
+    EXPECT_EQ(p.excess(), 0);
+    p.path.channels[GlassPair::thickness] = GlassPair::pane(5, 2);
+    EXPECT_EQ(p.excess(), 0);
+    p.path.channels[GlassPair::thickness] = GlassPair::pane(7, 2);
+    EXPECT_GT(p.excess(), 1) << "three pixels away";
+}
+
+TEST(GlassChannels, ATextureMayBeACodeOff) {
+    GlassPair p;
+    p.path.channels[GlassPair::thickness] = GlassPair::pane(4, 2 + 0.9f * 3 / 255);
+    EXPECT_GT(p.excess(), 1) << "no texture";
+    p.needs.textures = 1;
+    for (const float range : {3.0f, 2.0f}) {
+        p.needs.volume_thickness_range = range;
+        EXPECT_EQ(p.excess() <= 1, range == 3) << range;
+    }
+    p.path.channels[GlassPair::thickness] = GlassPair::pane(4, 2.0001f);
+    p.needs = {};
+    EXPECT_LE(p.excess(), 1) << "float32";
+}
+
+}  // namespace
+}  // namespace diptych
