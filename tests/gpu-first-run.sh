@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# gpu-first-run.sh [--quick | --long] [OUT]: what to run first on a machine with a real GPU. What is proved
-# bit for bit on lavapipe is asked here within 16 ULP, and every result stays in one folder, OUT
+# gpu-first-run.sh [--quick | --long] [OUT]: what to run first on a machine with a real GPU. Claims that
+# hold bit for bit on lavapipe are tested here within 16 ULP, and every result stays in one folder, OUT
 # (gpu-first-run-DATE-DEVICE): a log and a JUnit file a step, and README.md: what passed and what differs.
 #   --quick    a sample of every step, in seconds
 #   --long     on a CPU device, too, all that a GPU is asked; longer benchmarks

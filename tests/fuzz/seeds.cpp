@@ -64,12 +64,15 @@ void writeTextSeeds(const fs::path& out) {
         out, "lights", "all.json",
         R"({"lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0.5], "intensity": 3},
  {"type": "point", "position": [1, 2, 3], "color": [1, 0.5, 0.25], "range": 10},
- {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.7853981633974483}, "extras": {"a": []}},
- {"type": "spot", "innerConeAngle": 0, "outerConeAngle": 1.5707963267948966, "direction": [1e-200, 0, 0]}]})");
+ {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.7853981633974483},
+  "extras": {"a": []}},
+ {"type": "spot", "innerConeAngle": 0, "outerConeAngle": 1.5707963267948966,
+  "direction": [1e-200, 0, 0]}]})");
     writeSeed(out, "lights", "area.json",
               R"({"lights": [{"type": "rect", "size": [2, 0.5], "direction": [0, -1, 0], "axis": [1, 1, 0],
   "twoSided": true, "intensity": 1000, "range": 8},
- {"type": "disc", "radius": 0.5, "position": [0, 2, 0]}, {"type": "tube", "length": 1.2, "radius": 0.02, "axis": [0, 0, 1]},
+ {"type": "disc", "radius": 0.5, "position": [0, 2, 0]},
+ {"type": "tube", "length": 1.2, "radius": 0.02, "axis": [0, 0, 1]},
  {"type": "directional", "angle": 0.0093, "direction": [0, -1, 0]}]})");
     writeSeed(out, "lights", "none.json", R"({"lights": []})");
     writeSeed(

@@ -100,6 +100,11 @@ void requireSound(const Material& material, const Scene& scene) {
     for (const float thickness : {material.iridescence_thickness_least, material.iridescence_thickness_most})
         require(thickness >= 0 && double{thickness} <= maxFilmThickness, "a film has a thickness");
     require(material.iridescence_ior >= 1, "a film refracts");
+    require(finite(material.attenuation_color) && finite(material.diffuse_transmission_color),
+            "colours of transmitted light are finite");
+    for (const float factor : {material.transmission, material.thickness, material.attenuation_distance,
+                               material.dispersion, material.diffuse_transmission})
+        require(factor >= 0 && std::isfinite(factor), "factors of transmitted light are finite, 0 or more");
 }
 
 void requireTrees(const Scene& scene) {

@@ -59,7 +59,7 @@ inline std::vector<std::size_t> everyLight(std::span<const Light> lights) {
 
 inline Shading shadedBy(std::span<const Light> lights, const Surface& surface, const Visibility& open = {},
                         std::uint64_t seed = 1) {
-    return Lighting(lights, nullptr, 1, {0, 0, 0}, {0, 0, 0}, everyLight(lights))(surface, open, seed);
+    return Lighting({.lights = lights, .casters = everyLight(lights)})(surface, open, seed);
 }
 inline double reflectedBy(const Light& light, const Surface& surface) {
     const Shading shading = shadedBy(std::span(&light, 1), surface);

@@ -140,6 +140,36 @@ TEST(Bench, BySamplesAPixel) {
     EXPECT_EQ(solid["rows"][0]["cells"].size(), solid["columns"].size());
 }
 
+// What deferred stores is known: layers by G-buffer alone, and nothing where forward draws all.
+TEST(Bench, LayersByWhatTheyCover) {
+    const Folder folder;
+    const Ran ran = runTool(folder,
+                            "bench --table layers --light-counts 4 --size 32x18 --runs 1 --shadows off "
+                            "--max-ms 1e6 -o b");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json bench = readJson(folder / "b/bench.json");
+    EXPECT_EQ(bench["frames"].size(), 39u);
+    for (const Json& row : bench["frames"]) EXPECT_EQ(row["counters"]["nonfinite_pixels"], 0);
+    const Json rows = bench["layers"]["rows"];
+    ASSERT_EQ(rows.size(), 13u) << "4 kinds by 3 shares, and none";
+    ASSERT_EQ(rows[0]["percent"], 0);
+    const int depth = rows[0]["ways"][0]["bytes_per_pixel"], plain = rows[0]["ways"][1]["bytes_per_pixel"];
+    for (const Json& row : rows) {
+        ASSERT_EQ(row["ways"].size(), 3u) << row;
+        for (const Json& way : row["ways"]) EXPECT_LE(way["ms"]["min"], way["ms"]["median"]);
+        EXPECT_EQ(row["ways"][0]["bytes_per_pixel"], depth);
+        const int stored = row["ways"][1]["bytes_per_pixel"], apart = row["ways"][2]["bytes_per_pixel"];
+        const bool solid = row["covered"] != "" && row["covered"] != "glass";
+        EXPECT_EQ(stored > plain, solid) << row;
+        EXPECT_EQ(apart, solid && row["percent"] == 100 ? depth : plain) << row;
+    }
+    EXPECT_FALSE(bench["layers"]["words"].empty());
+    for (const Json& words : bench["layers"]["words"])
+        EXPECT_NE(ran.out.find(words.get<std::string>()), std::string::npos) << ran.out;
+    EXPECT_NE(contentsOf(folder / "b/bench.svg").find("covered, %"), std::string::npos);
+    EXPECT_NE(contentsOf(folder / "b/index.html").find("Where each way is the fastest"), std::string::npos);
+}
+
 TEST(Bench, WhatItCannotDoIsNamed) {
     const Folder folder;
     EXPECT_TRUE(runTool(folder, "bench --runs 0").failedOver("--runs 0"));
@@ -147,6 +177,9 @@ TEST(Bench, WhatItCannotDoIsNamed) {
     EXPECT_TRUE(runTool(folder, "bench --camera 0 --camera 1").failedOver("--camera"));
     EXPECT_TRUE(runTool(folder, "bench --path reference").failedOver("--path reference"));
     EXPECT_TRUE(runTool(folder, "bench -o x.png").failedOver("-o x.png"));
+    EXPECT_TRUE(
+        runTool(folder, "bench --table area").failedOver("--table area: takes modes, msaa, growth or"));
+    EXPECT_TRUE(runTool(folder, "bench --compile-on vega10").failedOver("--compile-on: bench needs --table"));
     EXPECT_TRUE(runTool(folder, "bench no.glb").failedOver("no.glb"));
     EXPECT_TRUE(runTool(folder, "bench --paths deferred --assign per_object").failedOver("nothing to time"));
     EXPECT_FALSE(fs::exists(folder / "diptych-bench"));

@@ -42,13 +42,26 @@ inline Visit visit(const Folder& scratch, const fs::path& page, const std::strin
     static const std::string tools = R"(
 const $ = s => document.querySelector(s), $$ = s => [...document.querySelectorAll(s)];
 const wait = ms => new Promise(done => setTimeout(done, ms));
-const until = async condition => { for (let i = 0; i < 200 && !condition(); ++i) await wait(20); return condition(); };
+const until = async condition => {
+  for (let i = 0; i < 200 && !condition(); ++i) await wait(20);
+  return condition();
+};
 const tell = value => { if (parent !== window) return parent.postMessage(value, '*'); show(value); };
-const show = value => { const out = document.createElement('pre'); out.id = 'told'; out.textContent = 'TOLD' + JSON.stringify(value) + 'END'; document.body.append(out); };
-const key = (name, more = {}) => (document.activeElement || document.body).dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, cancelable: true, ...more }));
+const show = value => {
+  const out = document.createElement('pre');
+  out.id = 'told';
+  out.textContent = 'TOLD' + JSON.stringify(value) + 'END';
+  document.body.append(out);
+};
+const key = (name, more = {}) => (document.activeElement || document.body).dispatchEvent(
+  new KeyboardEvent('keydown', { key: name, bubbles: true, cancelable: true, ...more }));
 // A pointer at a part of an element, 0 to 1 from its left and top.
-const at = (element, x, y) => { const box = element.getBoundingClientRect(); return { clientX: box.left + x * box.width, clientY: box.top + y * box.height }; };
-const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new PointerEvent(type, { bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse', ...at(element, x, y), ...more }));
+const at = (element, x, y) => {
+  const box = element.getBoundingClientRect();
+  return { clientX: box.left + x * box.width, clientY: box.top + y * box.height };
+};
+const pointer = (type, element, x, y, more = {}) => element.dispatchEvent(new PointerEvent(type,
+  { bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse', ...at(element, x, y), ...more }));
 )";
     std::string text = contentsOf(page);
     const std::string own = "(async () => {" + tools + "try {" + script +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `plan --compile-on`: a GPU's compiler without the GPU. Mesa's RADV compiles for the families it knows:
-// Debian 12's (Mesa 22.3) lacks RDNA 3 and 4, Debian 13's has all.
+// `plan` and `bench --compile-on`: a GPU's compiler without the GPU. Mesa's RADV compiles for the families it
+// knows: Debian 12's (Mesa 22.3) lacks RDNA 3 and 4, Debian 13's has all.
 #include "shared/vulkan/driver_probe.h"
 #include "tests/tool/run.h"
 
@@ -70,6 +70,32 @@ TEST_F(CompileOn, ATableAndWhatFeaturesAddAreText) {
     for (const char* word :
          {"VGPRs", "occupancy", "forward_shade.frag", "deferred_shade.frag", "area_lights "})
         EXPECT_NE(ran.out.find(word), std::string::npos) << word << "\n" << ran.out;
+}
+
+TEST_F(CompileOn, BenchCountsTheRegistersOfPassesThatShade) {
+    const Ran ran =
+        runTool(folder,
+                "bench --table layers --compile-on vega10 --paths deferred --light-counts 1 --size "
+                "32x18 --runs 1 --shadows off --max-ms 1e6 --json -q -o b");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const nlohmann::json layers = nlohmann::json::parse(ran.out)["layers"];
+    EXPECT_NE(layers["compiler"].get<std::string>().find("VEGA10"), std::string::npos);
+    for (const nlohmann::json& row : layers["rows"]) {
+        const std::string kind = row["covered"];
+        ASSERT_EQ(row["ways"].size(), 2u) << row;
+        for (const nlohmann::json& way : row["ways"]) {
+            std::set<std::string> passes;
+            for (const nlohmann::json& pass : way["registers"]) {
+                passes.insert(pass["pass"]);
+                EXPECT_GT(pass["least"], 0);
+                EXPECT_LE(pass["least"], pass["most"]);
+            }
+            const bool apart = way["name"] == "deferred by forward" && kind != "" && kind != "glass";
+            EXPECT_EQ(passes.contains("shade layers"), apart) << row;
+            EXPECT_EQ(passes.contains("transmission"), kind == "glass") << row;
+            EXPECT_EQ(passes.contains("shade"), !apart || row["percent"] != 100) << row;
+        }
+    }
 }
 
 TEST_F(CompileOn, WhatCannotCompileIsOneLine) {

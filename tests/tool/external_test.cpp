@@ -105,7 +105,8 @@ TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
                          "min": [0, 0, 0], "max": [1, 1, 0] } ],
         "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
         "buffers": [ { "byteLength": 36,
-            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] })");
+            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
+        } ] })");
     ::setenv("TMPDIR", (folder / odd).c_str(), 1);
     Running tool(folder,
                  {"compare", (folder / odd / "tri.gltf").string(), "--size", "32x18", "--runs", "0", "-q",

@@ -50,7 +50,8 @@ if mode == 'exit':
 if mode == 'crash':
     os.kill(os.getpid(), signal.SIGSEGV)
 if mode in ('hang', 'flee'):
-    subprocess.Popen((['setsid', '-f'] if mode == 'flee' else []) + ['sh', '-c', 'echo $$ > "$1.part"; mv "$1.part" "$1"; exec sleep 600', 'sh', sys.argv[2]])
+    script = 'echo $$ > "$1.part"; mv "$1.part" "$1"; exec sleep 600'
+    subprocess.Popen((['setsid', '-f'] if mode == 'flee' else []) + ['sh', '-c', script, 'sh', sys.argv[2]])
     time.sleep(600)
 if mode == 'none':
     sys.exit(0)
@@ -68,7 +69,8 @@ if mode == 'chatter':
         print('line', i, 'of very many', file=sys.stderr)
 if mode == 'keep':
     shutil.copytree(os.path.dirname(file), sys.argv[2], dirs_exist_ok=True)
-    json.dump({'argv': sys.argv[1:], 'folder': os.getcwd()}, open(os.path.join(sys.argv[2], 'handed.json'), 'w'))
+    json.dump({'argv': sys.argv[1:], 'folder': os.getcwd()},
+              open(os.path.join(sys.argv[2], 'handed.json'), 'w'))
 if mode == 'nan':
     colour = lambda x, y: (0.25, float('nan') if (x, y) == (3, 2) else 0.5, 0.75)
 write_exr(out, width + (mode == 'wide'), height, colour)

@@ -112,7 +112,7 @@ TEST(Interruption, OneThatIsKilledIsSweptByTheNext) {
     EXPECT_FALSE(fs::exists(folder / ".r.99999999-1.tmp"));
 }
 
-// Which of two reports a folder contains; all its files must agree.
+// The one of two reports that a folder contains; all its files must agree.
 std::string channelsIn(const fs::path& report) {
     std::string found;
     for (const auto& entry : fs::directory_iterator(report)) {

@@ -7,16 +7,20 @@ namespace {
 
 // Labels of a plot that overlap or extend outside it, and how far the page scrolls sideways.
 constexpr const char* lookAtChoice = R"(
-  const words = $$('svg.chart text').filter(text => text.textContent).map(text => [text.textContent, text.getBoundingClientRect(), text.closest('svg').getBoundingClientRect()]);
+  const words = $$('svg.chart text').filter(text => text.textContent).map(text =>
+    [text.textContent, text.getBoundingClientRect(), text.closest('svg').getBoundingClientRect()]);
   const told = { overlaps: [], outside: [], wide: document.documentElement.scrollWidth - innerWidth };
   words.forEach(([a, x, svg], i) => {
-    if (x.left < svg.left - 1 || x.right > svg.right + 1 || x.top < svg.top - 1 || x.bottom > svg.bottom + 1) told.outside.push(a);
+    if (x.left < svg.left - 1 || x.right > svg.right + 1 || x.top < svg.top - 1 || x.bottom > svg.bottom + 1)
+      told.outside.push(a);
     for (const [b, y] of words.slice(i + 1))
-      if (x.left < y.right - 1 && y.left < x.right - 1 && x.top < y.bottom - 1 && y.top < x.bottom - 1) told.overlaps.push([a, b]);
+      if (x.left < y.right - 1 && y.left < x.right - 1 && x.top < y.bottom - 1 && y.top < x.bottom - 1)
+        told.overlaps.push([a, b]);
   });
   told.names = $$('svg.chart .name').map(name => name.textContent);
   const svg = $('svg.chart'), unit = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-  told.letter = Math.max(...$$('.rows-named text').map(text => text.getBoundingClientRect().width / unit / text.textContent.length));
+  told.letter = Math.max(...$$('.rows-named text').map(text =>
+    text.getBoundingClientRect().width / unit / text.textContent.length));
   told.limits = $$('svg.chart > .budget').length;
   told.points = $$('svg.chart .point[data-row]').length;
   told.rows = $$('.rows tbody tr').length;

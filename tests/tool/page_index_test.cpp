@@ -55,7 +55,7 @@ void expectFluent(const nlohmann::json& told, int count) {
     EXPECT_EQ(told["sections"], (json{"s7", "s17", "s27", "s37"}));
     // A line has at most 17 elements: itself, 8 cells, two links, a verdict, up to four paddings of
     // numbers, and in a single file the text that loads later. Four comparisons of two channels, each with
-    // its Settings, and the page around them have 2770. Of 40 failures, each names its scene in an element
+    // its Settings, and the page around them have 2770. Each of 40 failures names its scene in an element
     // of its own.
     EXPECT_LT(told["nodes"], count * 17 + 3310) << "elements in the page";
     EXPECT_LT(told["images"], 50);

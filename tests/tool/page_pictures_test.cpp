@@ -16,8 +16,8 @@ Report twoGreys() {
     return reportOf(std::move(frames));
 }
 
-// Which stage is at a point of the pair, for several divider positions; and the colour of each side's
-// image. A canvas reads pixels only of images embedded in the page.
+// The stage at a point of the pair, for several divider positions; and the colour of each side's image.
+// A canvas reads pixels only of images embedded in the page.
 constexpr const char* wipeProbe = R"(
   const card = $('#c0-roughness'), pair = card.querySelector('.pair'), slider = pair.querySelector('input');
   const show = () => pair.scrollIntoView({ behavior: 'instant', block: 'center' });

@@ -66,7 +66,7 @@ TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
       const card = $('#c0-roughness'), panels = [...card.querySelectorAll('.panel')],
         pair = card.querySelector('.pair');
       await until(() => panels.every(panel => panel.querySelector('img').complete));
-      // Which part of the picture a panel shows: left, top, width in parts of it, measured on the screen.
+      // The part of the picture that a panel shows: left, top, width in parts of it, measured on the screen.
       const part = panel => { const f = panel.getBoundingClientRect(),
         i = panel.querySelector('img').getBoundingClientRect();
         return [(f.left - i.left) / i.width, (f.top - i.top) / i.height, f.width / i.width]

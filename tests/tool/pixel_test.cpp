@@ -113,6 +113,22 @@ TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
     EXPECT_EQ(named(turned["steps"], "name", "albedo")["test"], albedo["baseline"]);
 }
 
+// Light through a leaf has terms of its lights, of the environment and of ambient light, from behind too;
+// that through glass is one term with what blends.
+TEST(PixelTool, TermsAddUpOnALeafAndOnGlass) {
+    const Folder folder;
+    Image sky(8, 4, 3, 0.2f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    const std::string leaf = "61,38", glass = "61,15";
+    for (const std::string& pixel : {leaf, glass}) {
+        const json breakdown = breakdownOf(
+            folder, "builtin:transmission --size 96x54 --ambient 0.1,0.2,0.3 --env sky.exr --pixel " + pixel);
+        expectTermsAddUp(breakdown);
+        EXPECT_GT(largest(named(breakdown["steps"], "name", "lit_transmission")["test"]), 0) << pixel;
+        EXPECT_EQ(breakdown["blended"], pixel == glass);
+    }
+}
+
 // A user's rule decides instead of the encoding.
 TEST(PixelTool, ARuleDecidesWhatIsBeyond) {
     const Folder folder;

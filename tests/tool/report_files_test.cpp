@@ -21,7 +21,7 @@ TEST(ReportFiles, AReportOfWhatPassesIsSmall) {
     std::uintmax_t all = 0;
     for (const auto& [ending, bytes] : sizes(folder / "all"))
         if (ending != ".exr") all += bytes;
-    // Of that, 0.9 MB are geometric normals, which differ by their encoding.
+    // Geometric normals are 0.9 MB of that; they differ by their encoding.
     EXPECT_LT(all, 13'100'000u);
     EXPECT_GT(sizes(folder / "all")[".png"], 1'000'000u) << "the pictures are there";
     ASSERT_EQ(

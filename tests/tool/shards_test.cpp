@@ -327,9 +327,9 @@ TEST(ManyScenes, AnEarlierReportSaysWhatChanged) {
 
 TEST(ManyScenes, WhatIsAcceptedPasses) {
     const Folder folder;
-    folder.write(
-        "strict.json",
-        R"({"rules":[{"channel":"lit","max":0,"because":"none"},{"channel":"roughness","max":0,"because":"none"}]})");
+    folder.write("strict.json",
+                 R"({"rules":[{"channel":"lit","max":0,"because":"none"},
+                     {"channel":"roughness","max":0,"because":"none"}]})");
     const std::string compare = "compare builtin:points builtin:triangle" + manyHow + " ";
     ASSERT_EQ(runTool(folder, compare + "--tolerances strict.json -o r").code, 1);
     fs::copy_file(folder / "strict.json", folder / "rules.json");

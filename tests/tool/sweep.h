@@ -17,7 +17,7 @@ inline Json readJson(const fs::path& file) {
     return Json::parse(contentsOf(file), nullptr, false);
 }
 
-// What it printed.
+// The JSON that it printed.
 inline Json parsed(const Ran& ran) {
     const Json json = Json::parse(ran.out, nullptr, false);
     EXPECT_FALSE(json.is_discarded()) << "not JSON: " << ran.out << "\nerr: " << ran.err;
@@ -37,7 +37,8 @@ inline const std::vector<std::string> longSweep{
     "-o",
     "t",
     "--grid",
-    R"([{"settings": {"path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}}, {"settings": {"prepass": "off"}}])"};
+    R"([{"settings": {"path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}},
+        {"settings": {"prepass": "off"}}])"};
 
 inline std::string shellWords(const std::vector<std::string>& words) {
     std::string line;

@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 const char* const coloured = R"({
   "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
   "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 0,
-    "extensions": { "KHR_materials_variants": { "mappings": [ { "material": 1, "variants": [ 0 ] },
-                                                              { "material": 2, "variants": [ 1 ] } ] } } } ] } ],
+    "extensions": { "KHR_materials_variants": { "mappings": [
+      { "material": 1, "variants": [ 0 ] }, { "material": 2, "variants": [ 1 ] } ] } } } ] } ],
   "materials": [ {}, { "pbrMetallicRoughness": { "baseColorFactor": [ 0, 0, 1, 1 ] } },
                  { "pbrMetallicRoughness": { "baseColorFactor": [ 1, 0, 0, 1 ] } } ],
   "extensionsUsed": [ "KHR_materials_variants" ], "extensionsRequired": [ "KHR_materials_variants" ],

@@ -222,6 +222,17 @@ TEST_F(View, AReportOpensAtItsFailingChannelsWorstPixel) {
     close();
 }
 
+TEST_F(View, AReportThatPassesOpensAtLit) {
+    ASSERT_EQ(runTool(folder_, "compare builtin:spots --size 320x180 -o report").code, 0);
+    start({"view", "-v", "--report", "report"});
+    settle();
+    key("y");
+    const std::string line = lastLine("copied: ");
+    EXPECT_NE(line.find("--size 320x180"), std::string::npos) << line;
+    EXPECT_EQ(line.find("--debug"), std::string::npos) << line;
+    close();
+}
+
 #ifdef DIPTYCH_FAULTS
 // The device that shows the window is the only one that calls vkQueueSubmit.
 TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {

@@ -214,7 +214,7 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     EXPECT_EQ(recipeFaults("no table", named).size(), examples.size());
 }
 
-// What the design promises: a row of the table, a line of the shader, a line of the reference.
+// The design promises three: a row of the table, a line of the shader, a line of the reference.
 TEST(Recipes, AChannelTakesThreeFiles) {
     for (const char* channel : {"a channel", "a channel of light"})
         EXPECT_EQ(recipesOf(tablePage()).at(channel).names,

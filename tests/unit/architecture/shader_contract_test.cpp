@@ -10,6 +10,7 @@
 #include "shared/contract/surface_channels.h"
 #include "shared/contract/transparency.h"
 #include "shared/draw/packed_view.h"
+#include "shared/vulkan/shader_interface.h"
 #include "shared/vulkan/spirv.h"
 #include "shared/vulkan/variant.h"
 #include "tests/support/sources.h"
@@ -59,8 +60,9 @@ constexpr ModuleKind moduleKinds[] = {
     {"depth_mask.frag", gpu::PASS_DEPTH},
     {"surface.vert", gpu::PASS_DEPTH | gpu::PASS_FORWARD | gpu::PASS_GBUFFER},
     {"forward_", gpu::PASS_FORWARD},
-    {"gbuffer.frag", gpu::PASS_GBUFFER},
+    {"gbuffer", gpu::PASS_GBUFFER},
     {"background.frag", gpu::PASS_BACKGROUND},
+    {"backdrop.frag", gpu::PASS_FORWARD},
     {"transparency_", gpu::PASS_FORWARD},
     {"compose_", gpu::PASS_FORWARD},
     {"deferred_", gpu::PASS_LIGHTING},
@@ -105,7 +107,27 @@ TEST(ShaderContract, ThereAreFewModulesAndTheyAreSmall) {
     std::size_t bytes = 0;
     for (const ShaderModule& module : shaderModules()) bytes += module.words.size_bytes();
     EXPECT_LE(shaderModules().size(), 75u);
-    EXPECT_LE(bytes, 21u << 20);
+    EXPECT_LE(bytes, 25u << 20);
+}
+
+// Locations that shader stages pass to each other, of every module: those of its variants are among them.
+std::set<std::uint32_t> locationsBetweenStages() {
+    std::set<std::uint32_t> found;
+    for (const ShaderModule& module : shaderModules()) {
+        if (module.name.ends_with(".vert"))
+            for (const auto& [variable, locations] : outputsOf(module.words))
+                found.insert(locations.begin(), locations.end());
+        if (module.name.ends_with(".frag")) found.merge(inputLocations(module.words));
+    }
+    return found;
+}
+
+// Vulkan 1.3, "Required Limits": maxVertexOutputComponents and maxFragmentInputComponents are at least 64,
+// and a location has four.
+TEST(ShaderContract, EveryDeviceHasTheLocationsBetweenStages) {
+    const std::set<std::uint32_t> found = locationsBetweenStages();
+    EXPECT_GE(found.size(), 10u) << "the texture coordinates of all slots";
+    EXPECT_LT(*found.rbegin(), 64u / 4);
 }
 
 struct PassName {
@@ -223,6 +245,7 @@ std::vector<Declared> bindingTables() {
         TRANSPARENCY_BINDINGS(ROW)
         SAMPLE_BINDINGS(ROW)
         CHANNEL_BINDINGS(ROW)
+        BACKDROP_BINDINGS(ROW)
     }
     {
         const auto table = add(gpu::SET_LISTS, true);
@@ -269,7 +292,7 @@ Faults wrongBindings(const std::vector<Declared>& rows) {
 }
 
 TEST(ShaderContract, ShadersDeclareTheDescriptorsOfTheTables) {
-    EXPECT_EQ(bindingTables().size(), 21u + 4 + 13 + 5 + 4 + 6 + 13 + 17);
+    EXPECT_EQ(bindingTables().size(), 21u + 5 + 14 + 5 + 4 + 8 + 1 + 13 + 21);
     EXPECT_EQ(joined(wrongBindings(bindingTables())), "");
 }
 
@@ -282,7 +305,7 @@ TEST(ShaderContract, AWrongRowOfABindingTableIsFound) {
     }
     for (const std::size_t i : {std::size_t{2}, right.size() - 1}) {
         std::vector<Declared> moved = right;
-        moved[i].number = 20;
+        moved[i].number = 40;
         EXPECT_FALSE(wrongBindings(moved).empty()) << right[i].name;
     }
 }

@@ -54,7 +54,6 @@ std::vector<Without> withouts() {
            "        radiance.transmittance = hazed.transmittance;\n"
            "        radiance.haze = hazed.scattered;\n"
            "    }\n"},
-          {"shaders/lib/blending/blended.glsl", "    if (on(feature_haze)) sum += haze * opacity;\n"},
           {"shaders/pass/background.frag", "environment/haze.glsl\"\n", "geometry/position.glsl\"\n"},
           {"shaders/pass/background.frag",
            "    if (on(feature_haze)) {\n"

@@ -34,6 +34,7 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
     // Fields whose channel has another name.
     const std::map<std::string, std::string> names{{"normal", "normals"},
                                                    {"anisotropy_turn", "anisotropy_direction"}};
+    const std::string panes = "draws of surfaces with transmission alone, which both paths share";
     // Fields that lighting of G-buffer surfaces does not read.
     const std::map<std::string, std::string> unread{
         {"triangle_normal", "shown as geometric_normal"},
@@ -42,7 +43,13 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         {"tangent", "shown alone"},
         {"handedness", "shown alone"},
         {"tangent_normal", "shown alone"},
-        {"transmission", "blended draws alone, which both paths share"},
+        {"transmission", panes},
+        {"ior", panes},
+        {"thickness", panes},
+        {"attenuation_color", panes},
+        {"attenuation_distance", panes},
+        {"dispersion", panes},
+        {"coverage", panes},
         {"object_irradiance", "--assign per_object, which deferred does not have"}};
     const std::set<std::string> fields = fieldsOf(shader("surface/surface.glsl"));
     EXPECT_GE(fields.size(), 25u);
