@@ -255,7 +255,7 @@ std::vector<Path> pathsOf(const BenchOptions& options) {
     return options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
 }
 
-// Throws for lists of Settings, of which the table takes one each.
+// Throws if options name several values of a Setting: the table takes one.
 void refuseLists(std::string_view table, const BenchOptions& options) {
     if (options.assign.size() > 1)
         throw std::runtime_error(fmt::format("--table {}: takes one --assign; run it once for each", table));

@@ -15,7 +15,7 @@
 namespace diptych::bench {
 
 // Rows of the benchmark: all modes; both paths with and without transparency, by samples per pixel; both
-// paths by an increasing quantity; or both paths and --layers, by what layered materials cover.
+// paths by an increasing quantity; or both paths and --layers, by the share that layered materials cover.
 enum class BenchTable { modes, msaa, growth, layers };
 
 // The increasing quantity of --table growth.

@@ -63,7 +63,7 @@ struct Conditions {
     bool operator==(const Conditions&) const = default;
 };
 
-// Joins those that differ in one list alone.
+// Joins conditions that differ in one list alone.
 template <class T>
 void joinBy(std::vector<T> Conditions::*list, std::vector<Conditions>& all) {
     std::vector<Conditions> joined;
@@ -150,7 +150,7 @@ std::string registersInWords(const BenchRow& row) {
     return words.empty() ? "-" : fmt::format("{}", fmt::join(words, "; "));
 }
 
-// What the columns are.
+// Explains the columns.
 std::string columnsInWords(const Bench& bench) {
     return fmt::format(
         "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign test of "

@@ -20,7 +20,7 @@ public:
     RegisterCounter(const std::string& choice, const DeviceOptions& drawing);
 
     const DeviceInfo& info() const { return compiler_.info(); }
-    // Of rows that are frames of the scene. Renders nothing.
+    // Counts the registers of rows that are frames of the scene. Renders nothing.
     void count(const Scene& scene, std::span<BenchRow> rows);
 
 private:

@@ -41,7 +41,7 @@ BenchCases casesOf(const Options& options, const BenchOptions& bench) {
     return makeBenchCases(options.scenes.front(), given, bench);
 }
 
-// What is timed, as outputs call it: the scene, or the table if it has scenes of its own.
+// The subject that outputs name: the scene, or the table if it has scenes of its own.
 std::string subjectOf(const Options& options, BenchTable table) {
     if (table == BenchTable::growth) return "growth of frame time";
     if (table == BenchTable::layers) return "layers by what they cover";

@@ -40,7 +40,7 @@ private:
         glm::dvec3 normal, geometric_normal;
         double roughness;
     };
-    // The normal of the facet that light meets: of a rough boundary a random one among those that it sees.
+    // The normal of the facet that light meets; a rough boundary has a random one among the visible ones.
     static glm::dvec3 facetOf(const Boundary& boundary, const glm::dvec3& along, Random& random);
     static glm::dvec3 entered(const Boundary& boundary, const glm::dvec3& along, double index,
                               Random& random);

@@ -64,7 +64,7 @@ private:
     PreparedFrame prepared_;
 };
 
-// Of a buffer's words, `count` from an offset in bytes.
+// Returns `count` words of a buffer from an offset in bytes.
 std::vector<gpu::uint> wordsAt(const std::vector<gpu::uint>& words, VkDeviceSize offset, std::size_t count) {
     const auto first = words.begin() + static_cast<std::ptrdiff_t>(offset / sizeof(gpu::uint));
     return {first, first + static_cast<std::ptrdiff_t>(count)};
@@ -148,7 +148,7 @@ TEST(LightingTiles, OneSampleOfAPixelIsEnough) {
     expectClassified(tiledSettings({250, 131}, 4));
 }
 
-// Of the timed frame, without what some fragments flush to 0 (lighting_test.cpp).
+// Reads the timed frame without values that some fragments flush to 0 (lighting_test.cpp).
 Image tiledLit(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
     options.channels = {lit};
@@ -251,7 +251,7 @@ TEST(LightingTiles, AreReadAfterTheyAreWritten) {
     }
 }
 
-// Of the variants, the base's has no layers, and nothing else differs.
+// The two variants differ in their layers alone; the base has none.
 TEST(LightingTiles, VariantsDifferInLayersAlone) {
     Variant all;
     all.set(gpu::FEATURE_layers, gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN)

@@ -176,8 +176,8 @@ TEST(Msaa, ListsHoldEveryLightOfAPixel) {
     }
 }
 
-// Of a square that covers all samples of every pixel, at a distance of 1 m: channels are of the first sample,
-// which is shaded at the mean of all of its triangle, or at its own location.
+// A square 1 m away covers all samples of every pixel. Channels show the first sample, which is shaded at the
+// mean location of its triangle's samples, or at its own.
 TEST(Msaa, SamplesAreShadedAtTheirMeanOrEach) {
     constexpr auto position = static_cast<int>(gpu::DEBUG_position);
     const Scene scene = square();

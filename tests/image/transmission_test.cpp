@@ -294,7 +294,7 @@ TEST(Refraction, ABallOfIndexOneIsInvisible) {
     }
 }
 
-// Of several panes, the nearest is seen, whatever the order of their draws; behind it what is opaque.
+// The nearest of several panes is seen, whatever the order of their draws, and opaque surfaces behind it.
 TEST(Refraction, TheNearestPaneIsSeen) {
     for (const bool turned : {false, true}) {
         Scene scene = paneBeforeWall(glassOf(0));

@@ -140,7 +140,7 @@ TEST(Bench, BySamplesAPixel) {
     EXPECT_EQ(solid["rows"][0]["cells"].size(), solid["columns"].size());
 }
 
-// What deferred stores is known: layers by G-buffer alone, and nothing where forward draws all.
+// The stored bytes are known: layers by G-buffer alone, and nothing where forward draws all.
 TEST(Bench, LayersByWhatTheyCover) {
     const Folder folder;
     const Ran ran = runTool(folder,
