@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comparisons that the options ask for, and refusals of those that they do not support.
+// The requested comparisons; unsupported ones are refused.
 #pragma once
 
 #include "compare/cli/options.h"

@@ -43,7 +43,7 @@ public:
     template <class Visit>
     glm::dvec3 trace(const glm::dvec3& from, Random& random, const Visit& visit) const;
 
-    // The normal of a random facet among those that are visible from a direction.
+    // The normal of a random facet that is visible from a direction.
     glm::dvec3 facet(const glm::dvec3& seen_from, Random& random) const;
 
 private:

@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 
-// Classifies the tiles of deferred lighting by what the G-buffer stores in them: one workgroup per tile.
+// Classifies tiles of deferred lighting by the layers that the G-buffer stores there: one workgroup per tile.
 #include "shaders/lib/surface/gbuffer_read.glsl"
 
 layout(local_size_x = LIGHTING_GROUP, local_size_y = LIGHTING_GROUP) in;

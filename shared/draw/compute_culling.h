@@ -27,7 +27,7 @@ public:
                    const SampleGrid& grid, const Sizes& sizes);
 
     // Inputs of the compute shader. The CPU writes them while no frame is in flight.
-    std::span<gpu::CulledItem> items();  // those that parts refer to
+    std::span<gpu::CulledItem> items();  // the items of parts
     std::span<gpu::CulledPart> parts();
     std::span<std::uint32_t> order();  // meshlet indices, part by part, near to far
 

@@ -19,10 +19,10 @@ struct Requirements {
     bool unlit = false;                // KHR_materials_unlit: the surface emits its base colour
     bool emission = false;             // includes unlit materials
     std::uint32_t layers = 0;          // a sum of LAYER_* of contract/material.h
-    std::uint32_t surface_layers = 0;  // those of surfaces that are not seen through, which a G-buffer stores
-    bool volume = false;               // KHR_materials_volume: a thickness of what transmits light
+    std::uint32_t surface_layers = 0;  // layers of opaque surfaces, which a G-buffer stores
+    bool volume = false;               // KHR_materials_volume: glass has a thickness
     bool dispersion = false;           // KHR_materials_dispersion, of a volume
-    bool rough_glass = false;          // a roughness of what transmits light
+    bool rough_glass = false;          // glass has a roughness above 0
     // Largest difference between the thicknesses of a film among which a texture chooses, nm.
     float film_thickness_range = 0;
     // Largest thickness of a volume that a texture scales, m, world.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* passName = "transmission";  // of all passes, so that they are timed together
 
-// Channels that transmissive surfaces draw over those of opaque ones.
+// Channels that glass draws over the values of opaque surfaces.
 constexpr std::array drawnOver{gpu::DEBUG_transmission,      gpu::DEBUG_transmission_thickness,
                                gpu::DEBUG_attenuation_color, gpu::DEBUG_attenuation_distance,
                                gpu::DEBUG_dispersion,        gpu::DEBUG_lit_transmission};

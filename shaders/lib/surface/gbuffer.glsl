@@ -347,7 +347,7 @@ void decodePacked(GBufferTexel t, inout Surface s) {
     }
 }
 
-// Decodes all fields except the position, which comes from depth, and those that only forward+ has.
+// Decodes all fields except the position, which comes from depth, and fields that only forward+ has.
 Surface decodeGBuffer(GBufferTexel t, vec3 position) {
     Surface s;
     s.position = position;

@@ -110,7 +110,7 @@ TEST(ShaderContract, ThereAreFewModulesAndTheyAreSmall) {
     EXPECT_LE(bytes, 25u << 20);
 }
 
-// Locations that shader stages pass to each other, of every module: those of its variants are among them.
+// Locations between shader stages, over all modules. Variants of a module use a subset of its locations.
 std::set<std::uint32_t> locationsBetweenStages() {
     std::set<std::uint32_t> found;
     for (const ShaderModule& module : shaderModules()) {

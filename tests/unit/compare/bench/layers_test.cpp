@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The benchmark's table of layers by what they cover, with made-up times.
+// The benchmark's table of layers, with made-up times.
 #include "compare/bench/conclusion.h"
 #include "compare/bench/layer_table.h"
 #include "compare/bench/registers.h"

@@ -131,7 +131,7 @@ TEST(GBufferPasses, TheSecondHasTheLastLayers) {
     EXPECT_EQ(passes.second_layers, cloth | film | leaf);
 }
 
-// A layer of which only the last word is in the second pass is drawn there too.
+// The second pass also draws a layer whose last word alone lies there.
 TEST(GBufferPasses, ALayerMayBeInBoth) {
     Requirements needs = noneNeeded();
     needs.surface_layers = coat | brushed;
