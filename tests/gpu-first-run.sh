@@ -415,15 +415,15 @@ case $amount in
         step light-pairs 240 tests image_tests 'Builtin/LightPairs.*'
         step light-extremes 120 tests image_tests 'LightExtremes.*:LightNegativeControls.*'
         step light-lists 120 tests image_tests 'LightLists.*-LightLists.SixtyFive*'
-        step assets 120 tests image_tests 'Asset/AssetParity.*'
+        step assets 120 tests image_tests 'Asset/AssetParity.Full*'
         step probes 120 tests probe_tests '*'
         step bench-spheres 120 bench builtin:spheres --runs 3 --assign clustered,tiled --kernels off
         sponza_options=(--light-counts 64 --runs 3 --assign "clustered,tiled" --kernels off)
         ;;
     whole | long)
-        others='*-*/BuiltinParity.*:*/BuiltinVerdict.*:*/LightMatrix.*:*/LightPairs.*:*/Asset*:AssetScenes.*'
+        others='*-*/BuiltinParity.*:*/LightMatrix.*:*/LightPairs.*:*/Asset*:AssetScenes.*'
         others+=':LightExtremes.*:LightLists.*:LightNegativeControls.*'
-        step parity 3600 tests image_tests 'Builtin/BuiltinParity.*:Builtin/BuiltinVerdict.*:Parity*:Verdict*'
+        step parity 3600 tests image_tests 'Builtin/BuiltinParity.*:Parity*:Verdict*'
         step light-matrix 3600 tests image_tests 'Lights/LightMatrix.*'
         step light-pairs 3600 tests image_tests 'Builtin/LightPairs.*'
         step light-extremes 1800 tests image_tests 'LightExtremes.*:LightNegativeControls.*'

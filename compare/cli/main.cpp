@@ -7,6 +7,7 @@
 #include "shared/text/one_line.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -50,6 +52,14 @@ void holdStandardDescriptors() {
             ::_exit(2);
 }
 
+// Keeps freed memory for the next pipeline: a driver that compiles on the CPU takes and frees tens of
+// megabytes for each (compare/render/MEASURED.md).
+void keepFreedMemory() {
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+    mallopt(M_TOP_PAD, 64 << 20);
+}
+
 int run(const diptych::cli::Options& options) {
     if (options.help.empty()) return diptych::cli::runCommand(options);
     diptych::printText(options.help);
@@ -60,6 +70,7 @@ int run(const diptych::cli::Options& options) {
 
 int main(int argc, char** argv) {
     holdStandardDescriptors();
+    keepFreedMemory();
     const bool json = std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
     try {
         std::signal(SIGPIPE, SIG_IGN);

@@ -1,65 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The verdict that users see: every built-in scene passes at the tolerances of its encoding. Changing one
-// constant in one path's scene fails the channel that shows it.
-#include "compare/verdict/pair_reports.h"
+// The verdict that users see: changing one constant in one path's scene fails the channel that shows it.
+// That every built-in scene passes is in parity_test.cpp.
 #include "shared/scene/load.h"
-#include "shared/scene/requirements.h"
-#include "tests/image/scenes.h"
+#include "tests/image/verdicts.h"
 
 #include <ostream>
 #include <set>
 
 namespace diptych::tests {
 namespace {
-
-Report verdictOn(std::vector<Frame> frames, const Scene& scene) {
-    const Requirements needs = requirements(scene, poseAt(scene, 0));
-    const DeviceInfo& info = device().info();
-    return makeReport(std::move(frames), {needs, needs}, {info.name, info.driver, info.type});
-}
-
-std::string failuresOf(const Report& report) {
-    std::string text;
-    for (const Comparison& comparison : report.comparisons) {
-        for (const std::string& failure : comparison.failures) text += failure + "\n";
-        for (const ChannelDiff& channel : comparison.channels)
-            if (channel.verdict == Verdict::fail)
-                text += std::string(channel.mode->name) + ": " + channel.reason + "\n";
-    }
-    return text;
-}
-
-class BuiltinVerdict : public testing::TestWithParam<std::string> {};
-class AssetVerdict : public testing::TestWithParam<std::string> {};
-
-void expectPass(UploadedScene& scene, Settings (*picture)(GBufferEncoding)) {
-    for (const GBufferEncoding encoding :
-         {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
-        const Report report = verdictOn(scene.bothPaths(picture(encoding)), scene.scene);
-        EXPECT_TRUE(report.passed()) << nameOf(encoding) << "\n" << failuresOf(report);
-        ASSERT_EQ(report.comparisons.size(), 1u);
-        for (const ChannelDiff& channel : report.comparisons[0].channels)
-            EXPECT_FALSE(channel.tolerance.because.empty());
-    }
-}
-
-TEST_P(BuiltinVerdict, Passes) {
-    expectPass(uploaded(GetParam()), smallPicture);
-}
-
-INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinVerdict, testing::ValuesIn(builtinScenes()),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
-
-TEST_P(AssetVerdict, Passes) {
-    const std::filesystem::path file = assets() / GetParam();
-    if (!std::filesystem::exists(file))
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
-    expectPass(uploaded(file.string()), assetPicture);
-}
-
-INSTANTIATE_TEST_SUITE_P(Asset, AssetVerdict, testing::ValuesIn(assetScenes()), [](const auto& scene) {
-    return testName(std::filesystem::path(scene.param).stem().string());
-});
 
 std::set<std::string> scenesIn(const std::filesystem::path& folder) {
     std::set<std::string> found;

@@ -40,19 +40,25 @@ vec2 pixelOf(vec3 position, vec2 here) {
     return vec2(dot(offset, right) / dot(right, right), dot(offset, down) / dot(down, down));
 }
 
-// Radiance behind the surface, W/(sr m^2). `pixel`: of the surface.
+// The pixel where the ray that enters a surface shows the light behind. `pixel`: of the surface.
+vec2 pixelBehind(Surface s, vec3 v, float ior, vec2 pixel) {
+    vec2 shifted = pixelOf(s.position + slabShift(s, v, ior), pixel);
+    return s.thickness > 0.0 ? shifted : pixel;
+}
+
+// Radiance behind the surface, W/(sr m^2). `pixel`: of the surface. No branch depends on the material alone,
+// because lavapipe would compile such a shader again at every draw.
 vec3 lightBehind(Surface s, vec3 v, vec2 pixel) {
+    bool bends = s.thickness > 0.0 && s.ior > 0.0, spreads = s.dispersion > 0.0 && s.ior > 0.0;
     float level = s.roughness * (log(float(textureSize(backdrop, 0).x)) * 1.44269504);
-    if (!(s.thickness > 0.0)) return backdropAt(pixel, level);
-    level *= s.ior > 0.0 ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;
-    vec3 behind = backdropAt(pixelOf(s.position + slabShift(s, v, s.ior), pixel), level);
-    if (s.dispersion > 0.0 && s.ior > 0.0) {
-        // The F line's index exceeds the C line's by (ior - 1) / Abbe number; dispersion is 20 / Abbe number.
-        float half_spread = (s.ior - 1.0) * 0.025 * s.dispersion;
-        float least = max(s.ior - half_spread, 1.0);
-        behind.r = backdropAt(pixelOf(s.position + slabShift(s, v, least), pixel), level).r;
-        behind.b = backdropAt(pixelOf(s.position + slabShift(s, v, s.ior + half_spread), pixel), level).b;
-    }
+    level *= bends ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;
+    // The F line's index exceeds the C line's by (ior - 1) / Abbe number; dispersion is 20 / Abbe number.
+    float half_spread = spreads ? (s.ior - 1.0) * 0.025 * s.dispersion : 0.0;
+    float least = spreads ? max(s.ior - half_spread, 1.0) : s.ior;
+    vec2 red = pixelBehind(s, v, least, pixel), green = pixelBehind(s, v, s.ior, pixel);
+    vec2 blue = pixelBehind(s, v, s.ior + half_spread, pixel);
+    vec3 behind = backdropAt(green, level);
+    if (red != blue) behind = vec3(backdropAt(red, level).r, behind.g, backdropAt(blue, level).b);
     return behind;
 }
 
