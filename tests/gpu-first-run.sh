@@ -407,7 +407,7 @@ case $amount in
     cut)
         left_out+="- A CPU device: of \`light-matrix\`, the gallery but for 257 lights, 4,096 lights, the"
         left_out+=" campaign; of \`parity\`, packed encodings and most pre-passes; of \`light-lists\`, 65,600"
-        left_out+=" lights; of \`assets\`, their verdicts; the step \`other-pictures\`; of benchmarks, the"
+        left_out+=" lights; the step \`other-pictures\`; of benchmarks, the"
         left_out+=" assignments every and per_object, other light counts, the kernels. --long asks all."$'\n'
         parity='Builtin/BuiltinParity.FullIsBitEqual/*:Builtin/BuiltinParity.Prepass*/gallery'
         step parity 240 tests image_tests "$parity"
@@ -415,7 +415,7 @@ case $amount in
         step light-pairs 240 tests image_tests 'Builtin/LightPairs.*'
         step light-extremes 120 tests image_tests 'LightExtremes.*:LightNegativeControls.*'
         step light-lists 120 tests image_tests 'LightLists.*-LightLists.SixtyFive*'
-        step assets 120 tests image_tests 'Asset/AssetParity.Full*'
+        step assets 180 tests image_tests 'Asset/AssetParity.*'
         step probes 120 tests probe_tests '*'
         step bench-spheres 120 bench builtin:spheres --runs 3 --assign clustered,tiled --kernels off
         sponza_options=(--light-counts 64 --runs 3 --assign "clustered,tiled" --kernels off)
