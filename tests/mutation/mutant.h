@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects one of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment
-// variable DIPTYCH_MUTANT is 7. Shaders use a specialization constant, which is set when a Vulkan module
-// is created.
+// Selects one of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment variable
+// DIPTYCH_MUTANT is 7. Shaders use a specialization constant, set when a Vulkan module is created.
 #ifndef DIPTYCH_TESTS_MUTANT_H
 #define DIPTYCH_TESTS_MUTANT_H
 #ifndef __cplusplus
@@ -20,8 +19,8 @@ layout(constant_id = 2000) const uint diptych_mutant = 0u;
 
 inline std::uint32_t diptychChosen() {
     static const char* const number = std::getenv("DIPTYCH_MUTANT");
-    static const int chosen = number ? std::atoi(number) : 0;
-    return static_cast<std::uint32_t>(chosen);
+    static const auto chosen = static_cast<std::uint32_t>(number ? std::atoi(number) : 0);
+    return chosen;
 }
 // Marks an edit as reached in the file DIPTYCH_REACHED, which keeps it even if the process is killed.
 inline void diptychReach(std::uint32_t n) {
@@ -56,10 +55,9 @@ inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> m
     }
     return words;
 }
-template <class Info>
-auto diptychCreateShaderModule(auto device, const Info* info, auto allocator, auto* module) {
+auto diptychCreateShaderModule(auto device, const auto* info, auto allocator, auto* module) {
     const auto words = diptychModule({info->pCode, info->codeSize / 4});
-    Info set = *info;
+    auto set = *info;
     set.codeSize = 4 * words.size();
     set.pCode = words.data();
     return vkCreateShaderModule(device, &set, allocator, module);
