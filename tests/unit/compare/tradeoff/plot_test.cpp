@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Labels in plots: none overlaps another, and each belongs to its own point.
 #include "compare/tradeoff/plot.h"
+#include "compare/plot/error_over_time.h"
 #include "compare/plot/labels.h"
 #include "compare/tradeoff/tradeoff.h"
 
@@ -136,6 +137,13 @@ TEST(TradeoffPlot, TheErrorIsNamedAboveItsAxis) {
     ASSERT_TRUE(std::regex_search(svg, found, name));
     for (std::sregex_iterator i(svg.begin(), svg.end(), tick), end; i != end; ++i)
         EXPECT_GT(std::stod((*i)[1]), std::stod(found[2]) + 12) << "no tick's label in its line";
+}
+
+// A square has about the area of a circle of that radius.
+TEST(PlotMarks, ASquareIsForwardPlusAndACircleDeferred) {
+    EXPECT_EQ(pathMark(Path::forward_plus, 10, 20, 5),
+              "<rect class=\"mark\" x=\"5.5\" y=\"15.5\" width=\"9\" height=\"9\"/>");
+    EXPECT_EQ(pathMark(Path::deferred, 10, 20, 5), "<circle class=\"mark\" cx=\"10\" cy=\"20\" r=\"5\"/>");
 }
 
 }  // namespace
