@@ -142,8 +142,9 @@ TEST(TradeoffPlot, TheErrorIsNamedAboveItsAxis) {
 // A square has about the area of a circle of that radius.
 TEST(PlotMarks, ASquareIsForwardPlusAndACircleDeferred) {
     EXPECT_EQ(pathMark(Path::forward_plus, 10, 20, 5),
-              "<rect class=\"mark\" x=\"5.5\" y=\"15.5\" width=\"9\" height=\"9\"/>");
-    EXPECT_EQ(pathMark(Path::deferred, 10, 20, 5), "<circle class=\"mark\" cx=\"10\" cy=\"20\" r=\"5\"/>");
+              "<rect class=\"mark\" x=\"5.5\" y=\"15.5\" width=\"9.0\" height=\"9.0\"/>");
+    EXPECT_EQ(pathMark(Path::deferred, 10, 20, 5),
+              "<circle class=\"mark\" cx=\"10.0\" cy=\"20.0\" r=\"5.0\"/>");
 }
 
 }  // namespace
