@@ -128,16 +128,6 @@ TEST(Builtin, EveryPartOfEverySceneIsWhole) {
     }
 }
 
-TEST(Builtin, TwoMakingsAreEqual) {
-    for (const char* name : {"gallery", "cutout", "stretched"}) {
-        const Scene a = makeBuiltin(name), b = makeBuiltin(name);
-        ASSERT_EQ(a.meshes.size(), b.meshes.size());
-        for (std::size_t m = 0; m < a.meshes.size(); ++m)
-            EXPECT_EQ(a.meshes[m].primitives[0].positions, b.meshes[m].primitives[0].positions);
-        for (std::size_t i = 0; i < a.images.size(); ++i) EXPECT_EQ(a.images[i].rgba, b.images[i].rgba);
-    }
-}
-
 TEST(Builtin, NamesAreUniqueAndMistakesListWhatThereIs) {
     std::set<std::string> names;
     for (const BuiltinName& builtin : builtinNames())
@@ -458,21 +448,11 @@ TEST(Shapes, AppendedMirrorImagesStayWhole) {
     EXPECT_EQ(whole.tangents[0].w, -1);
 }
 
-TEST(Textures, AreTheSameBytesOnEveryMachine) {
+TEST(Textures, ACheckerAlternates) {
     const TextureImage squares = checker("checker", 4, 2, {1, 2, 3, 4}, {5, 6, 7, 8});
     EXPECT_EQ(squares.rgba[0], 1);
     EXPECT_EQ(squares.rgba[8], 5);          // the third texel of the first row
     EXPECT_EQ(squares.rgba[4 * 4 * 2], 5);  // the first texel of the third row
-    // FNV-1a over all bytes. Another value means that the textures differ on this machine or after a
-    // change, and that images cannot be compared with older ones.
-    const auto fingerprint = [](const TextureImage& image) {
-        std::uint32_t hash = 2166136261u;
-        for (const std::uint8_t byte : image.rgba) hash = (hash ^ byte) * 16777619u;
-        return hash;
-    };
-    EXPECT_EQ(fingerprint(normalMap("bricks", brickHeights(64), 4)), 2749747322u);
-    EXPECT_EQ(fingerprint(leaf("leaf", 64)), 988772253u);
-    EXPECT_EQ(fingerprint(dusk("dusk", 64)), 3310052848u);
 }
 
 TEST(Textures, NormalMapsRiseTowardsTheTop) {
