@@ -163,6 +163,7 @@ TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
         EXPECT_NE(text.find(words), std::string::npos) << text;
         EXPECT_NE(page.find(words), std::string::npos) << words;
     }
+    EXPECT_NE(text.find(memoryInWords(sampleTables(bench)[0])[1] + "\n"), std::string::npos) << text;
     const auto json = nlohmann::json::parse(benchJson(bench, {}));
     const auto& table = json["msaa_tables"][0];
     EXPECT_EQ(table["columns"], (nlohmann::json{1, 4}));

@@ -77,6 +77,10 @@ TEST(SceneGltf, ARigIsReadBackAsItIs) {
         EXPECT_EQ(rig.notes.empty(), passed.size() == view.lights.size()) << "area lights are counted";
         ASSERT_EQ(back.cameras.size(), 1u);
         EXPECT_NEAR(back.cameras[0].yfov, view.view.camera.yfov, 1e-9);
+        const View seen = viewAt(back, 0).view;
+        EXPECT_LT(glm::distance(seen.right(), view.view.right()), 1e-6);
+        EXPECT_LT(glm::distance(seen.up(), view.view.up()), 1e-6);
+        EXPECT_LT(glm::distance(seen.eye(), view.view.eye()), 1e-6);
     }
 }
 

@@ -59,6 +59,7 @@ TEST(Library, FiguresAreThoseOfDiff) {
             float most = 0;
             for (std::size_t i = 0; i < half.size(); ++i)
                 if (coverage.covered[i]) most = std::max(most, result.flip[i]);
+            ASSERT_GE(result.worst_x, 0);
             EXPECT_EQ(result.flip[static_cast<std::size_t>(result.worst_y * width + result.worst_x)], most);
         }
 }
@@ -78,6 +79,7 @@ TEST(Library, LimitsDecide) {
     EXPECT_FALSE(result.passed);
     options.limits.resize(1);
     EXPECT_TRUE(compare({width, height, a}, {width, height, b}, options).passed);
+    EXPECT_EQ(Options().pixels_per_degree, FlipOptions().pixels_per_degree);
     // Equal images without limits.
     result = compare({width, height, a}, {width, height, a});
     EXPECT_TRUE(result.passed);

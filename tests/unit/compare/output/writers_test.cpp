@@ -41,8 +41,9 @@ TEST(OutputText, ColumnsAreAlignedAndProseIsLast) {
 
 // Letters count as the terminal's columns, not as bytes.
 TEST(OutputText, WideLettersKeepTheColumns) {
-    const Table table{{{"n"}, {"x", Column::number}}, {{{"\u6f22\u5b57", "1"}}, {{"\u00e4bcde", "22"}}}};
-    EXPECT_EQ(inText(table), "n       x\n\u6f22\u5b57    1\n\u00e4bcde  22\n");
+    const Table table{{{"n"}, {"x", Column::number}},
+                      {{{"\u6f22\u5b57", "1"}}, {{"\u00e4bcde", "22"}}, {{"\U00020000b", "3"}}}};
+    EXPECT_EQ(inText(table), "n       x\n\u6f22\u5b57    1\n\u00e4bcde  22\n\U00020000b     3\n");
 }
 
 TEST(OutputText, GroupsStandAboveTheMiddleOfTheirColumns) {

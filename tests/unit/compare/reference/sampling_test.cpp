@@ -46,6 +46,11 @@ TEST(ReferenceSampling, TheIntervalIsStudentsOf95Percent) {
     }
 }
 
+// The table of t has 2.364624 for 7 degrees of freedom at 95 %.
+TEST(ReferenceSampling, TheSurerIntervalIsStudentsOf99Point9Percent) {
+    EXPECT_NEAR(studentWithin(surerThan95 * 2.364624, 7), 0.999, 2e-5);
+}
+
 TEST(ReferenceSampling, OneEstimateSaysNothingOfItsError) {
     Rounds rounds;
     EXPECT_EQ(rounds.halfWidth(), std::numeric_limits<double>::infinity());

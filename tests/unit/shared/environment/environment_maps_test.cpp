@@ -221,6 +221,20 @@ TEST(EnvironmentMaps, ALargePictureIsReadWhole) {
     }
 }
 
+// The mean is over the sphere, wherever the texel is: in the middle of the square or in its corner.
+TEST(EnvironmentMaps, OfABrightTexelEightTimesTheMeanStays) {
+    for (const int at : {0, 8, 15}) {
+        OctahedralMap map(16);
+        map.at(at, at) = Texel{1000, 1000, 1000, 0};
+        const double solid = map.solidAngle(at, at), stays = 8 * 1000 * solid / (4 * pi);
+        ASSERT_LT(stays, 1000);
+        const std::vector<BrightTexel> bright = takeBrightTexels(map);
+        ASSERT_EQ(bright.size(), 1u);
+        EXPECT_NEAR(map.at(at, at)[0] / stays, 1, 0.01) << at;  // of solidAngle()
+        EXPECT_NEAR(double{bright[0].power[0]} / ((1000 - stays) * solid), 1, 0.01);
+    }
+}
+
 // The lobe's weights depend only on the angle, so filtering preserves the integral over all directions.
 TEST(EnvironmentMaps, ABrightTexelNeitherVanishesNorSparkles) {
     const Environment sky = sunnySky(256, 128);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "compare/viewer/latencies.h"
+
+#include <gtest/gtest.h>
+
+namespace diptych::viewer {
+namespace {
+
+// A request of 8x8 pixels, shown with `side` of them in a row.
+Shown shownAs(std::uint64_t request, int side) {
+    Shown shown;
+    shown.order.number = request;
+    shown.order.subject.settings.size = {8, 8};
+    shown.size = {side, side};
+    return shown;
+}
+
+TEST(Latencies, APictureOfEachKindAndAKeyAreSaidOnce) {
+    std::vector<std::string> said;
+    Latencies latencies([&](const std::string& line) { said.push_back(line.substr(0, line.find(" after"))); },
+                        Latencies::Clock::now());
+    latencies.seen(shownAs(1, 4), 1);
+    latencies.pressed("F", 1);
+    latencies.seen(shownAs(1, 4), 2);  // the key has asked for a picture: this is an earlier one
+    latencies.asked(2);
+    latencies.seen(shownAs(1, 4), 2);
+    for (int frame = 0; frame < 2; ++frame) latencies.seen(shownAs(2, 8), 2);
+    EXPECT_EQ(said, (std::vector<std::string>{"first picture", "first whole picture", "key F: seen"}));
+}
+
+TEST(Latencies, AKeyThatAsksForNoPictureIsSeenAtOnce) {
+    std::vector<std::string> said;
+    Latencies latencies([&](const std::string& line) { said.push_back(line); }, Latencies::Clock::now());
+    latencies.pressed("H", 5);
+    latencies.seen(shownAs(3, 4), 5);
+    ASSERT_EQ(said.size(), 2u);
+    EXPECT_EQ(said[1].substr(0, 22), "key H: seen after 0 ms");
+}
+
+}  // namespace
+}  // namespace diptych::viewer
