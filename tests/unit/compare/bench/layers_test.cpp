@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <string>
 #include <tuple>
@@ -162,6 +163,7 @@ TEST(BenchLayers, ARowHasThreeWaysAndItsFastest) {
     EXPECT_EQ(some[0].ways[2], nullptr);
     EXPECT_TRUE(some[1].fastest.empty()) << "nothing to compare with";
     EXPECT_EQ(some[2].fastest, Ways{0});
+    EXPECT_TRUE(std::regex_search(layersText(few), std::regex("no layers +64  - +-"))) << layersText(few);
     EXPECT_TRUE(layerRows(Bench()).empty());
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shared/frame/settings.h"
 #include "compare/explain/channel_lighting.h"
+#include "compare/explain/explain.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <vector>
 
 namespace diptych::tests {
 namespace {
@@ -15,6 +18,15 @@ TEST(ExplainSettings, ThoseInChannelsAreThere) {
         EXPECT_TRUE(std::ranges::any_of(settingFields(), [&](const Field& field) {
             return field.option == option;
         })) << option;
+}
+
+// The surface, the result, whose material each pixel is, and whether a lightmap lights it.
+TEST(ExplainSettings, ChannelsAreTheSurfacesAndWhatTheyMake) {
+    std::set<int> expected(surfaceChannels().begin(), surfaceChannels().end());
+    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_material_id, gpu::DEBUG_lightmapped})
+        EXPECT_TRUE(expected.insert(static_cast<int>(mode)).second);
+    const std::vector<int> channels = explainedChannels();
+    EXPECT_EQ(channels, std::vector<int>(expected.begin(), expected.end()));
 }
 
 }  // namespace
