@@ -147,6 +147,7 @@ TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {
     const Json json = Json::parse(std::ifstream(folder / "choice/choice.json"));
     EXPECT_EQ(json["files"], (Json{"choice.json", "front.svg", "index.html", "settings.json"}));
     EXPECT_EQ(Json::parse(std::ifstream(folder / "choice/settings.json")), json["settings"]);
+    EXPECT_NE(json["device"]["name"], "");
     const std::string page = contentsOf(folder / "choice/index.html");
     EXPECT_EQ(page.find("http"), page.find("http://www.w3.org")) << "nothing from elsewhere";
     for (const Json& candidate : json["candidates"])
