@@ -125,6 +125,11 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
                 }
             EXPECT_GT(covered, 200);
             EXPECT_LT(worst, 2e-6) << frame.name << " " << nameOf(diffuse);
+            EXPECT_EQ(
+                std::ranges::count_if(
+                    frame.notes, [](const std::string& note) { return note.starts_with("environment: "); }),
+                1)
+                << frame.name;
         }
     }
 }

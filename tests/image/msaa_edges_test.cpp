@@ -172,6 +172,10 @@ TEST(MsaaEdges, TheChannelCountsSurfaces) {
     EXPECT_EQ(countsOf(whole, MsaaEdges::exact), (std::array{0, 56, 8, 0, 0}));
     EXPECT_EQ(countsOf(whole, MsaaEdges::coverage), (std::array{0, 56, 8, 0, 0}));
     EXPECT_EQ(countsOf(whole, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
+    Scene coated = square();
+    coated.materials[0].clearcoat = 0.5f;
+    Renderer layered(device(), coated, pipelines());
+    EXPECT_EQ(countsOf(layered, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
     Scene lower = square();
     lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, through 8 pixels
     Renderer half(device(), lower, pipelines());
