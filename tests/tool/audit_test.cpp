@@ -36,6 +36,7 @@ TEST(AuditTool, AFolderOfPlotsAndTablesAndAnExitCode) {
     EXPECT_FALSE(fs::exists(folder / ".out.audit"));
     const Json audit = readJson(folder / "out/audit.json");
     EXPECT_EQ(audit["software"], "diptych");
+    EXPECT_EQ(emptyIn(audit), (std::set<std::string>{"/quantities/*/unit", "/requirements/*/because"}));
     EXPECT_EQ(audit["quantities"].size(), 4u);
     EXPECT_EQ(audit["requirements"][0]["met"], true);
     // Every printed failure is reduced to a file whose command reproduces it.

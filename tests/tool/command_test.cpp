@@ -313,6 +313,8 @@ TEST(Command, CompareLeavesAReportWhoseVerdictIsTheExitCode) {
     EXPECT_EQ(report["frames"].size(), 2u);
     EXPECT_EQ(report["comparisons"].size(), 1u);
     EXPECT_EQ(report["frames"][0]["settings"]["size"], Json({48, 27}));
+    EXPECT_EQ(emptyIn(report),
+              (std::set<std::string>{"/comparisons/*/camera/choice", "/frames/*/camera/choice"}));
     for (const char* file : {"index.html", "report.json", "junit.xml", "deferred.exr", "forward_plus.exr"})
         EXPECT_TRUE(fs::exists(folder / ("diptych-report/" + std::string(file)))) << file;
     EXPECT_EQ(Json::parse(contentsOf(folder / "diptych-report/report.json")), report);

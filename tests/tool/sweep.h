@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Sweeps for the tests to run.
+// Sweeps for the tests to run, and what commands wrote as JSON.
 #pragma once
 
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
 
+#include <set>
 #include <string>
 #include <vector>
 
 namespace diptych {
 
 using Json = nlohmann::json;
+
+// Places of a document's empty strings, such as "/device/name" and "/rows/*/words". In `settings` and
+// `origin`, these mean what is usual.
+inline std::set<std::string> emptyIn(const Json& json, const std::string& place = "") {
+    std::set<std::string> found;
+    if (json == "") found.insert(place);
+    if (json.is_structured())
+        for (const auto& [key, value] : json.items())
+            if (key != "settings" && key != "origin")
+                found.merge(emptyIn(value, place + "/" + (json.is_array() ? "*" : key)));
+    return found;
+}
 
 inline Json readJson(const fs::path& file) {
     return Json::parse(contentsOf(file), nullptr, false);

@@ -24,6 +24,7 @@ TEST(Tradeoff, LeavesTableCsvJsonPlotsPageAndPictures) {
     const Ran ran = runTool(folder, sweep);
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json tradeoff = readJson(folder / "t/tradeoff.json");
+    EXPECT_EQ(emptyIn(tradeoff), std::set<std::string>{"/cameras/*"}) << "the default view";
     EXPECT_EQ(ran.out, contentsOf(folder / "t/tradeoff.json")) << "--json prints it and nothing else";
     std::set<std::string> listed, there;
     for (const Json& name : tradeoff["files"]) listed.insert(name);
