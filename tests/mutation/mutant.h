@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Selects one of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment variable
-// DIPTYCH_MUTANT is 7. Shaders use a specialization constant, set when a Vulkan module is created.
+// Selects some of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment variable
+// DIPTYCH_MUTANT is 7 or 2,7. Shaders compare with a specialization constant; a Vulkan module is changed
+// when it is created.
 #ifndef DIPTYCH_TESTS_MUTANT_H
 #define DIPTYCH_TESTS_MUTANT_H
 #ifndef __cplusplus
@@ -17,10 +18,14 @@ layout(constant_id = 2000) const uint diptych_mutant = 0u;
 #include <span>
 #include <vector>
 
-inline std::uint32_t diptychChosen() {
-    static const char* const number = std::getenv("DIPTYCH_MUTANT");
-    static const auto chosen = static_cast<std::uint32_t>(number ? std::atoi(number) : 0);
-    return chosen;
+inline bool diptychChosen(std::uint32_t n) {
+    static const std::vector<bool> chosen = [] {
+        std::vector<bool> all(1 << 16);
+        const char* text = std::getenv("DIPTYCH_MUTANT");
+        for (char* end; text && *text; text = *end ? end + 1 : end) all[std::strtoul(text, &end, 10) & 0xffff] = true;
+        return all;
+    }();
+    return chosen[n & 0xffff];
 }
 // Marks an edit as reached in the file DIPTYCH_REACHED, which keeps it even if the process is killed.
 inline void diptychReach(std::uint32_t n) {
@@ -33,9 +38,10 @@ inline void diptychReach(std::uint32_t n) {
     }();
     if (bytes) bytes[n & 0xffff] = 1;
 }
-#define DIPTYCH_MUTANT(n) (::diptychReach(n), (n) == ::diptychChosen())
+#define DIPTYCH_MUTANT(n) (::diptychReach(n), ::diptychChosen(n))
 
-// Replaces the switch by an ordinary constant. Marks all edits of the module as reached.
+// Replaces the constant by 0, and compares it with itself for chosen numbers. Marks all the module's edits as
+// reached.
 inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {
     std::vector<std::uint32_t> words(module.begin(), module.begin() + 5);
     std::map<std::uint32_t, std::uint32_t> constants;
@@ -49,9 +55,11 @@ inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> m
             words.insert(words.end(), in.begin(), in.end());
         if (op == 43) constants[in[2]] = in[3];  // OpConstant
         if (op == 50 && in[2] == id)
-            words.end()[-4] = 4u << 16 | 43, words.back() = diptychChosen();  // OpSpecConstant
-        if (op == 52 && (in[3] | 1) == 171 && in[4] == id)
-            diptychReach(constants[in[5]]);  // OpIEqual, OpINotEqual
+            words.end()[-4] = 4u << 16 | 43, words.back() = 0;  // OpSpecConstant
+        if (op == 52 && (in[3] | 1) == 171 && in[4] == id) {  // OpIEqual, OpINotEqual
+            diptychReach(constants[in[5]]);
+            if (diptychChosen(constants[in[5]])) words.back() = id;  // equal to itself
+        }
     }
     return words;
 }

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: MIT
 """Makes small edits of the product, C++ and GLSL, and says which test notices each.
 
-    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--kinds unit,probe] [--copy DIR] [--all]
+    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--all]
 
-All edits stand in one build of a clone of what is committed (WORK/copy; --copy: a clone, built in DIR/build), each as
+All edits stand in one build of a clone of what is committed (WORK/copy, or what this links to), each as
 `DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). What the compiler refuses, such as an edit of what must be
 constant, is left out; another takes its place. Then each suite of ctest is run without an edit: how long it takes,
-and which edits' places it comes by. Those suites alone try an edit: of unit tests first, then of probes, then the
-others, the quickest first, until one fails or is late. What survives is compiled once more, alone: where object files
-or modules are the original's, it is equivalent. WORK/results.json has all that is known, and the same command goes on
-from there; with --all, tests that can wait (longer.txt) try what survived. An edit may remove or overwrite files that
-it should not: whoever runs this should be able to write little else.
+and which edits' places it comes by. It tries these together, and each alone if a test fails or is late: unit tests
+first, then probes, then the others, the quickest first. What survives is compiled once more, alone: where object
+files or modules are the original's, it is equivalent. WORK/results.json has all that is known, and the same command
+goes on from there; with --all, tests that can wait (longer.txt) try what survived. An edit may remove or overwrite
+files that it should not: whoever runs this should be able to write little else.
 """
 import argparse, collections, concurrent.futures, contextlib, functools, itertools, json, os, pathlib, random, re
 import signal, subprocess, tempfile, threading, time
@@ -218,7 +218,7 @@ class Source:
         old, lines = self.text[start:end], [self.text.count("\n", 0, at) + 1 for at in (start, end)]
         how = how or f"({M} ? ({' '.join(new.split())}) : ({old}))"
         return argparse.Namespace(file=self.path, operator=operator, start=start, end=end, old=old, new=new,
-                                  switched=how, const=self.constness(i), lines=lines, by=None, test=None, tried=[])
+                                  switched=how, const=self.constness(i), lines=lines, by=None, test=None)
 
 
 def draw(files, count, seed, changed=None):
@@ -282,12 +282,20 @@ def call(*command, may_fail=False, **options):
     return done if may_fail else done.stdout
 
 
+def filtered(suite, change):
+    """The suite with another filter of GoogleTest's, if it has one."""
+    command = list(suite["command"])
+    if command[0].endswith("group.sh"):
+        command[2] = change(command[2])
+    return {**suite, "command": command}
+
+
 class Run:
     def __init__(self, work, options):
         self.options, self.tmp, self.alone, self.file = options, work / "tmp", work / "alone", work / "results.json"
-        self.tree = (options.copy or work / "copy").resolve()
-        self.build, self.pool = self.tree / "build", concurrent.futures.ThreadPoolExecutor(options.jobs)
-        self.lock, self.locks = threading.Lock(), collections.defaultdict(threading.Lock)
+        self.tree = (work / "copy").resolve()
+        self.build, self.lock = self.tree / "build", threading.Lock()
+        self.pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
         self.tmp.mkdir(parents=True, exist_ok=True)
         saved = json.loads(self.file.read_text(encoding="utf-8")) if self.file.exists() else {}
         self.plan, self.suites = saved.get("plan"), saved.get("suites", {})
@@ -337,7 +345,7 @@ class Run:
 
     def compile(self):
         """Builds what the compiler accepts. Writes only files that change, so that builds are incremental."""
-        targets = [f"{kind}_tests" for kind in self.options.kinds.split(",")]
+        targets = [f"{kind}_tests" for kind in KINDS]
         calls = self.git("grep", "-lF", *(f"-e{old}" for old in SETTERS), "HEAD", "--", "*.cpp").replace("HEAD:", "")
         while True:
             edited = {*calls.split(), *(e.file for e in self.standing())}
@@ -357,68 +365,69 @@ class Run:
             say(f"left out, as they do not compile: {' '.join(map(str, sorted(bad)))}")
             self.save()
 
-    def start(self, suite, limit, mutant, **environment):
-        """Runs a suite; returns the tests that failed, and seconds."""
-        begun, code = time.monotonic(), "late"
-        folder = tempfile.TemporaryDirectory(dir=self.tmp, ignore_cleanup_errors=True)
-        environment.update(suite["environment"], DIPTYCH_MUTANT=str(mutant), TMPDIR=folder.name)
-        with self.locks[suite["name"]], folder, open(folder.name + "/said", "w") as said:
+    def start(self, suite, edits, **environment):
+        """Runs a suite with these edits; returns the tests that failed."""
+        code, folder = "late", tempfile.TemporaryDirectory(dir=self.tmp, ignore_cleanup_errors=True)
+        chosen = ",".join(str(e.number) for e in edits)
+        environment.update(suite["environment"], DIPTYCH_MUTANT=chosen, TMPDIR=folder.name)
+        with folder, open(folder.name + "/said", "w") as said:
             process = subprocess.Popen(  # a mutant may request all memory or disk
                 ["prlimit", "--data=8192000000", "--fsize=4096000000", *suite["command"]], stdout=said, stderr=said,
                 cwd=suite["folder"], env={**os.environ, **environment}, start_new_session=True)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                code = process.wait(limit)
+                code = process.wait(15 + 5 * suite["seconds"])
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             text = pathlib.Path(said.name).read_text(encoding="utf-8", errors="replace")
         failed = (re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", text, re.M)
                   or re.findall(r"^\[ RUN      \] (\S+)$", text, re.M)[-1:] or [f"({code})"])
-        return [] if code == 0 else sorted(set(failed)), time.monotonic() - begun
+        return [] if code == 0 else sorted(set(failed))
 
     def record(self, suite):
         """Records the edits that a suite reaches without any edit, and its time. Skips suites that fail."""
         reached = self.tmp / f"{suite['name'].replace('/', '-')}.reached"
         for _ in range(3):
             reached.write_bytes(bytes(1 << 16))
-            failed, suite["seconds"] = self.start(suite, suite["limit"], 0, DIPTYCH_REACHED=reached)
-            if not failed:
+            begun = time.monotonic()
+            if not (failed := self.start(suite, [], DIPTYCH_REACHED=reached)):
                 break
             say(f"fails without an edit and is left out: {suite['name']} {' '.join(failed)}")
-            suite["command"] = [w + "-" * ("-" not in w[2:]) + "".join(f":{f}" for f in failed)
-                                if re.match(r"(--gtest_filter=)?[\w/]+\.[*]", w) else w for w in suite["command"]]
+            suite = filtered(suite, lambda old: ":-"["-" not in old].join([old, ":".join(failed)]))
+        suite["seconds"] = time.monotonic() - begun
         suite["reached"] = [] if failed else [n for n, byte in enumerate(reached.read_bytes()) if byte]
         self.suites[suite["name"]] = suite
         self.save()
 
     def known(self):
         """The ctest suites that this run may use, in the order of use."""
-        new, every, kinds = [], self.options.all, self.options.kinds.split(",")
+        new, every = [], self.options.all
         environment = {"DIPTYCH_TESTS": "."} if every else {"DIPTYCH_TESTS": ".", "DIPTYCH_TIER": "default"}
         listed = call("ctest", "--test-dir", self.build, "--show-only=json-v1", env={**os.environ, **environment})
         for test in json.loads(listed)["tests"]:
             has = {p["name"]: p["value"] for p in test["properties"]}
             kind = next((k for k in KINDS if k in has.get("LABELS", ())), None)
-            if kind in kinds and "FIXTURES_REQUIRED" not in has and (every or "longer" not in has["LABELS"]):
+            if kind and "FIXTURES_REQUIRED" not in has and (every or "longer" not in has["LABELS"]):
                 new.append({"name": test["name"] + "+" * every, "kind": kind, "command": test["command"],
-                            "folder": has["WORKING_DIRECTORY"], "limit": has.get("TIMEOUT", 1800),
+                            "folder": has["WORKING_DIRECTORY"], "seconds": has.get("TIMEOUT", 1800) / 5,
                             "environment": dict(v.split("=", 1) for v in has.get("ENVIRONMENT", ()))})
         list(self.pool.map(self.record, [s for s in new if s["name"] not in self.suites]))
         return sorted((self.suites[s["name"]] for s in new), key=lambda s: (KINDS[s["kind"]], s["seconds"]))
 
-    def attempt(self, edit, suites):
-        by = "survived"
-        for suite in suites:
-            if edit.number in suite["reached"] and suite["name"] not in edit.tried:
-                failed, _ = self.start(suite, 15 + 5 * suite["seconds"], edit.number, GTEST_FAIL_FAST="1")
-                if failed:
-                    by, edit.test = suite["kind"], f"{suite['name']} {failed[0]}"
-                    break
-                edit.tried.append(suite["name"])
-        edit.by = by
+    def attempt(self, suite, edits):
+        """Tries the edits that a suite comes by, all at once. If it fails, each alone, by tests that failed."""
+        left = [e for e in edits if e.by in (None, "survived") and e.number in suite["reached"]]
+        left = [] if suite.get("done") else left
+        while left and (failed := self.start(suite, left)):
+            for edit in left:
+                names = ":".join(f for f in failed[:3] if "." in f)
+                if alone := self.start(filtered(suite, lambda old: names or old), [edit]):
+                    edit.by, edit.test = suite["kind"], f"{suite['name']} {alone[0]}"
+                    say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {edit.test}")
+            noticed = [e for e in left if e.by not in (None, "survived")]
+            left = [e for e in left if noticed and e not in noticed]  # some fail only together
+        suite["done"] = True
         self.save()
-        say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {by}",
-            edit.test or f"by {len(edit.tried)} suites\n- {edit.old}\n+ {edit.new}")
 
     def equivalent(self, edit):
         """Whether object code and modules equal the original's. WORK/alone is a clone without other edits."""
@@ -449,11 +458,12 @@ class Run:
         self.compile()
         suites, wanted = self.known(), self.standing()[:self.plan["number"]]
         say(f"built; {len(suites)} suites are known")
-        list(self.pool.map(lambda e: self.attempt(e, suites), [e for e in wanted if e.by in (None, "survived")]))
+        list(self.pool.map(lambda suite: self.attempt(suite, wanted), suites))
         heads, rows = ("edits", *KINDS, "survived", "equivalent"), collections.defaultdict(collections.Counter)
         for edit in wanted:
-            if edit.by == "survived" and self.equivalent(edit):
-                edit.by = "equivalent"
+            if edit.by in (None, "survived"):
+                edit.by = "equivalent" if self.equivalent(edit) else "survived"
+                say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.by}\n- {edit.old}\n+ {edit.new}")
             for row in (edit.file.rpartition("/")[0], "~all"):
                 rows[row].update(("edits", edit.by))
         self.save()
@@ -467,9 +477,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("paths", nargs="*")
-    for name, default in dict(number=120, seed=1, since="", kinds=",".join(KINDS), jobs=os.cpu_count()).items():
+    for name, default in dict(number=120, seed=1, since="", jobs=os.cpu_count()).items():
         parser.add_argument(f"--{name}", type=type(default), default=default)
-    parser.add_argument("--copy", type=pathlib.Path)
     parser.add_argument("--all", action="store_true")
     asked = parser.parse_args()
     Run(asked.work.resolve(), asked).go()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Tests of mutate.py on synthetic sources and on the product's; nothing is built."""
-import argparse, collections, json, pathlib, random, subprocess, sys, tempfile, unittest
+import argparse, collections, pathlib, random, subprocess, sys, tempfile, unittest
 
 sys.dont_write_bytecode = True
 import mutate  # noqa: E402
@@ -104,24 +104,29 @@ class Drawn(unittest.TestCase):
 class Runs(unittest.TestCase):
     """Two suites: the first reaches edits 1 and 2 and detects 1; the second reaches all and times out at 3."""
 
-    def test_each_edit_is_tried_by_what_comes_by_and_results_stay(self):
+    def test_suites_try_what_they_come_by_together_and_results_stay(self):
         with tempfile.TemporaryDirectory() as name:
-            work, options = pathlib.Path(name), argparse.Namespace(copy=None, jobs=1)
+            work, options = pathlib.Path(name), argparse.Namespace(jobs=1)
             run = mutate.Run(work, options)
             run.plan, run.edits = {"number": 4}, mutate.draw(FILES, 4, 3)
-            for kind, reached, noticed in (("unit", [1, 2], "1 || false"), ("probe", [1, 2, 3], "3 || sleep 60")):
-                script = f'echo "$DIPTYCH_MUTANT" >> tried; test "$DIPTYCH_MUTANT" != {noticed}'
+            for kind, reached, noticed in (("unit", [1, 2], "*1*) exit 1"), ("probe", [1, 2, 3], "*3*) sleep 60")):
+                script = f'echo "$DIPTYCH_MUTANT" >> tried; case "$DIPTYCH_MUTANT" in {noticed};; esac'
                 run.suites[kind] = {"name": kind, "kind": kind, "command": ["sh", "-c", script], "folder": name,
                                     "environment": {}, "seconds": -2.9, "reached": reached}
-            for edit in run.edits:
-                run.attempt(edit, run.suites.values())
+            for suite in run.suites.values():
+                run.attempt(suite, run.edits)
             again = mutate.Run(work, options)
-            self.assertEqual([e.by for e in again.edits], ["unit", "survived", "probe", "survived"])
-            self.assertEqual((work / "tried").read_text().split(), ["1", "2", "2", "3"])
+            self.assertEqual([e.by for e in again.edits], ["unit", None, "probe", None])
+            self.assertEqual((work / "tried").read_text().split(), ["1,2", "1", "2", "2", "2,3", "2", "3", "2"])
             self.assertEqual(again.edits[2].test, "probe (late)")
-            self.assertEqual(json.loads((work / "results.json").read_text())["edits"][1]["tried"], ["unit", "probe"])
-            again.attempt(again.edits[1], again.suites.values())  # continues only with other suites
-            self.assertEqual(len((work / "tried").read_text().split()), 4)
+            for suite in again.suites.values():  # nothing is tried twice
+                again.attempt(suite, again.edits)
+            self.assertEqual(len((work / "tried").read_text().split()), 8)
+
+    def test_only_tests_that_failed_are_repeated(self):
+        group = {"command": ["tests/group.sh", "unit_tests", "A.*:B.*-A.long", "A"]}
+        self.assertEqual(mutate.filtered(group, lambda old: old + ":B.b")["command"][2], "A.*:B.*-A.long:B.b")
+        self.assertEqual(mutate.filtered({"command": ["format"]}, lambda old: "")["command"], ["format"])
 
 
 if __name__ == "__main__":
