@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects some of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment variable
-// DIPTYCH_MUTANT is 7 or 2,7. Shaders compare with a specialization constant; a Vulkan module is changed
-// when it is created.
+// Switches of mutate.py's edits, in C++ and GLSL: DIPTYCH_MUTANT(7u) is true if the environment variable
+// DIPTYCH_MUTANT lists 7, as in "2,7". Shaders compare a specialization constant (diptychModule).
 #ifndef DIPTYCH_TESTS_MUTANT_H
 #define DIPTYCH_TESTS_MUTANT_H
 #ifndef __cplusplus
@@ -22,7 +21,8 @@ inline bool diptychChosen(std::uint32_t n) {
     static const std::vector<bool> chosen = [] {
         std::vector<bool> all(1 << 16);
         const char* text = std::getenv("DIPTYCH_MUTANT");
-        for (char* end; text && *text; text = *end ? end + 1 : end) all[std::strtoul(text, &end, 10) & 0xffff] = true;
+        for (char* end; text && *text; text = *end ? end + 1 : end)
+            all[std::strtoul(text, &end, 10) & 0xffff] = true;
         return all;
     }();
     return chosen[n & 0xffff];
@@ -40,8 +40,7 @@ inline void diptychReach(std::uint32_t n) {
 }
 #define DIPTYCH_MUTANT(n) (::diptychReach(n), ::diptychChosen(n))
 
-// Replaces the constant by 0, and compares it with itself for chosen numbers. Marks all the module's edits as
-// reached.
+// Decides a module's switches: a chosen one compares the constant with itself. Marks all as reached.
 inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> module) {
     std::vector<std::uint32_t> words(module.begin(), module.begin() + 5);
     std::map<std::uint32_t, std::uint32_t> constants;
@@ -53,9 +52,8 @@ inline std::vector<std::uint32_t> diptychModule(std::span<const std::uint32_t> m
             id = in[1];  // OpDecorate SpecId
         else
             words.insert(words.end(), in.begin(), in.end());
-        if (op == 43) constants[in[2]] = in[3];  // OpConstant
-        if (op == 50 && in[2] == id)
-            words.end()[-4] = 4u << 16 | 43, words.back() = 0;  // OpSpecConstant
+        if (op == 43) constants[in[2]] = in[3];                                          // OpConstant
+        if (op == 50 && in[2] == id) words.end()[-4] = 4u << 16 | 43, words.back() = 0;  // OpSpecConstant
         if (op == 52 && (in[3] | 1) == 171 && in[4] == id) {  // OpIEqual, OpINotEqual
             diptychReach(constants[in[5]]);
             if (diptychChosen(constants[in[5]])) words.back() = id;  // equal to itself

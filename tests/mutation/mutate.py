@@ -4,14 +4,13 @@
 
     mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--all]
 
-All edits stand in one build of a clone of what is committed (WORK/copy, or what this links to), each as
-`DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). What the compiler refuses, such as an edit of what must be
-constant, is left out; another takes its place. Then each suite of ctest is run without an edit: how long it takes,
-and which edits' places it comes by. It tries these together, and each alone if a test fails or is late: unit tests
-first, then probes, then the others, the quickest first. What survives is compiled once more, alone: where object
-files or modules are the original's, it is equivalent. WORK/results.json has all that is known, and the same command
-goes on from there; with --all, tests that can wait (longer.txt) try what survived. An edit may remove or overwrite
-files that it should not: whoever runs this should be able to write little else.
+All edits stand in one build of a clone of HEAD (WORK/copy, which may be a link), each as
+`DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). An edit that does not compile is replaced by another. Each suite
+runs once without edits, which gives its time and the edits that it reaches. It then tries these together, and each
+alone if a test fails or is late: unit tests first, then probes, then the others, the quickest first. A survivor is
+compiled alone; it is equivalent if object files or modules equal the original's. WORK/results.json keeps all results:
+the same command resumes. With --all, tests that can wait (longer.txt) try the survivors. Not seen: an edit that
+another survivor masks. An edit may delete or overwrite files: run this where little can be written.
 """
 import argparse, collections, concurrent.futures, contextlib, functools, itertools, json, os, pathlib, random, re
 import signal, subprocess, tempfile, threading, time
@@ -19,6 +18,7 @@ import signal, subprocess, tempfile, threading, time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("compare", "deferred", "forward_plus", "shaders/lib", "shaders/pass", "shared")
 GLSL = (".glsl", ".vert", ".frag", ".comp")
+OPEN = None, "survived"  # an edit that no suite has noticed
 KINDS = {"unit": 0, "probe": 1, "image": 2, "tool": 2}  # label -> order of use
 M = "\0"  # the switch, in an edit's `switched`
 say = functools.partial(print, flush=True)
@@ -282,16 +282,13 @@ def call(*command, may_fail=False, **options):
     return done if may_fail else done.stdout
 
 
-def filtered(suite, change):
-    """The suite with another filter of GoogleTest's, if it has one."""
-    command = list(suite["command"])
-    if command[0].endswith("group.sh"):
-        command[2] = change(command[2])
-    return {**suite, "command": command}
+def filtered(suite, names):
+    return {**suite, "command": [*suite["command"][:2], names, *suite["command"][3:]]}
 
 
 class Run:
     def __init__(self, work, options):
+        self.tier = "all" if options.all else "default"
         self.options, self.tmp, self.alone, self.file = options, work / "tmp", work / "alone", work / "results.json"
         self.tree = (work / "copy").resolve()
         self.build, self.lock = self.tree / "build", threading.Lock()
@@ -303,7 +300,7 @@ class Run:
 
     def save(self):
         with self.lock:
-            state = {"plan": self.plan, "suites": self.suites, "edits": [vars(e) for e in self.edits]}
+            state = {"plan": self.plan, "suites": {**self.suites}, "edits": [vars(e) for e in self.edits]}
             self.file.with_suffix(".new").write_text(json.dumps(state, indent=1), encoding="utf-8")
             self.file.with_suffix(".new").replace(self.file)
 
@@ -369,7 +366,7 @@ class Run:
         """Runs a suite with these edits; returns the tests that failed."""
         code, folder = "late", tempfile.TemporaryDirectory(dir=self.tmp, ignore_cleanup_errors=True)
         chosen = ",".join(str(e.number) for e in edits)
-        environment.update(suite["environment"], DIPTYCH_MUTANT=chosen, TMPDIR=folder.name)
+        environment.update(suite["environment"], DIPTYCH_MUTANT=chosen, DIPTYCH_TIER=self.tier, TMPDIR=folder.name)
         with folder, open(folder.name + "/said", "w") as said:
             process = subprocess.Popen(  # a mutant may request all memory or disk
                 ["prlimit", "--data=8192000000", "--fsize=4096000000", *suite["command"]], stdout=said, stderr=said,
@@ -386,14 +383,15 @@ class Run:
 
     def record(self, suite):
         """Records the edits that a suite reaches without any edit, and its time. Skips suites that fail."""
-        reached = self.tmp / f"{suite['name'].replace('/', '-')}.reached"
+        reached, every = self.tmp / f"{suite['name']}.reached", suite["command"][2]
         for _ in range(3):
             reached.write_bytes(bytes(1 << 16))
             begun = time.monotonic()
             if not (failed := self.start(suite, [], DIPTYCH_REACHED=reached)):
                 break
             say(f"fails without an edit and is left out: {suite['name']} {' '.join(failed)}")
-            suite = filtered(suite, lambda old: ":-"["-" not in old].join([old, ":".join(failed)]))
+            every += ":-"["-" not in every] + ":".join(failed)
+            suite = filtered(suite, every)
         suite["seconds"] = time.monotonic() - begun
         suite["reached"] = [] if failed else [n for n, byte in enumerate(reached.read_bytes()) if byte]
         self.suites[suite["name"]] = suite
@@ -401,32 +399,36 @@ class Run:
 
     def known(self):
         """The ctest suites that this run may use, in the order of use."""
-        new, every = [], self.options.all
-        environment = {"DIPTYCH_TESTS": "."} if every else {"DIPTYCH_TESTS": ".", "DIPTYCH_TIER": "default"}
+        new, environment = [], {"DIPTYCH_TESTS": ".", "DIPTYCH_TIER": self.tier}
         listed = call("ctest", "--test-dir", self.build, "--show-only=json-v1", env={**os.environ, **environment})
         for test in json.loads(listed)["tests"]:
             has = {p["name"]: p["value"] for p in test["properties"]}
             kind = next((k for k in KINDS if k in has.get("LABELS", ())), None)
-            if kind and "FIXTURES_REQUIRED" not in has and (every or "longer" not in has["LABELS"]):
-                new.append({"name": test["name"] + "+" * every, "kind": kind, "command": test["command"],
-                            "folder": has["WORKING_DIRECTORY"], "seconds": has.get("TIMEOUT", 1800) / 5,
+            if kind and test["command"][0].endswith("group.sh"):
+                new.append({"name": test["name"] + "+" * self.options.all, "kind": kind, "passed": None,
+                            "command": test["command"], "folder": has["WORKING_DIRECTORY"],
+                            "seconds": has.get("TIMEOUT", 1800) / 5,
                             "environment": dict(v.split("=", 1) for v in has.get("ENVIRONMENT", ()))})
         list(self.pool.map(self.record, [s for s in new if s["name"] not in self.suites]))
         return sorted((self.suites[s["name"]] for s in new), key=lambda s: (KINDS[s["kind"]], s["seconds"]))
 
     def attempt(self, suite, edits):
-        """Tries the edits that a suite comes by, all at once. If it fails, each alone, by tests that failed."""
-        left = [e for e in edits if e.by in (None, "survived") and e.number in suite["reached"]]
-        left = [] if suite.get("done") else left
-        while left and (failed := self.start(suite, left)):
-            for edit in left:
-                names = ":".join(f for f in failed[:3] if "." in f)
-                if alone := self.start(filtered(suite, lambda old: names or old), [edit]):
+        """Tries the edits that a suite reaches, together. If it fails: each alone; if none fails alone: halves."""
+        groups = [[e for e in edits if e.by in OPEN and e.number in suite["reached"]]]
+        while groups and suite["passed"] != [e.number for e in groups[0]]:
+            group = [e for e in groups.pop() if e.by in OPEN]
+            if not group or not (failed := self.start(suite, group)):
+                continue
+            names = ":".join(f for f in failed[:3] if "." in f)
+            few = filtered(suite, names) if names and not self.start(filtered(suite, names), []) else suite
+            for edit in group:
+                if edit.by in OPEN and (alone := failed if len(group) == 1 else self.start(few, [edit])):
                     edit.by, edit.test = suite["kind"], f"{suite['name']} {alone[0]}"
                     say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.operator}: {edit.test}")
-            noticed = [e for e in left if e.by not in (None, "survived")]
-            left = [e for e in left if noticed and e not in noticed]  # some fail only together
-        suite["done"] = True
+                    self.save()
+            left = [e for e in group if e.by in OPEN]
+            groups += [left] if len(left) < len(group) else [left[::2], left[1::2]]
+        suite["passed"] = [e.number for e in edits if e.by in OPEN and e.number in suite["reached"]]
         self.save()
 
     def equivalent(self, edit):
@@ -458,10 +460,11 @@ class Run:
         self.compile()
         suites, wanted = self.known(), self.standing()[:self.plan["number"]]
         say(f"built; {len(suites)} suites are known")
-        list(self.pool.map(lambda suite: self.attempt(suite, wanted), suites))
+        for _ in range(2):  # the second time without edits that others noticed, which may mask
+            list(self.pool.map(lambda suite: self.attempt(suite, wanted), suites))
         heads, rows = ("edits", *KINDS, "survived", "equivalent"), collections.defaultdict(collections.Counter)
         for edit in wanted:
-            if edit.by in (None, "survived"):
+            if edit.by in OPEN:
                 edit.by = "equivalent" if self.equivalent(edit) else "survived"
                 say(f"{edit.number} {edit.file}:{edit.lines[0]} {edit.by}\n- {edit.old}\n+ {edit.new}")
             for row in (edit.file.rpartition("/")[0], "~all"):

@@ -102,31 +102,32 @@ class Drawn(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
-    """Two suites: the first reaches edits 1 and 2 and detects 1; the second reaches all and times out at 3."""
+    """Suites: the first reaches edits 1 and 2, the others 1 to 3. They fail with 1; with 3; with 2 and 4 together."""
 
-    def test_suites_try_what_they_come_by_together_and_results_stay(self):
+    def test_suites_try_what_they_reach_together_and_results_stay(self):
         with tempfile.TemporaryDirectory() as name:
-            work, options = pathlib.Path(name), argparse.Namespace(jobs=1)
+            work, options = pathlib.Path(name), argparse.Namespace(jobs=1, all=False)
             run = mutate.Run(work, options)
             run.plan, run.edits = {"number": 4}, mutate.draw(FILES, 4, 3)
-            for kind, reached, noticed in (("unit", [1, 2], "*1*) exit 1"), ("probe", [1, 2, 3], "*3*) sleep 60")):
-                script = f'echo "$DIPTYCH_MUTANT" >> tried; case "$DIPTYCH_MUTANT" in {noticed};; esac'
-                run.suites[kind] = {"name": kind, "kind": kind, "command": ["sh", "-c", script], "folder": name,
-                                    "environment": {}, "seconds": -2.9, "reached": reached}
+            for kind, reached, fails in (("unit", [1, 2], "*1*) fail A.one"), ("probe", [1, 2, 3], "*3*) sleep 60"),
+                                         ("tool", [2, 4], "2,4) fail A.both")):
+                script = f'''fail() {{ echo "[  FAILED  ] $1"; exit 1; }}
+                    echo "$DIPTYCH_MUTANT/$0" >> tried; case "$DIPTYCH_MUTANT" in {fails};; esac'''
+                run.suites[kind] = {"name": kind, "kind": kind, "command": ["sh", "-c", script, "all"],
+                                    "environment": {}, "seconds": -2.9, "reached": reached, "passed": None,
+                                    "folder": name}
+            mutate.filtered = lambda suite, names: {**suite, "command": [*suite["command"][:3], names]}
             for suite in run.suites.values():
                 run.attempt(suite, run.edits)
             again = mutate.Run(work, options)
             self.assertEqual([e.by for e in again.edits], ["unit", None, "probe", None])
-            self.assertEqual((work / "tried").read_text().split(), ["1,2", "1", "2", "2", "2,3", "2", "3", "2"])
+            tried = ["1,2/all", "/A.one", "1/A.one", "2/A.one", "2/all", "2,3/all", "2/all", "3/all", "2/all",
+                     "2,4/all", "/A.both", "2/A.both", "4/A.both", "4/all", "2/all"]
+            self.assertEqual((work / "tried").read_text().split(), tried)
             self.assertEqual(again.edits[2].test, "probe (late)")
             for suite in again.suites.values():  # nothing is tried twice
                 again.attempt(suite, again.edits)
-            self.assertEqual(len((work / "tried").read_text().split()), 8)
-
-    def test_only_tests_that_failed_are_repeated(self):
-        group = {"command": ["tests/group.sh", "unit_tests", "A.*:B.*-A.long", "A"]}
-        self.assertEqual(mutate.filtered(group, lambda old: old + ":B.b")["command"][2], "A.*:B.*-A.long:B.b")
-        self.assertEqual(mutate.filtered({"command": ["format"]}, lambda old: "")["command"], ["format"])
+            self.assertEqual((work / "tried").read_text().split(), tried)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,8 @@ namespace diptych {
 
 using Json = nlohmann::json;
 
-// Places of a document's empty strings, such as "/device/name" and "/rows/*/words". In `settings` and
-// `origin`, these mean what is usual.
+// JSON paths of empty strings, such as "/device/name" and "/rows/*/words". Skips `settings` and `origin`,
+// where an empty string means the default.
 inline std::set<std::string> emptyIn(const Json& json, const std::string& place = "") {
     std::set<std::string> found;
     if (json == "") found.insert(place);

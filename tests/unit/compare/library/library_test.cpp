@@ -64,6 +64,11 @@ TEST(Library, FiguresAreThoseOfDiff) {
         }
 }
 
+TEST(Library, TheUsualViewerIsFlips) {
+    EXPECT_EQ(Options().pixels_per_degree, FlipOptions().pixels_per_degree);
+    EXPECT_FALSE(Options().display);
+}
+
 TEST(Library, LimitsDecide) {
     constexpr int width = 8, height = 8;
     const std::vector<float> a = noise(3 * width * height, 1);
@@ -79,7 +84,6 @@ TEST(Library, LimitsDecide) {
     EXPECT_FALSE(result.passed);
     options.limits.resize(1);
     EXPECT_TRUE(compare({width, height, a}, {width, height, b}, options).passed);
-    EXPECT_EQ(Options().pixels_per_degree, FlipOptions().pixels_per_degree);
     // Equal images without limits.
     result = compare({width, height, a}, {width, height, a});
     EXPECT_TRUE(result.passed);

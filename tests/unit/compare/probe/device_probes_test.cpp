@@ -44,16 +44,19 @@ TEST(DeviceProbes, EachHasANameInputsAndAReason) {
     }
 }
 
-// Numbers 0 to 2 of a light seen through a lobe are M^-1; the identity is the cosine's.
+// The first three inputs are M^-1; only the cosine has the identity.
 TEST(DeviceProbes, OnlyTheCosineIsNotTransformed) {
+    int seen = 0;
     for (const Probe& p : allProbes()) {
         if (!p.name.starts_with("parallelogram, ")) continue;
+        ++seen;
         const std::vector<float> in = inputsOf(p, 0, 64);
         std::size_t identities = 0;
         for (std::size_t i = 0; i < in.size(); i += p.ins)
             identities += in[i] == 1 && in[i + 1] == 1 && in[i + 2] == 0;
         EXPECT_EQ(identities, p.name == "parallelogram, cosine" ? 64u : 0u) << p.name;
     }
+    EXPECT_EQ(seen, 2);
 }
 
 // Result of a probe that doubles a number, if the outputs are `factor` times as large; four rows.

@@ -28,7 +28,7 @@ private:
     }
 };
 
-// A touchpad reports no movement between two taps.
+// The cursor may jump before the button goes down (touchpads): the jump drags nothing.
 TEST(Mouse, APictureIsDraggedFromWhereTheButtonWentDown) {
     Hand hand;
     hand.state.look.difference = Difference::absolute;
