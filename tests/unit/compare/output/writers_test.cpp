@@ -64,6 +64,7 @@ TEST(OutputHtml, ATableHasItsClassesValuesAndHeads) {
     Table table = fruit();
     table.columns[2].means = "grams";
     table.sortable = true;
+    table.note = "of one tree";
     const std::string page = inHtml(table);
     EXPECT_EQ(markupFault(page), "") << page;
     for (const char* part :
@@ -71,7 +72,8 @@ TEST(OutputHtml, ATableHasItsClassesValuesAndHeads) {
           "<th class=\"n\" title=\"grams\"><button type=\"button\">g</button></th>", "<tr><td>fig</td>",
           "<tr class=\"chosen\" data-row=\"7\"><td><i class=\"swatch deferred\"></i>a&lt;b</td>",
           "<td class=\"whole\"></td><td class=\"n\" data-value=\"1e+300\">1e300</td>",
-          "<td class=\"dark\" title=\"leaf\">green</td><td>b</td></tr>"})
+          "<td class=\"dark\" title=\"leaf\">green</td><td>b</td></tr>",
+          "</table><p class=\"soft small\">of one tree</p>"})
         EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 

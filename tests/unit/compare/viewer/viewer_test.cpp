@@ -273,6 +273,7 @@ TEST(ViewerValues, AreToldToTheLastDigit) {
         stream >> value;
         EXPECT_EQ(value, image.at(1, 0, c)) << words;
     }
+    EXPECT_EQ(valueWords(image, 0, 0), "0 0 0");
     EXPECT_EQ(valueWords(image, 2, 0), "");
 }
 
