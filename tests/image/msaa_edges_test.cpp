@@ -176,6 +176,20 @@ TEST(MsaaEdges, TheChannelCountsSurfaces) {
     coated.materials[0].clearcoat = 0.5f;
     Renderer layered(device(), coated, pipelines());
     EXPECT_EQ(countsOf(layered, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
+    // Its second triangle, brushed in a direction 30 degrees away.
+    Scene brushed = coated;
+    brushed.materials[0].anisotropy = 0.5f;
+    Primitive& p = brushed.meshes[0].primitives[0];
+    for (std::size_t k = 3; k < 6; ++k) {
+        const std::uint32_t corner =
+            std::exchange(p.indices[k], static_cast<std::uint32_t>(p.positions.size()));
+        p.positions.push_back(p.positions[corner]);
+        p.normals.push_back(p.normals[corner]);
+        p.tangents.emplace_back(std::sqrt(0.75f), 0.5f, 0, p.tangents[corner].w);
+        for (auto& texcoords : p.texcoords) texcoords.push_back(texcoords[corner]);
+    }
+    Renderer turned(device(), brushed, pipelines());
+    EXPECT_EQ(countsOf(turned, MsaaEdges::similar), (std::array{0, 56, 8, 0, 0}));
     Scene lower = square();
     lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, through 8 pixels
     Renderer half(device(), lower, pipelines());

@@ -21,6 +21,5 @@ void main() {
         }
         case 2: out1(0, meanSchlickWeight(in1(0))); break;
         case 3: out3(0, unitVector(in3(0))); break;
-        case 4: out3(0, reflection(in3(0), in3(3))); break;
     }
 }

@@ -268,6 +268,7 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
         EXPECT_FALSE(seriesOf(quantity, subject).series.empty()) << quantity.name;
     }
+    EXPECT_EQ(quantityOf("size").original(subject), subject.view.height);
     // The quantity reports what the scene lacks.
     EXPECT_NE(quantityOf("environment").lacks(subject), "");
 }

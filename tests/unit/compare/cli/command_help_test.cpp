@@ -91,6 +91,11 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
 }
 
+TEST(CommandLine, HelpSaysWhatAnOptionMeansInItsCommand) {
+    EXPECT_NE(parseCommandLine({"compare", "--help", "all"}).help.find("path that --update-baseline writes"),
+              std::string::npos);
+}
+
 TEST(CommandLine, HelpShowsTheSettings) {
     const auto shows = [](const std::string& command, const std::string& option) {
         return parseCommandLine({command, "--help", "all"}).help.find("--" + option + " ") !=

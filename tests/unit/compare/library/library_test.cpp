@@ -54,6 +54,7 @@ TEST(Library, FiguresAreThoseOfDiff) {
             EXPECT_EQ(result.compared, coverage.count);
             const auto all = expected.all();
             EXPECT_EQ(result.figures.size(), all.size());
+            EXPECT_EQ(figureNames().size(), all.size());
             for (const auto& [name, value] : all) EXPECT_EQ(result.figures.at(name), value) << name;
             ASSERT_EQ(result.flip.size(), half.size());
             float most = 0;

@@ -71,6 +71,14 @@ TEST(Picture, AnIdHasItsColour) {
     EXPECT_NE(colour(1), colour(2));
     EXPECT_NE(colour(0), colour(2));
     EXPECT_EQ(colour(0), colour(3));
+    // Hues in sixths of a turn: 0.42, 4.128 and 7.836 - 6. Saturation 0.62; values 0.95, 0.75, 0.58.
+    const auto expectColour = [&](int x, double r, double g, double b) {
+        for (const auto& [got, expected] : {std::pair{colour(x)[0], r}, {colour(x)[1], g}, {colour(x)[2], b}})
+            EXPECT_NEAR(got, 255 * expected, 0.6) << x;
+    };
+    expectColour(0, 0.95, 0.95 * (1 - 0.62 * (1 - 0.42)), 0.95 * 0.38);    // red to yellow
+    expectColour(1, 0.75 * (1 - 0.62 * (1 - 0.1282)), 0.75 * 0.38, 0.75);  // blue to magenta
+    expectColour(2, 0.58 * (1 - 0.62 * 0.8364), 0.58, 0.58 * 0.38);        // yellow to green
 }
 
 TEST(Picture, BackgroundAndExposure) {

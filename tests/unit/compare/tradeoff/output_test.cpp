@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The output of a sweep: table, CSV, JSON, plots and page.
 #include "compare/cli/command_line.h"
+#include "compare/plot/error_over_time.h"
 #include "compare/plot/log_axis.h"
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
@@ -234,6 +235,22 @@ TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
     EXPECT_DOUBLE_EQ(drift->value, 1);
     EXPECT_DOUBLE_EQ(drift->low, 0.5);
     EXPECT_DOUBLE_EQ(drift->high, 2);
+}
+
+TEST(ErrorOverTime, ZeroAndInfiniteErrorsHaveLanesBehindALine) {
+    const auto gapsOf = [](const std::vector<double>& points) {
+        const ErrorOverTime plot({0, 0, 100, 100}, {1, 10}, {1e-3, 1}, points);
+        const std::string axes = plot.axes("FLIP");
+        std::size_t gaps = 0;
+        for (std::size_t at = axes.find("\"gap\""); at != axes.npos; at = axes.find("\"gap\"", at + 1))
+            ++gaps;
+        return gaps;
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(gapsOf({1e-3, 1}), 0u);
+    EXPECT_EQ(gapsOf({0, 1}), 1u);
+    EXPECT_EQ(gapsOf({1, infinite}), 1u);
+    EXPECT_EQ(gapsOf({0, 1e-3, infinite}), 2u);
 }
 
 TEST(LogAxis, TicksLieWithinAndSome) {

@@ -108,6 +108,10 @@ TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
         EXPECT_NEAR((0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b) * light.intensity * area / candela, 1.0f,
                     1e-6f);
         ASSERT_TRUE(isArea(light.kind));
+        if (light.kind == LightKind::rect) {
+            EXPECT_NEAR(light.width / light.range, 0.35, 0.151);
+            EXPECT_NEAR(light.height / light.width, 0.625, 0.376);
+        }
         ++kinds[static_cast<std::size_t>(light.kind) - static_cast<std::size_t>(LightKind::rect)];
     }
     for (const int count : kinds) EXPECT_GT(count, 60);  // of 100 expected; five standard deviations are 41
