@@ -230,7 +230,8 @@ std::uint64_t RelationMeasurer::tied() {
         Related related{subject_.given, subject_.given};
         order->change(related, subject_);
         const std::array settings{settingsOfSeries({unencoded_path, {}}, subject_.given.settings)};
-        const Drawn given = draw(related.base, settings), changed = draw(related.changed, settings);
+        const Drawn given = draw(related.base, settings, false),
+                    changed = draw(related.changed, settings, false);
         if (!given.frames[0] || !changed.frames[0]) continue;
         RelationTolerance tolerance;
         tolerance.reorders = true;

@@ -60,7 +60,7 @@ private:
         std::vector<std::string> failed;
     };
     // `reference`: also render series that need no device.
-    Drawn draw(const Case& of, std::span<const Settings> settings, bool reference = true);
+    Drawn draw(const Case& of, std::span<const Settings> settings, bool reference);
     // Adds the series that draw() omitted.
     static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
     // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, in place of

@@ -99,6 +99,7 @@ TEST(PixelTool, NamesTheStepThatAnEncodingChanges) {
     const Folder folder;
     const json breakdown = breakdownOf(folder, "builtin:points --size 64x36 --gbuffer compact --pixel 30,24");
     EXPECT_EQ(breakdown["first_difference"], "geometric_normal") << breakdown["summary"];
+    EXPECT_EQ(breakdown["size"], json({64, 36}));
     const json& albedo = named(breakdown["steps"], "name", "albedo");
     EXPECT_GT(albedo["difference"], 0.0);
     EXPECT_LE(albedo["difference"], albedo["tolerance"]);

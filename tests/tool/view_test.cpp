@@ -233,6 +233,17 @@ TEST_F(View, AReportThatPassesOpensAtLit) {
     close();
 }
 
+TEST_F(View, OpensAtTheChannelThatWasAskedFor) {
+    open({"builtin:triangle", "--debug", "normals"});
+    key("y");
+    const std::string line = lastLine("copied: ");
+    EXPECT_NE(line.find("--debug normals"), std::string::npos) << line;
+    key("Escape");
+    key("y");
+    EXPECT_EQ(lastLine("copied: "), line) << "there was nothing to leave";
+    close();
+}
+
 #ifdef DIPTYCH_FAULTS
 // The device that shows the window is the only one that calls vkQueueSubmit.
 TEST_F(View, TheWindowsDeviceIsMadeAnewWhereItIsLost) {

@@ -106,6 +106,8 @@ TEST(Audit, ALimitIsFoundBetweenTheSteps) {
     EXPECT_FALSE(audit.valid_ranges[0][0].down.broken);
     EXPECT_LE(audit.steps.size(), quantityOf("intensity").magnitudes.size() + 17);
     EXPECT_TRUE(std::ranges::is_sorted(audit.steps, {}, &Step::magnitude));
+    EXPECT_EQ(audited(quantityOf("offset"), subject, [](double) { return 1e-6; }).left_out,
+              seriesOf(quantityOf("offset"), subject).left_out);
 }
 
 TEST(Audit, PredictionsAgreeWithinAFactorOfTwo) {

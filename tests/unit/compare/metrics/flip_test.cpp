@@ -105,6 +105,28 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
     EXPECT_EQ(r.pixels, 300u * 140u);
 }
 
+// No pixel of a row is treated otherwise, up to the order of sums.
+TEST(Flip, MirroredPicturesHaveMirroredErrorsUnderEveryToneMapper) {
+    constexpr int width = 40, height = 8;
+    const auto mirrored = [](const Image& image) {
+        Image result(width, height, 3);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (int c = 0; c < 3; ++c) result.at(x, y, c) = image.at(width - 1 - x, y, c);
+        return result;
+    };
+    const Image reference = noise(width, height, 3, 0, 20), test = noise(width, height, 4, 0, 20);
+    for (const ToneMapper mapper : {ToneMapper::aces, ToneMapper::reinhard, ToneMapper::hable}) {
+        HdrFlipOptions options;
+        options.tone_mapper = mapper;
+        const Image there = hdrFlip(reference, test, options).error,
+                    back = hdrFlip(mirrored(reference), mirrored(test), options).error;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                EXPECT_NEAR(there.at(x, y), back.at(width - 1 - x, y), 1e-5) << x << "," << y;
+    }
+}
+
 TEST(Flip, APartHasTheErrorsOfTheWholeAwayFromItsBorder) {
     // The widest filter has a radius of 10 pixels at 67 pixels per degree. In the crop, tiles have other
     // positions.
