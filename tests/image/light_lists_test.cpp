@@ -305,6 +305,10 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     scene.lights.assign(65600, pointAt({0, 2, 0}, 1e-4f, std::numeric_limits<float>::infinity()));
     // The lights' median range is small: slices are thin and many.
     for (int i = 0; i < 200; ++i) scene.lights.push_back(pointAt({0.1 * i - 10, 0.1, 0.07 * i - 8}, 1, 0.2f));
+    Light area = pointAt({0, 3, 0}, 5, std::numeric_limits<float>::infinity());
+    area.kind = LightKind::rect;
+    area.direction = {0, -1, 0};
+    scene.lights.push_back(area);
     Renderer renderer(device(), scene, pipelines());
     const Size size{192, 24};
     const Frame every = renderer.draw(picture(size, Path::forward_plus, Assignment::every), untimed());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Choices compared with exhaustive sweeps: recorded times and errors of every candidate.
+#include "compare/choose/report.h"
 #include "compare/choose/search.h"
 #include "compare/choose/table.h"
+#include "compare/page/text.h"
 #include "tests/unit/compare/choose/replay.h"
 
 #include <fmt/format.h>
@@ -289,6 +291,18 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
     std::vector<Settings> many(40, Settings());
     for (std::size_t i = 1; i < many.size(); ++i) many[i].set("shadow-bias", std::to_string(i));
     EXPECT_EQ(tableOf(many).size(), 1u) << "no usual change";
+}
+
+TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
+    ChoiceReport report;
+    report.figure = "FLIP";
+    report.choice.candidates.resize(2);
+    Candidate& judged = report.choice.candidates[0];
+    judged.judged = {.error = 0.0125, .bytes = 3u << 20};
+    judged.log_ms = std::log(4.5);
+    judged.timings = 2;
+    EXPECT_EQ(figuresInWords(report, 0), "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20));
+    EXPECT_EQ(figuresInWords(report, 1), "not timed");
 }
 
 }  // namespace
