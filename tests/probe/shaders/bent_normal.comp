@@ -5,8 +5,8 @@
 #include "shaders/lib/environment/environment.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// About n = z: v, cosine and sine of the direction along which a lobe is stretched, its width across, strength
-// -> bentNormal()
+// About n = z: v, cosine and sine of the direction along which a lobe is stretched, its width across,
+// strength -> bentNormal()
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     vec3 v = vec3(IN(7, 0), IN(7, 1), IN(7, 2));
