@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -104,7 +105,7 @@ Primitive bound(Primitive shape, int joints, std::size_t sets,
         for (std::size_t i = 0; i < of.size(); ++i) {
             if (!(of[i].first > 0)) continue;
             JointSet& set = shape.joint_sets[i / 4];
-            set.joints[v][static_cast<int>(i % 4)] = static_cast<glm::uint16_t>(of[i].second);
+            set.joints[v][static_cast<int>(i % 4)] = static_cast<std::uint16_t>(of[i].second);
             set.weights[v][static_cast<int>(i % 4)] = static_cast<float>(of[i].first / sum);
         }
     }
