@@ -97,5 +97,6 @@ foreach(name IN LISTS names)
   elseif(processes)
     set(cost 50)
   endif()
-  set_tests_properties(${name} PROPERTIES LABELS ${folder} TIMEOUT ${seconds} COST ${cost} ENVIRONMENT "${environment};${validate_${name}}")
+  set_tests_properties(${name} PROPERTIES LABELS ${folder} TIMEOUT ${seconds} COST ${cost}
+    ENVIRONMENT "${environment};${validate_${name}}")
 endforeach()
