@@ -37,6 +37,6 @@
 FEATURES(FEATURE_CONSTANT)
 #undef FEATURE_CONSTANT
 
-bool on(uint feature) { return feature != 0; }
+bool on(const uint feature) { return feature != 0; }
 
 #endif

@@ -15,7 +15,7 @@ layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS d
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_MARKS, scalar) buffer Marks { uint marks[]; };
 
 // `place`: position in the image, pixels. `z`: reversed depth there.
-void mark(vec2 place, float z) {
+void mark(const vec2 place, const float z) {
     if (z == 0.0) return;  // no geometry
     vec3 position = positionFromDepth(place, z);
     Clipmap map = clipmap();

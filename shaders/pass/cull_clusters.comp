@@ -32,7 +32,7 @@ shared uint in_view[CULLED_CLUSTERS / 32u];  // one bit per meshlet of the part
 shared uint clusters[CULLED_CLUSTERS];       // visible ones, in order
 shared uint shown[WORDS];                    // one bit per triangle
 
-uint bitsBefore(uint lane) { return (1u << (lane & 31u)) - 1u; }
+uint bitsBefore(const uint lane) { return (1u << (lane & 31u)) - 1u; }
 
 void main() {
     uint number = gl_WorkGroupID.y * CULLING_GROUPS + gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;

@@ -20,7 +20,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Ti
 shared uint sums[TILE_LIST_THREADS];
 
 // count: tiles of the class.
-void writeCommands(uint tile_class, uint count, uint tiles) {
+void writeCommands(const uint tile_class, const uint count, const uint tiles) {
     uint thread = gl_LocalInvocationIndex;
     if (thread == 0u) TileDraws(constants.draws).at[tile_class] = TileDraw(6u, count, 0u, 0u);
     uint dispatches = (tiles + TILES_PER_DISPATCH - 1u) / TILES_PER_DISPATCH;

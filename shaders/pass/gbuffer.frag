@@ -16,7 +16,7 @@ layout(location = 6) out uvec4 out_6;
 layout(location = 7) out uvec4 out_7;
 
 // Writes an optional attachment, if present, to the first free location.
-void write(bool there, uvec4 texel, inout uint free) {
+void write(const bool there, const uvec4 texel, inout uint free) {
     if (!there) return;
     if (free == 3) out_3 = texel;
     if (free == 4) out_4 = texel;

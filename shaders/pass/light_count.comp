@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(set = SET_LISTS, binding = BINDING_MASK_TEXELS) uniform usamplerBuffer mask_texels;
 
-uvec4 maskTexel(uint i) {
+uvec4 maskTexel(const uint i) {
     if (on(feature_addressed_lights)) return WordTexels(grid_block.masks).at[i];
     return texelFetch(mask_texels, int(i));
 }
@@ -20,7 +20,7 @@ struct FourCounts {
 };
 
 // Entries of four lists; 0 beyond the last list.
-uvec4 packetsOfFour(FourCounts sum, uint four) {
+uvec4 packetsOfFour(const FourCounts sum, const uint four) {
     uvec4 result = uvec4(0u);
     for (uint i = 0u; i < 4u; ++i) {
         uint end = headOf(LightListCount(sum.all[i], sum.points[i], sum.points_and_spots[i], 0u)).end;

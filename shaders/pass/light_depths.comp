@@ -22,7 +22,7 @@ const float NO_DEPTH = 2.0;
 shared uint nearest, deepest;
 shared uint farthest;  // over all pixels: 0 if one shows the background
 
-void add(float z, inout float near, inout float deep, inout float far) {
+void add(const float z, inout float near, inout float deep, inout float far) {
     near = max(near, z);
     deep = z > 0.0 ? min(deep, z) : deep;
     if (on(feature_lights_in_front)) far = min(far, z);

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 // Pads the last entry of a light type with the null light, starting after its lights.
-void pad(uint from, uint end) {
+void pad(const uint from, const uint end) {
     for (uint i = 0u; i < feature_list_width; ++i)
         if (from + i < end) indices[from + i] = grid.null_light;
 }

@@ -9,13 +9,13 @@
 #include "shaders/lib/math/angles.glsl"
 #include "shaders/lib/geometry/posing_thread.glsl"
 
-vec3 inPlaneOf(vec3 normal, vec3 v) { return unitVector(v - normal * dot(normal, v)); }
+vec3 inPlaneOf(const vec3 normal, const vec3 v) { return unitVector(v - normal * dot(normal, v)); }
 
 // Differences of the normal map's coordinates: t grows towards the top of the image, v towards the bottom.
-vec2 mapped(PosedInstance i, vec2 uv) { return vec2(dot(i.map_u, uv), -dot(i.map_v, uv)); }
+vec2 mapped(const PosedInstance i, const vec2 uv) { return vec2(dot(i.map_u, uv), -dot(i.map_v, uv)); }
 
 // Tangent at a corner, weighted by its angle.
-vec3 tangentAt(PosedInstance i, uint corner) {
+vec3 tangentAt(const PosedInstance i, const uint corner) {
     UintArray indices = UintArray(i.indices);
     MorphedArray morphed = MorphedArray(i.morphed);
     uint triangle = corner / 3 * 3, at = corner - triangle;

@@ -15,12 +15,12 @@ layout(set = SET_MOMENTS, binding = BINDING_MOMENT_TARGET) uniform writeonly ima
 const int REACH = int(feature_shadow_kernel / 2u), MOST_REACH = 3;  // texels on each side of the centre
 
 // Half the side is two standard deviations, slightly more for narrow kernels.
-float gaussian(int k) {
+float gaussian(const int k) {
     float x = float(k) / (0.15 * float(feature_shadow_kernel) + 0.35);
     return exp(-0.5 * x * x);
 }
 
-vec4 momentsAt(ivec2 p) {
+vec4 momentsAt(const ivec2 p) {
     vec4 moments = texelFetch(source, ivec3(p, 0), 0);
     return feature_shadows == SHADOWS_EVSM ? vec4(moments.xy, 0.0, 0.0) : moments;
 }

@@ -15,7 +15,7 @@ layout(set = SET_DEPTH_BOUNDS, binding = BINDING_DEPTH_BOUNDS, scalar) buffer De
     DepthBounds bounds;
 };
 
-void add(float z, inout uint nearest, inout uint deepest) {
+void add(const float z, inout uint nearest, inout uint deepest) {
     uint bits = floatBitsToUint(z);
     nearest = max(nearest, bits);
     deepest = z > 0.0 ? min(deepest, bits) : deepest;  // 0: no geometry

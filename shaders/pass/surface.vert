@@ -38,10 +38,10 @@ Vertex vertexAt() {
     return v;
 }
 
-vec2 bounded(vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
+vec2 bounded(const vec2 uv) { return clamp(uv, vec2(-MAX_TEXCOORD), vec2(MAX_TEXCOORD)); }
 
 // Applies KHR_texture_transform and selects the UV set.
-vec2 slotTexcoord(uint slot, vec4 texcoords) {
+vec2 slotTexcoord(const uint slot, const vec4 texcoords) {
     vec2 uv = bounded((material.second_texcoord & (1u << slot)) != 0 ? texcoords.zw : texcoords.xy);
     TextureTransform t = material.transforms[slot];
     return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));

@@ -8,7 +8,7 @@
 layout(set = SET_GBUFFER, binding = BINDING_BACKDROP) uniform texture2D backdrop;
 
 // Bilinear, clamped to the edge. `p`: pixels of level 0.
-vec3 backdropLevel(vec2 p, int level) {
+vec3 backdropLevel(const vec2 p, const int level) {
     ivec2 size = textureSize(backdrop, level);
     vec2 q = p * (vec2(size) / vec2(textureSize(backdrop, 0))) - 0.5;
     vec2 first = floor(q), t = q - first;
@@ -19,7 +19,7 @@ vec3 backdropLevel(vec2 p, int level) {
 }
 
 // Radiance, W/(sr m^2), at pixel `p`, which may lie outside the picture. `level`: at least 0, between levels.
-vec3 backdropAt(vec2 p, float level) {
+vec3 backdropAt(const vec2 p, const float level) {
     vec2 inside = clamp(p, vec2(0.0), vec2(textureSize(backdrop, 0)));
     float last = float(textureQueryLevels(backdrop) - 1), at = min(level, last), first = floor(at);
     vec3 fine = backdropLevel(inside, int(first));

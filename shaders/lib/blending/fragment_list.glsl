@@ -28,15 +28,15 @@ BlendedConstants list_of = constants.blended;
 uint listedPixels() { return list_of.width * list_of.rows; }
 
 // Whether the buffers cover the pixel.
-bool isListed(uvec2 pixel) {
+bool isListed(const uvec2 pixel) {
     return pixel.y >= list_of.first_row && pixel.y - list_of.first_row < list_of.rows;
 }
 
-uint listedPixel(uvec2 pixel) { return (pixel.y - list_of.first_row) * list_of.width + pixel.x; }
+uint listedPixel(const uvec2 pixel) { return (pixel.y - list_of.first_row) * list_of.width + pixel.x; }
 
 // Sort key that grows with distance. At equal depth, the fragment later in the scene is in front. `z`:
 // reversed depth, 0 to 1. `triangle`: index among all blended triangles.
-uint64_t fragmentKey(float z, uint triangle) {
+uint64_t fragmentKey(const float z, const uint triangle) {
     return (uint64_t(~floatBitsToUint(max(z, 0.0))) << 32) | uint64_t(~(triangle + 1u));
 }
 
@@ -51,22 +51,22 @@ void insertKey(uint pixel, uint64_t key) {
 }
 
 // List index of an inserted key; `layers` if it overflowed.
-uint placeOf(uint pixel, uint64_t key) {
+uint placeOf(const uint pixel, const uint64_t key) {
     uint i = 0;
     while (i < list_of.layers && fragment_keys[i * listedPixels() + pixel] < key) ++i;
     if (i < list_of.layers && fragment_keys[i * listedPixels() + pixel] != key) i = list_of.layers;
     return i;
 }
 
-uint sumOf(uint pixel, uint sum) { return (list_of.layers + sum) * listedPixels() + pixel; }
-uint counter(uint number) { return (list_of.layers + FRAGMENT_SUMS) * listedPixels() + number; }
+uint sumOf(const uint pixel, const uint sum) { return (list_of.layers + sum) * listedPixels() + pixel; }
+uint counter(const uint number) { return (list_of.layers + FRAGMENT_SUMS) * listedPixels() + number; }
 
-void addToSum(uint pixel, uint sum, float value) {
+void addToSum(const uint pixel, const uint sum, const float value) {
     float limited = clamp(value, -FRAGMENT_SUM_MOST, FRAGMENT_SUM_MOST);
     atomicAdd(fragment_keys[sumOf(pixel, sum)], uint64_t(int64_t(limited / FRAGMENT_SUM_UNIT)));
 }
 
-float sumAt(uint pixel, uint sum) {
+float sumAt(const uint pixel, const uint sum) {
     return float(int64_t(fragment_keys[sumOf(pixel, sum)])) * FRAGMENT_SUM_UNIT;
 }
 

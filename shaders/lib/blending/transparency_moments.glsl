@@ -12,16 +12,16 @@ layout(set = SET_GBUFFER, binding = BINDING_BLENDED_DEPTHS) uniform texture2D bl
 layout(set = SET_GBUFFER, binding = BINDING_BLENDED_MOMENTS) uniform texture2D blended_moments;
 
 // In [-1, 1], where moments keep the most digits.
-float momentDepth(float z) { return 2.0 * blendedDepth(z) - 1.0; }
+float momentDepth(const float z) { return 2.0 * blendedDepth(z) - 1.0; }
 
-vec4 powersOf(float depth) {
+vec4 powersOf(const float depth) {
     float square = depth * depth;
     return vec4(depth, square, square * depth, square * square);
 }
 
 // Transmittance of all layers in front of reversed depth `z`, and of a quarter of those at it (section 3.3
 // of the paper: between the bounds that the moments leave).
-float transmittanceBefore(ivec2 p, float z) {
+float transmittanceBefore(const ivec2 p, const float z) {
     const float BIAS = 5e-7;  // towards an even distribution, for float32 (section 4.1)
     const float OF_THOSE_AT = 0.25;
     float total = texelFetch(blended_depths, p, 0).r;

@@ -14,7 +14,7 @@ struct Hazed {
 
 // e^x and e^x - 1 for x in [-87, 60]; relative error at most 2e-7. GLSL's exp() guarantees no relative
 // accuracy near 0. The polynomial is that of Moshier's expf (Cephes).
-void exponential(vec3 x, out vec3 whole, out vec3 less_one) {
+void exponential(const vec3 x, out vec3 whole, out vec3 less_one) {
     vec3 n = floor(x * 1.44269504 + 0.5);
     vec3 r = (x - n * 0.693359375) + n * 2.12194440e-4;  // ln 2 in two parts
     vec3 p = 1.3981999507e-3 + r * 1.9875691500e-4;
@@ -29,7 +29,7 @@ void exponential(vec3 x, out vec3 whole, out vec3 less_one) {
 }
 
 // Transmittance at an optical depth, and 1 - transmittance.
-void attenuation(vec3 depth, out vec3 through, out vec3 lost) {
+void attenuation(const vec3 depth, out vec3 through, out vec3 lost) {
     exponential(-min(depth, vec3(87.0)), through, lost);
     lost = -lost;
 }
@@ -37,7 +37,7 @@ void attenuation(vec3 depth, out vec3 through, out vec3 lost) {
 // Air along a segment, in m of air at height 0. The segment is `reach` metres long and rises by `rise`.
 // Counting from the lower, densest end avoids overflow and makes both directions agree. The mean density
 // over the rise is (1 - e^-x) / x of that at the lower end.
-float airAlong(float height, float rise, float reach, float inverse_height) {
+float airAlong(const float height, const float rise, const float reach, const float inverse_height) {
     float low = height + min(rise, 0.0), x = max(abs(rise) * inverse_height, 1e-30);
     vec3 whole, less_one;
     exponential(vec3(clamp(-low * inverse_height, -87.0, 60.0), -min(x, 87.0), 0.0), whole, less_one);
@@ -45,7 +45,7 @@ float airAlong(float height, float rise, float reach, float inverse_height) {
 }
 
 // Air along an endless ray; `up` is the sine of its elevation. Finite only for rays that rise.
-float airBeyond(float height, float up, float inverse_height) {
+float airBeyond(const float height, const float up, const float inverse_height) {
     vec3 whole, less_one;
     exponential(vec3(clamp(-height * inverse_height, -87.0, 60.0), 0.0, 0.0), whole, less_one);
     return up > 0.0 ? min(whole.x / max(up * inverse_height, 1e-30), HAZE_OPAQUE_METRES) : HAZE_OPAQUE_METRES;
@@ -53,7 +53,7 @@ float airBeyond(float height, float up, float inverse_height) {
 
 // Phase functions for sunlight: Rayleigh for molecules, Cornette and Shanks 1992 for aerosols. The squared
 // distance of two unit vectors stays exact where their cosine is near 1.
-void phases(Haze h, vec3 away, out vec3 rayleigh, out vec3 mie) {
+void phases(const Haze h, const vec3 away, out vec3 rayleigh, out vec3 mie) {
     vec3 apart = away - h.to_sun;
     float d2 = dot(apart, apart), cosine = 1.0 - 0.5 * d2, k = h.phase_0 + h.phase_1 * d2;
     float both = 1.0 + cosine * cosine;
@@ -62,7 +62,7 @@ void phases(Haze h, vec3 away, out vec3 rayleigh, out vec3 mie) {
 }
 
 // Haze with one scale height: the source term is constant along the ray.
-Hazed hazeOfAir(Haze h, float air, vec3 away) {
+Hazed hazeOfAir(const Haze h, const float air, const vec3 away) {
     vec3 through, lost, source = vec3(0.0);
     attenuation(h.extinction * air, through, lost);
     if (on(feature_haze & HAZE_SUN)) {
@@ -75,7 +75,7 @@ Hazed hazeOfAir(Haze h, float air, vec3 away) {
 }
 
 // -ln(1 - z) / z for z in [0, 1).
-float logRatio(float z) {
+float logRatio(const float z) {
     float w = min(z, 0.9999999);
     return w < 0.01 ? 1.0 + w * (0.5 + w * (0.33333333 + w * 0.25)) : -log(1.0 - w) / w;
 }
@@ -89,7 +89,7 @@ struct AirRay {
 };
 
 // Rays that descend end at optical depth HAZE_ENDLESS_DEPTH; so do endless level rays.
-AirRay airRay(Haze h, float height, vec3 away, float reach, bool endless) {
+AirRay airRay(const Haze h, const float height, const vec3 away, const float reach, const bool endless) {
     AirRay ray = AirRay(height, away.y, reach, HAZE_OPAQUE_METRES, 0.0, away.y > 0.0);
     float here = exp(clamp(-height * h.inverse_height, -87.0, 60.0));
     float most = HAZE_ENDLESS_DEPTH / h.extinction.x;
@@ -114,7 +114,7 @@ AirRay airRay(Haze h, float height, vec3 away, float reach, bool endless) {
 // Distance along the ray at which a `share` of the steps ends. Steps are uniform in the square root of the
 // mean air's remaining attenuation; `lost` is the whole ray's. This puts more steps far away, where the
 // air is thinner than its mean or transmits some colours better.
-float placeOf(AirRay ray, Haze h, float share, float lost) {
+float placeOf(const AirRay ray, const Haze h, const float share, const float lost) {
     float z = share * (2.0 - share) * lost, air = min(z * logRatio(z) / h.extinction.x, ray.air);
     float from_low = (ray.climbs ? air : ray.air - air) / ray.low;
     float along = from_low * logRatio(from_low * abs(ray.up) * h.inverse_height);
@@ -122,7 +122,8 @@ float placeOf(AirRay ray, Haze h, float share, float lost) {
 }
 
 // Source term at a height: light scattered to the viewer divided by extinction.
-vec3 sourceAt(Haze h, HazeMarch m, float height, vec3 rayleigh_phase, vec3 mie_phase) {
+vec3 sourceAt(const Haze h, const HazeMarch m, const float height, const vec3 rayleigh_phase,
+              const vec3 mie_phase) {
     float r = exp(clamp(-height * m.rayleigh_inverse, -87.0, 60.0));
     float a = exp(clamp(-height * m.mie_inverse, -87.0, 60.0));
     vec3 molecules = m.rayleigh * r, aerosols = m.mie * a, extinction = molecules + m.mie_extinction * a;
@@ -138,7 +139,8 @@ vec3 sourceAt(Haze h, HazeMarch m, float height, vec3 rayleigh_phase, vec3 mie_p
 
 // Haze with two scale heights. Each step adds the source term at its middle times the transmittance lost
 // over the step (Hillaire 2020). A constant source gives the exact result for any number of steps.
-Hazed marchedHaze(Haze h, HazeMarch m, float height, vec3 away, float reach, bool endless) {
+Hazed marchedHaze(const Haze h, const HazeMarch m, const float height, const vec3 away, const float reach,
+                  const bool endless) {
     vec3 rayleigh_phase = vec3(0.0), mie_phase = vec3(0.0);
     if (on(feature_haze & HAZE_SUN)) phases(h, away, rayleigh_phase, mie_phase);
     AirRay ray = airRay(h, height, away, reach, endless);

@@ -12,17 +12,17 @@
 layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAPS) uniform sampler2D environment_maps;
 
 // Coordinates of a direction in an octahedral map, in [-1, 1]^2; +Y is in the centre.
-vec2 octahedralPlace(vec3 d) {
+vec2 octahedralPlace(const vec3 d) {
     vec2 p = d.xz * (1.0 / (abs(d.x) + abs(d.y) + abs(d.z)));
     if (d.y < 0.0) p = octahedralWrap(p);
     return p;
 }
 
-vec3 mapTexel(ivec2 p) { return texelFetch(environment_maps, p, 0).rgb; }
+vec3 mapTexel(const ivec2 p) { return texelFetch(environment_maps, p, 0).rgb; }
 
 // `map`: corner of the map's nodes, and nodes per side. Interpolates linearly over the two triangles of a
 // cell, split along the diagonal where the map folds (shared/environment/octahedral_map.h).
-vec3 mapRadiance(vec3 map, vec2 place) {
+vec3 mapRadiance(const vec3 map, const vec2 place) {
     vec2 at = (place * 0.5 + 0.5) * (map.z - 1.0);
     vec2 corner = clamp(floor(at), vec2(0.0), vec2(map.z - 2.0)), f = at - corner;
     ivec2 c = ivec2(map.xy + corner);
@@ -48,18 +48,18 @@ vec3 levelRadiance(float level, vec2 place) {
 }
 
 // Level for a GGX width; level 0 has the smallest width that is shaded.
-float specularLevel(float alpha) {
+float specularLevel(const float alpha) {
     float first = log2(ENVIRONMENT_FIRST_ALPHA), least = 2.0 * log2(MIN_PERCEPTUAL_ROUGHNESS);
     float octaves = log2(alpha);
     return octaves < first ? (octaves - least) / (first - least)
                            : 1.0 + float(ENVIRONMENT_LEVELS_AN_OCTAVE) * (octaves - first);
 }
 
-vec4 harmonic(int i) { return texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_HARMONICS) + i); }
+vec4 harmonic(const int i) { return texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_HARMONICS) + i); }
 
 // Irradiance over pi, W/(sr m^2); `n` in world axes. Harmonics ring around hard light, so negative values
 // are clamped to 0.
-vec3 environmentIrradiance(vec3 n) {
+vec3 environmentIrradiance(const vec3 n) {
     if (on(feature_environment & ENVIRONMENT_DIFFUSE_MAP))
         return mapRadiance(texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).xyz,
                            octahedralPlace(environmentFromWorld(n)));
@@ -72,12 +72,12 @@ vec3 environmentIrradiance(vec3 n) {
 }
 
 // GGX's Lambda (Heitz 2014, equation 72).
-float smithLambda(float alpha2, float cosine) {
+float smithLambda(const float alpha2, const float cosine) {
     float c2 = cosine * cosine;
     return 0.5 * (sqrt(1.0 + alpha2 * max(1.0 - c2, 0.0) / c2) - 1.0);
 }
 // `w`: unit vector; its components along the lobe, across it and along the normal.
-float smithLambda(Brdf b, vec3 w) {
+float smithLambda(const Brdf b, const vec3 w) {
     vec2 wide = w.xy * b.alphas;
     float stretched = 0.5 * (sqrt(1.0 + dot(wide, wide) / (w.z * w.z)) - 1.0);
     return b.anisotropic ? stretched : smithLambda(b.alpha2, w.z);
@@ -86,7 +86,7 @@ float smithLambda(Brdf b, vec3 w) {
 // Environment light that the lobe reflects to `v`, by sampling visible normals (Heitz 2018, "Sampling the
 // GGX Distribution of Visible Normals"). Each sample reads the level whose texels match its solid angle.
 // Hammersley points, the same at every pixel, avoid noise.
-vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
+vec3 sampledSpecular(const Brdf b, const vec3 n, const vec3 v) {
     vec3 x, y;
     axesAcross(n, x, y);
     vec2 alphas = vec2(b.alpha);
@@ -127,7 +127,7 @@ vec3 sampledSpecular(Brdf b, vec3 n, vec3 v) {
 
 // Normal about which a stretched lobe is mirrored: bent from the surface's to the plane of the view and the
 // direction across (McAuley 2015, "Rendering the World of Far Cry 4"), less for rough lobes.
-vec3 bentNormal(Brdf b, vec3 n, vec3 v, float strength) {
+vec3 bentNormal(const Brdf b, const vec3 n, const vec3 v, const float strength) {
     vec3 bent = v - b.across * b.viewed.y;
     float length2 = dot(bent, bent), weight = 1.0 - strength * (1.0 - sqrt(b.alphas.y));
     weight *= weight;
@@ -136,7 +136,7 @@ vec3 bentNormal(Brdf b, vec3 n, vec3 v, float strength) {
 }
 
 // Environment light that the lobe reflects to `v`, times `factor`. `mirror`: the normal that mirrors it.
-vec3 lobeEnvironment(Brdf b, vec3 n, vec3 mirror, vec3 v, float factor) {
+vec3 lobeEnvironment(const Brdf b, const vec3 n, const vec3 mirror, const vec3 v, const float factor) {
     vec3 from_lobe;
     vec3 r = environmentFromWorld(reflection(-v, mirror));
     if (on(feature_environment & ENVIRONMENT_SAMPLED))
@@ -148,7 +148,7 @@ vec3 lobeEnvironment(Brdf b, vec3 n, vec3 mirror, vec3 v, float factor) {
 
 // Environment light reflected to `v` by the base and by the lobe, dimmed by occlusion. A lightmapped base
 // takes its light from the lightmap instead.
-void reflectEnvironment(Surface s, Brdf b, vec3 v, out vec3 from_base, out vec3 from_lobe) {
+void reflectEnvironment(const Surface s, const Brdf b, const vec3 v, out vec3 from_base, out vec3 from_lobe) {
     float factor = environmentFactor() * s.occlusion;
     vec3 received = environmentIrradiance(s.normal) * factor;
     from_base = b.diffuse * PI * baseShare(b) * received;

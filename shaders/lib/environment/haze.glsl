@@ -8,7 +8,7 @@
 
 layout(set = SET_FRAME, binding = BINDING_HAZE) uniform samplerBuffer haze_texels;
 
-vec4 hazeTexel(uint i) { return texelFetch(haze_texels, int(i)); }
+vec4 hazeTexel(const uint i) { return texelFetch(haze_texels, int(i)); }
 
 // Only ambient light and ray marching use the last texel.
 Haze readHaze() {
@@ -22,7 +22,7 @@ HazeMarch readHazeMarch() {
 }
 
 // Haze between the camera and `position` (world axes, camera as origin, m).
-Hazed hazeTo(vec3 position) {
+Hazed hazeTo(const vec3 position) {
     Haze h = readHaze();
     float reach, height = h.camera_height, rise = position.y;
     vec3 away;
@@ -41,7 +41,7 @@ Hazed hazeTo(vec3 position) {
 }
 
 // Haze in front of the background along a ray from `origin` (camera as origin, m); `away`: unit.
-Hazed hazeBeyond(vec3 origin, vec3 away) {
+Hazed hazeBeyond(const vec3 origin, const vec3 away) {
     Haze h = readHaze();
     float height = h.camera_height + origin.y;
     if (on(feature_haze & HAZE_MARCHED)) return marchedHaze(h, readHazeMarch(), height, away, 0.0, true);

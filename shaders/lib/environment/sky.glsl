@@ -12,7 +12,7 @@ layout(set = SET_FRAME, binding = BINDING_SKY) uniform sampler2D sky;
 vec4 environmentTurn() { return texelFetch(environment_texels, 0); }
 
 // World direction to the environment's axes.
-vec3 environmentFromWorld(vec3 d) {
+vec3 environmentFromWorld(const vec3 d) {
     vec4 turn = environmentTurn();
     vec3 turned = vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
     return turned;
@@ -31,7 +31,7 @@ vec3 skyTexel(ivec2 p, ivec2 size) {
 }
 
 // W/(sr m^2); `d` unit, in the environment's axes. Bilinear between pixel centres.
-vec3 skyRadiance(vec3 d) {
+vec3 skyRadiance(const vec3 d) {
     ivec2 size = textureSize(sky, 0);
     float across = lengthOf(d.xz), least = max(across, 1e-30);
     float azimuth = angleOf(-d.z / least, abs(d.x) / least), polar = angleOf(d.y, across);

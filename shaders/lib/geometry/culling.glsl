@@ -18,11 +18,11 @@ struct CulledPicture {
 
 // Error margins of the clip-plane distances, by pairs of planes: w + x and w - x, w + y and w - y, w - z.
 // Both terms of each contribute.
-vec3 slackOf(CulledItem item) { return item.error.xyz + vec3(item.error.w); }
+vec3 slackOf(const CulledItem item) { return item.error.xyz + vec3(item.error.w); }
 
 // Whether an object-space box is entirely outside one clip plane, by its largest plane distance.
 // item.error bounds the products of two shaders; one shader's products and this sum round no more often.
-bool isBeyondView(CulledItem item, vec3 low, vec3 high) {
+bool isBeyondView(const CulledItem item, const vec3 low, const vec3 high) {
     mat4 rows = transpose(item.clip_from_object);
     vec3 slack = slackOf(item), middle = 0.5 * (low + high), reach = 0.5 * (high - low);
     vec4 sides[6] = vec4[6](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
@@ -36,7 +36,7 @@ bool isBeyondView(CulledItem item, vec3 low, vec3 high) {
 }
 
 // Location of sample i from the pixel's upper left corner, pixels.
-vec2 culledSamplePlace(uint samples, uint i) {
+vec2 culledSamplePlace(const uint samples, const uint i) {
     uint low = samples == 4u ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
     uint place = (i < 4u ? low : SAMPLE_PLACES_8_HIGH) >> (8u * (i & 3u));
     return samples == 1u ? vec2(0.5) : vec2(place & 15u, place >> 4 & 15u) / 16.0;
@@ -44,7 +44,7 @@ vec2 culledSamplePlace(uint samples, uint i) {
 
 // Edge function from a to b, both relative to a sample; positive inside after `turn`. Also its change from
 // one sample to the next, across and down.
-vec3 edgeSide(float turn, vec2 a, vec2 b) {
+vec3 edgeSide(const float turn, const vec2 a, const vec2 b) {
     return turn * vec3(a.x * b.y - a.y * b.x, a.y - b.y, b.x - a.x);
 }
 
@@ -54,7 +54,7 @@ struct ClipTriangle {
 };
 
 // Whether all corners are outside one clip plane.
-bool isBeyondView(CulledItem item, ClipTriangle t) {
+bool isBeyondView(const CulledItem item, const ClipTriangle t) {
     vec3 slack = slackOf(item);
     return all(lessThan(t.w + t.x, vec3(-slack.x))) || all(lessThan(t.w - t.x, vec3(-slack.x))) ||
            all(lessThan(t.w + t.y, vec3(-slack.y))) || all(lessThan(t.w - t.y, vec3(-slack.y))) ||
@@ -62,7 +62,7 @@ bool isBeyondView(CulledItem item, ClipTriangle t) {
 }
 
 // Whether all corners are inside all clip planes, so that the triangle is not clipped.
-bool isWithinView(CulledItem item, ClipTriangle t) {
+bool isWithinView(const CulledItem item, const ClipTriangle t) {
     vec3 slack = slackOf(item);
     return all(greaterThanEqual(t.w - abs(t.x), vec3(slack.x))) &&
            all(greaterThanEqual(t.w - abs(t.y), vec3(slack.y))) &&
@@ -83,7 +83,7 @@ struct PixelTriangle {
 // Rasterised corners are within `off` pixels of these, across and down. x / w is at most 1; the errors
 // of x and of w both count, divided by the smallest possible w. Rounding of pixel coordinates and the
 // rasteriser's snapping add to it.
-PixelTriangle inPixels(CulledItem item, CulledPicture picture, ClipTriangle t) {
+PixelTriangle inPixels(const CulledItem item, const CulledPicture picture, const ClipTriangle t) {
     PixelTriangle c;
     float nearest = min(t.w.x, min(t.w.y, t.w.z)) - item.error.w;
     vec2 far = picture.half_size * slackOf(item).xy / nearest;
@@ -102,7 +102,7 @@ PixelTriangle inPixels(CulledItem item, CulledPicture picture, ClipTriangle t) {
 // glTF's front faces are counter-clockwise, a negative area here because y points down. Corners that
 // are each off by `wide` change the doubled area by at most wide * perimeter + 3 wide^2. The box's
 // perimeter bounds the triangle's. The last term is float32 rounding of the area.
-bool facesAway(PixelTriangle t) {
+bool facesAway(const PixelTriangle t) {
     vec2 to_second = t.q - t.p, to_third = t.r - t.p;
     float one = to_second.x * to_third.y, other = to_second.y * to_third.x;
     float uncertain = 1.01 * t.wide * (2.0 * t.reach + 3.0 * t.wide) + 5e-7 * (abs(one) + abs(other));
@@ -112,7 +112,7 @@ bool facesAway(PixelTriangle t) {
 // For triangles of a few pixels: whether a sample is inside all edges. Moving a corner changes the
 // doubled area by the move times the distance of the other points, which are in the box. The margin
 // includes float32 rounding. No branch depends on a sample's result, because all cost the same.
-bool coversSample(PixelTriangle t, uint samples) {
+bool coversSample(const PixelTriangle t, const uint samples) {
     const int few = 6;
     float margin = 1.01 * t.wide * (2.0 * t.reach + t.wide);
     bool covers = false;
@@ -139,7 +139,8 @@ bool coversSample(PixelTriangle t, uint samples) {
 }
 
 // Whether a triangle may cover a sample of its draw; corners in object space, m.
-bool mayShow(CulledItem item, CulledPicture picture, vec3 first, vec3 second, vec3 third) {
+bool mayShow(const CulledItem item, const CulledPicture picture, const vec3 first, const vec3 second,
+             const vec3 third) {
     vec4 a = item.clip_from_object * vec4(first, 1.0), b = item.clip_from_object * vec4(second, 1.0),
          c = item.clip_from_object * vec4(third, 1.0);
     ClipTriangle clip = ClipTriangle(vec3(a.x, b.x, c.x), vec3(a.y, b.y, c.y), vec3(a.z, b.z, c.z),

@@ -5,7 +5,7 @@
 #ifndef FULL_SCREEN_GLSL
 #define FULL_SCREEN_GLSL
 
-vec4 fullScreenCorner(int vertex) {
+vec4 fullScreenCorner(const int vertex) {
     return vec4(vertex == 1 ? 3.0 : -1.0, vertex == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }
 

@@ -32,7 +32,9 @@ ARRAY_AT(MorphedArray, MorphedVertex)
 #undef ARRAY_AT
 #ifdef STAGE_comp
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PairArray { uint64_t at[]; };
-vec2 pairAt(uvec2 address, uint at) { return uintBitsToFloat(unpack32(PairArray(address).at[at])); }
+vec2 pairAt(const uvec2 address, const uint at) {
+    return uintBitsToFloat(unpack32(PairArray(address).at[at]));
+}
 #endif
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PosedInstanceBlock {
     PosedInstance instance;
@@ -62,42 +64,42 @@ MORPHED(morphed4, vec4, Vec4Array)
 #undef MORPHED
 
 // Object axes, from the pivot, m.
-vec3 morphedPosition(PosedInstance i, uint vertex) {
+vec3 morphedPosition(const PosedInstance i, const uint vertex) {
     vec3 rest = Vec3Array(i.positions).at[vertex];
     return morphed3(i, rest - i.pivot, 0, i.positions_end, vertex);
 }
 // Object axes, any length.
-vec3 morphedNormal(PosedInstance i, uint vertex) {
+vec3 morphedNormal(const PosedInstance i, const uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].normal;
     return morphed3(i, rest, i.positions_end, i.normals_end, vertex);
 }
-vec2 morphedTexcoord0(PosedInstance i, uint vertex) {
+vec2 morphedTexcoord0(const PosedInstance i, const uint vertex) {
     vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord0;
     return morphed2(i, rest, i.tangents_end, i.texcoords0_end, vertex);
 }
-vec2 morphedTexcoord1(PosedInstance i, uint vertex) {
+vec2 morphedTexcoord1(const PosedInstance i, const uint vertex) {
     vec2 rest = AttributesArray(i.attributes).at[vertex].texcoord1;
     return morphed2(i, rest, i.texcoords0_end, i.texcoords1_end, vertex);
 }
-vec4 morphedColor(PosedInstance i, uint vertex) {
+vec4 morphedColor(const PosedInstance i, const uint vertex) {
     vec4 rest = AttributesArray(i.attributes).at[vertex].color;
     vec4 sum = morphed4(i, rest, i.texcoords1_end, i.colors_end, vertex);
     return i.colors_end > i.texcoords1_end ? clamp(sum, vec4(0.0), vec4(1.0)) : sum;
 }
 
-uvec2 jointsAt(PosedInstance i, uint at) {
+uvec2 jointsAt(const PosedInstance i, const uint at) {
 #ifdef STAGE_comp
     if (loadsPairs()) return unpack32(PairArray(i.joints).at[at]);
 #endif
     return Uvec2Array(i.joints).at[at];
 }
-vec4 jointWeightsAt(PosedInstance i, uint at) {
+vec4 jointWeightsAt(const PosedInstance i, const uint at) {
 #ifdef STAGE_comp
     if (loadsPairs()) return vec4(pairAt(i.joint_weights, 2 * at), pairAt(i.joint_weights, 2 * at + 1));
 #endif
     return Vec4Array(i.joint_weights).at[at];
 }
-mat4x3 matrixAt(PosedInstance i, uint at) {
+mat4x3 matrixAt(const PosedInstance i, const uint at) {
 #ifdef STAGE_comp
     if (loadsPairs()) {
         vec2 a = pairAt(i.matrices, 6 * at), b = pairAt(i.matrices, 6 * at + 1);
@@ -109,7 +111,7 @@ mat4x3 matrixAt(PosedInstance i, uint at) {
     return MatrixArray(i.matrices).at[at];
 }
 
-float largestOf(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+float largestOf(const vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 // A matrix's axes divided by its largest component, since products of very long or short axes leave
 // float32. `scale` is one over that component; 0 if all are 0.
@@ -117,7 +119,7 @@ struct Axes {
     vec3 x, y, z;
     float scale;
 };
-Axes axesOf(mat4x3 matrix) {
+Axes axesOf(const mat4x3 matrix) {
     float largest = max(largestOf(matrix[0]), max(largestOf(matrix[1]), largestOf(matrix[2])));
     float scale = largest > 0.0 ? 1.0 / largest : 0.0;
     return Axes(matrix[0] * scale, matrix[1] * scale, matrix[2] * scale, scale);
@@ -125,7 +127,7 @@ Axes axesOf(mat4x3 matrix) {
 
 // Any length. Cofactors are the inverse transpose times the determinant; they also exist for singular
 // matrices.
-vec3 byCofactors(Axes a, vec3 normal) {
+vec3 byCofactors(const Axes a, const vec3 normal) {
     return crossProduct(a.y, a.z) * normal.x + crossProduct(a.z, a.x) * normal.y +
            crossProduct(a.x, a.y) * normal.z;
 }
@@ -139,7 +141,8 @@ struct Joined {
 
 // The determinant's sign is ignored; PosedInstance::handedness contains it. The ratio to the first joint's
 // determinant is 1 at a vertex of one joint, whose normal then equals that joint's cofactors bit for bit.
-void addJoint(inout Joined sum, mat4x3 matrix, float weight, bool of_joints, vec3 normal) {
+void addJoint(inout Joined sum, const mat4x3 matrix, const float weight, const bool of_joints,
+              const vec3 normal) {
     sum.matrix += weight * matrix;
     if (!of_joints) return;
     Axes a = axesOf(matrix);
@@ -150,7 +153,7 @@ void addJoint(inout Joined sum, mat4x3 matrix, float weight, bool of_joints, vec
     sum.normal += share * byCofactors(a, normal);
 }
 
-Joined joined(PosedInstance i, uint vertex, bool of_joints, vec3 normal) {
+Joined joined(const PosedInstance i, const uint vertex, const bool of_joints, const vec3 normal) {
     Joined sum = Joined(mat4x3(0.0), vec3(0.0), 0.0);
     if (i.joint_sets == 0) sum.matrix = matrixAt(i, 0);
     for (uint set = 0; set < i.joint_sets; ++set) {
@@ -166,17 +169,17 @@ Joined joined(PosedInstance i, uint vertex, bool of_joints, vec3 normal) {
 }
 
 // World axes, from the box's origin, m. NaN beyond MAX_POSED_COORDINATE, as in the reference.
-vec3 placedBy(mat4x3 matrix, vec3 position) {
+vec3 placedBy(const mat4x3 matrix, const vec3 position) {
     vec3 placed = matrix * vec4(position, 1.0);
     bool within = all(lessThanEqual(abs(placed), vec3(MAX_POSED_COORDINATE)));
     return within ? placed : vec3(uintBitsToFloat(0x7fc00000u));
 }
-vec3 posedPosition(PosedInstance i, uint vertex) {
+vec3 posedPosition(const PosedInstance i, const uint vertex) {
     return placedBy(joined(i, vertex, false, vec3(0.0)).matrix, morphedPosition(i, vertex));
 }
 
 // Normal of a vertex of a flat-shaded triangle, from the deformed corners.
-vec3 flatNormal(PosedInstance i, uint vertex) {
+vec3 flatNormal(const PosedInstance i, const uint vertex) {
     uint first = vertex / 3 * 3;
     vec3 a = posedPosition(i, first);
     vec3 u = posedPosition(i, first + 1) - a, v = posedPosition(i, first + 2) - a;
@@ -187,7 +190,7 @@ vec3 flatNormal(PosedInstance i, uint vertex) {
 
 // Object axes, any length; used to make tangents. For a flat-shaded triangle, the morphed triangle's own
 // normal.
-vec3 morphedSurfaceNormal(PosedInstance i, uint vertex) {
+vec3 morphedSurfaceNormal(const PosedInstance i, const uint vertex) {
     if (i.flat_normals == 0) return morphedNormal(i, vertex);
     uint first = vertex / 3 * 3;
     vec3 a = morphedPosition(i, first);
@@ -198,12 +201,12 @@ vec3 morphedSurfaceNormal(PosedInstance i, uint vertex) {
 }
 
 // A unit vector perpendicular to the normal, if the tangent's direction is unknown.
-vec3 anyTangent(vec3 normal) {
+vec3 anyTangent(const vec3 normal) {
     return unitVector(crossProduct(abs(normal.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), normal));
 }
 
 // Object axes, before skinning.
-vec3 morphedTangent(PosedInstance i, uint vertex) {
+vec3 morphedTangent(const PosedInstance i, const uint vertex) {
     vec3 rest = AttributesArray(i.attributes).at[vertex].tangent.xyz;
     if (i.groups > 0) {
         uint group = UintArray(i.group_of_vertex).at[vertex];
@@ -222,7 +225,7 @@ struct PosedVertex {
 
 // `of_joints`: each joint's inverse transpose transforms the normal, else the cofactors of the vertex's
 // matrix do.
-PosedVertex posedVertex(PosedInstance i, uint vertex, bool of_joints) {
+PosedVertex posedVertex(const PosedInstance i, const uint vertex, const bool of_joints) {
     vec3 normal = morphedNormal(i, vertex);
     Joined by = joined(i, vertex, of_joints, normal);
     PosedVertex posed;

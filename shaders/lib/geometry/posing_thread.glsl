@@ -8,7 +8,7 @@
 layout(local_size_x = POSING_THREADS) in;
 layout(push_constant, scalar) uniform PosingBlock { PosingConstants constants; };
 
-bool has(uint part) { return (feature_posed_parts & part) != 0; }
+bool has(const uint part) { return (feature_posed_parts & part) != 0; }
 
 // Missing parts are constants when the shader is compiled. On lavapipe a loop without rounds costs as much
 // as one round, and a branch that is not taken as much as one that is.

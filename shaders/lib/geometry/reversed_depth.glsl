@@ -10,7 +10,7 @@
 // background. For standard depth it is 2^-22, because a rasteriser's rounding near 1 must not reach 1. A
 // surface nearer to the far end than half a step is placed at a quarter of one: without a far plane its
 // distance would be infinite.
-float reversedDepth(float stored) {
+float reversedDepth(const float stored) {
     if (feature_depth_format == DEPTH_REVERSED) return stored;
     bool standard = feature_depth_format == DEPTH_STANDARD;
     float first = feature_depth_format == DEPTH_STEPS_16 ? 1.0 / 65535.0 : 1.0 / 16777215.0;

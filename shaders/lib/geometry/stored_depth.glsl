@@ -11,10 +11,10 @@ layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform texture2D gbuffer_dep
 layout(set = SET_GBUFFER, binding = BINDING_DEPTH) uniform texture2DMS gbuffer_depth_samples;
 
 // Reversed, in [0, 1]. i: sample index; 0 without MSAA.
-float depthAt(ivec2 p, int i) {
+float depthAt(const ivec2 p, const int i) {
     if (multisampled()) return reversedDepth(texelFetch(gbuffer_depth_samples, p, i).r);
     return reversedDepth(texelFetch(gbuffer_depth, p, i).r);
 }
-float depthAt(ivec2 p) { return depthAt(p, 0); }
+float depthAt(const ivec2 p) { return depthAt(p, 0); }
 
 #endif

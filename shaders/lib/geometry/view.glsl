@@ -26,7 +26,7 @@ layout(location = 0) flat in uvec4 flat_view[PACKED_VIEW_TEXELS];
 
 #if defined(STAGE_frag) || defined(TEXEL_VIEW)
 
-uvec4 viewTexel(int i) {
+uvec4 viewTexel(const int i) {
 #ifdef FLAT_VIEW
     if (feature_view_source == VIEW_FLAT) return flat_view[i];
 #endif

@@ -45,12 +45,12 @@ struct AreaIncident {
 };
 
 // F0's fraction of the lobe's reflection.
-float evenShare(LtcCell cell, float f0, float f90) {
+float evenShare(const LtcCell cell, const float f0, const float f90) {
     float even = f0 * cell.magnitude, all = even + max(f90 - f0, 0.0) * cell.fresnel;
     return even / max(all, 1e-30);
 }
 
-AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
+AreaView areaViewOf(const Brdf brdf, const vec3 n, const vec3 v, const LtcCell cell) {
     AreaView a;
     a.brdf = brdf;
     a.woven = false;
@@ -78,7 +78,7 @@ AreaView areaViewOf(Brdf brdf, vec3 n, vec3 v, LtcCell cell) {
 layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
 
 // Looks up the table entry of a surface and makes its AreaView.
-AreaView areaView(Brdf brdf, Surface s, vec3 v) {
+AreaView areaView(const Brdf brdf, const Surface s, const vec3 v) {
     LtcCell cell = LtcCell(vec4(1.0), vec4(1.0), 1.0, 0.0);
     if (!areaPoints()) {
         float roughness = sqrt(brdf.alpha);
@@ -95,7 +95,8 @@ AreaView areaView(Brdf brdf, Surface s, vec3 v) {
     return areaViewOf(brdf, s.normal, v, cell);
 }
 
-AreaIncident fromAreaLight(Light light, AreaLight shape, vec3 position, bool flat_light) {
+AreaIncident fromAreaLight(const Light light, const AreaLight shape, const vec3 position,
+                           const bool flat_light) {
     AreaIncident i;
     i.centre = light.position - position;
     float d2 = max(dot(i.centre, i.centre), MIN_LIGHT_DISTANCE_SQUARED);
@@ -113,7 +114,8 @@ const float LTC_MOST_GAIN = 4.0;
 
 // Adds the sheen as if all light came from its mean direction `l` (unit). `received`: irradiance over the
 // radiance of the light, with the cosine.
-void addAreaSheen(AreaView a, vec3 l, float received, vec3 radiance, inout AreaSums sums) {
+void addAreaSheen(const AreaView a, const vec3 l, const float received, const vec3 radiance,
+                  inout AreaSums sums) {
     float n_dot_l = clamp(dot(a.n, l), 0.0, 1.0);
     float perpendicular = received / max(n_dot_l, 1e-4);
     vec3 reflected = sheenReflected(a.sheen, a.n, a.v, l, radiance * perpendicular);
@@ -126,7 +128,8 @@ void addAreaSheen(AreaView a, vec3 l, float received, vec3 radiance, inout AreaS
 // lobe. A small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted
 // density there. A light that fills the lobe reflects the table's albedo. The fourth root of the covered
 // share blends the two; it fits the lights of tests/probe/area_error_test.cpp best.
-void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout AreaSums sums) {
+void addFactors(const AreaView a, const vec3 plain, const vec3 lobe, const vec3 radiance,
+                inout AreaSums sums) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     vec3 base = reachingBase(a.brdf, weight);
@@ -153,7 +156,7 @@ void addFactors(AreaView a, vec3 plain, vec3 lobe, vec3 radiance, inout AreaSums
     if (a.woven) addAreaSheen(a, unitOrZero(world * plain), PI * max(plain.z, 0.0), radiance, sums);
 }
 
-void addAreaPoint(AreaView a, AreaPoint p, vec3 radiance, inout AreaSums sums) {
+void addAreaPoint(const AreaView a, const AreaPoint p, const vec3 radiance, inout AreaSums sums) {
     Lobes reflected = reflectPoint(a.brdf, a.n, a.v, p, radiance);
     bool lit = any(greaterThan(radiance, vec3(0.0)));
     if (lit) sums.diffuse += reflected.diffuse, sums.specular += reflected.specular;
@@ -163,9 +166,12 @@ void addAreaPoint(AreaView a, AreaPoint p, vec3 radiance, inout AreaSums sums) {
 
 // Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
 // near a huge light and far from a tiny one.
-float unitOf(AreaIncident i, AreaLight shape) { return 1.0 / (lengthOf(i.centre) + shape.extent); }
+float unitOf(const AreaIncident i, const AreaLight shape) {
+    return 1.0 / (lengthOf(i.centre) + shape.extent);
+}
 
-void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
+void addRect(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
+             inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
         addAreaPoint(a, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
@@ -178,7 +184,8 @@ void addRect(AreaView a, Light light, AreaLight shape, vec3 position, inout Area
     addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance, sums);
 }
 
-void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
+void addDisc(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
+             inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints()) {
         addAreaPoint(a, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
@@ -191,7 +198,8 @@ void addDisc(AreaView a, Light light, AreaLight shape, vec3 position, inout Area
     addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, sums);
 }
 
-void addTube(AreaView a, Light light, AreaLight shape, vec3 position, inout AreaSums sums) {
+void addTube(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
+             inout AreaSums sums) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
     bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&

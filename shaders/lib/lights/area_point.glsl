@@ -16,24 +16,24 @@ struct AreaPoint {
 
 // Where a ray meets the plane through c with normal n, relative to c. A ray that misses gives a far point
 // in its direction, projected onto the plane.
-vec3 onPlane(vec3 ray, vec3 c, vec3 n) {
+vec3 onPlane(const vec3 ray, const vec3 c, const vec3 n) {
     float towards = dot(ray, n), away = dot(c, n);
     bool meets = towards * away > 0.0;
     vec3 far_point = ray * (meets ? away / towards : 1e3 * lengthOf(c));
     vec3 from_centre = far_point - c;
     return from_centre - n * dot(from_centre, n);
 }
-vec3 onRect(vec3 ray, vec3 c, AreaLight s) {
+vec3 onRect(const vec3 ray, const vec3 c, const AreaLight s) {
     vec3 p = onPlane(ray, c, s.direction);
     return c + s.x * clamp(dot(p, s.x) / dot(s.x, s.x), -1.0, 1.0) +
            s.y * clamp(dot(p, s.y) / dot(s.y, s.y), -1.0, 1.0);
 }
-vec3 onDisc(vec3 ray, vec3 c, AreaLight s) {
+vec3 onDisc(const vec3 ray, const vec3 c, const AreaLight s) {
     vec3 p = onPlane(ray, c, s.direction);
     return c + p * min(s.radius * inversesqrt(max(dot(p, p), 1e-37)), 1.0);
 }
 // The nearest point of the axis, moved by at most the radius towards the ray.
-vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
+vec3 onTube(const vec3 ray, const vec3 c, const AreaLight s) {
     float half_length = lengthOf(s.x), slope = dot(ray, s.direction), along = dot(c, s.direction);
     float t = (slope * dot(c, ray) - along) / max(1.0 - slope * slope, 1e-6);
     vec3 p = c + s.direction * clamp(t, -half_length, half_length);
@@ -42,35 +42,36 @@ vec3 onTube(vec3 ray, vec3 c, AreaLight s) {
 }
 
 // Solid angle, sr; at most pi, the cosine-weighted solid angle of the hemisphere.
-float solidAngleOf(float area, float distance2) { return area / (distance2 + area * INVERSE_PI); }
+float solidAngleOf(const float area, const float distance2) { return area / (distance2 + area * INVERSE_PI); }
 
 // Centre of the specular lobe; roughness turns it from the mirrored view to the normal. Lagarde and de
 // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", listing 22.
-vec3 specularRay(Brdf b, vec3 n, vec3 v) {
+vec3 specularRay(const Brdf b, const vec3 n, const vec3 v) {
     float smooth_part = max(1.0 - b.alpha, 0.0);
     return normalized(blend(n, reflection(-v, n), smooth_part * (sqrt(smooth_part) + b.alpha)));
 }
-vec3 diffuseRay(vec3 n, vec3 c) {
+vec3 diffuseRay(const vec3 n, const vec3 c) {
     vec3 ray = n + c * inversesqrt(max(dot(c, c), MIN_LIGHT_DISTANCE_SQUARED));
     return ray * inversesqrt(max(dot(ray, ray), 1e-12));
 }
 
-AreaPoint flatPoint(vec3 diffuse_at, vec3 specular_at, float area, vec2 half_size, vec3 normal) {
+AreaPoint flatPoint(const vec3 diffuse_at, const vec3 specular_at, const float area, const vec2 half_size,
+                    const vec3 normal) {
     float d2 = max(dot(diffuse_at, diffuse_at), MIN_LIGHT_DISTANCE_SQUARED);
     float seen = abs(dot(diffuse_at, normal)) * inversesqrt(d2);
     return AreaPoint(diffuse_at, specular_at, solidAngleOf(area, d2) * seen, half_size);
 }
-AreaPoint rectPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
+AreaPoint rectPoint(const vec3 c, const AreaLight s, const vec3 n, const vec3 mirrored) {
     vec2 half_size = vec2(lengthOf(s.x), lengthOf(s.y));
     // Semi-axes of an ellipse of the same area.
     return flatPoint(onRect(diffuseRay(n, c), c, s), onRect(mirrored, c, s), 4.0 * half_size.x * half_size.y,
                      half_size * (2.0 * inversesqrt(PI)), s.direction);
 }
-AreaPoint discPoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
+AreaPoint discPoint(const vec3 c, const AreaLight s, const vec3 n, const vec3 mirrored) {
     return flatPoint(onDisc(diffuseRay(n, c), c, s), onDisc(mirrored, c, s), PI * s.radius * s.radius,
                      vec2(s.radius), s.direction);
 }
-AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
+AreaPoint tubePoint(const vec3 c, const AreaLight s, const vec3 n, const vec3 mirrored) {
     AreaPoint p;
     p.diffuse_at = onTube(diffuseRay(n, c), c, s);
     p.specular_at = onTube(mirrored, c, s);
@@ -85,7 +86,7 @@ AreaPoint tubePoint(vec3 c, AreaLight s, vec3 n, vec3 mirrored) {
     return p;
 }
 
-Lobes reflectPoint(Brdf b, vec3 n, vec3 v, AreaPoint p, vec3 radiance) {
+Lobes reflectPoint(const Brdf b, const vec3 n, const vec3 v, const AreaPoint p, const vec3 radiance) {
     vec3 l = p.diffuse_at * inversesqrt(max(dot(p.diffuse_at, p.diffuse_at), MIN_LIGHT_DISTANCE_SQUARED));
     vec3 base = reachingBase(b, schlickWeight(0.5 * lengthOf(l + v)));
     float received = max(dot(n, l), 0.0) * p.solid_angle;

@@ -15,7 +15,7 @@ layout(set = SET_MATERIAL, binding = 0, scalar) uniform BenchUniform { Light ben
 layout(set = SET_MATERIAL, binding = 1, scalar) readonly buffer BenchStorage { Light bench_lights[]; };
 #endif
 #if defined(BENCH_UNIFORM) || defined(BENCH_STORAGE)
-Light benchLightAt(uint i) { return bench_lights[i]; }
+Light benchLightAt(const uint i) { return bench_lights[i]; }
 #define lightAt benchLightAt
 #endif
 
@@ -25,7 +25,7 @@ layout(location = 0) out vec4 out_lit;
 
 // A curved sheet in front of the camera. Its arithmetic is the same in every language; kernel_avx2.cpp
 // repeats it.
-Surface benchSurface(vec2 pixel) {
+Surface benchSurface(const vec2 pixel) {
     float u = pixel.x * (1.0 / 1024.0), v = pixel.y * (1.0 / 1024.0);
     vec3 slope = vec3(0.4 * (u - 0.3), 0.6 * (v - 0.2), 1.0);
     Surface s;

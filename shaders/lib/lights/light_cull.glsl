@@ -8,11 +8,11 @@
 
 // The side of a cell (at side * z for depth z) that `centre` lies beyond along one axis; 0 if it lies
 // between both.
-float sideBeyond(vec2 sides, float centre, float z) {
+float sideBeyond(const vec2 sides, const float centre, const float z) {
     return centre < sides.x * z ? sides.x : centre > sides.y * z ? sides.y : 0.0;
 }
 // Signed distance of `centre` beyond the nearer side at depth z, m; 0 between the sides.
-float beyondSides(vec2 sides, float centre, float z) {
+float beyondSides(const vec2 sides, const float centre, const float z) {
     return min(centre - sides.x * z, 0.0) + max(centre - sides.y * z, 0.0);
 }
 
@@ -21,7 +21,7 @@ float beyondSides(vec2 sides, float centre, float z) {
 // quadratic. One Newton step from the centre's depth nearly always finds the minimum. Where it does not, f
 // lies above the touching parabola of curvature 2, whose minimum is returned. `axes`: 1 to include x or y,
 // 0 to ignore it.
-float squaredDistance(vec3 c, CellBounds cell, vec2 axes) {
+float squaredDistance(const vec3 c, const CellBounds cell, const vec2 axes) {
     float z = clamp(c.z, cell.depth.x, cell.depth.y);
     if (on(feature_orthographic)) {
         vec2 beyond = vec2(beyondSides(cell.x, c.x, 1.0), beyondSides(cell.y, c.y, 1.0)) * axes;
@@ -37,15 +37,17 @@ float squaredDistance(vec3 c, CellBounds cell, vec2 axes) {
 }
 
 // Squared distance to the cell's whole row; ignores x.
-float squaredDistanceToRow(vec3 c, CellBounds cell) { return squaredDistance(c, cell, vec2(0.0, 1.0)); }
+float squaredDistanceToRow(const vec3 c, const CellBounds cell) {
+    return squaredDistance(c, cell, vec2(0.0, 1.0));
+}
 
-bool sphereReaches(vec3 centre, float radius, CellBounds cell) {
+bool sphereReaches(const vec3 centre, const float radius, const CellBounds cell) {
     return cell.depth.x <= cell.depth.y && squaredDistance(centre, cell, vec2(1.0)) <= radius * radius;
 }
 
 // Cone against the bounding sphere of a cell (Wronski 2017, "Cull that cone!"). The sphere is outside if
 // its distance to the cone's side exceeds its radius.
-bool coneReachesSphere(LightBound light, vec3 centre, float radius) {
+bool coneReachesSphere(const LightBound light, const vec3 centre, const float radius) {
     vec3 v = centre - light.apex;
     float along = dot(v, light.axis);
     float across = sqrt(max(dot(v, v) - along * along, 0.0));
@@ -54,7 +56,7 @@ bool coneReachesSphere(LightBound light, vec3 centre, float radius) {
 
 // Whether the infinite cone has a point on the inner side of a plane. `normal` points outwards. Such a
 // point is the apex, or lies along a direction of the cone that leads inwards.
-bool coneReachesPlane(LightBound light, vec3 point, vec3 normal) {
+bool coneReachesPlane(const LightBound light, const vec3 point, const vec3 normal) {
     float outside = dot(light.apex - point, normal);
     // The largest cosine between -normal and a direction of the cone.
     float c = -dot(light.axis, normal), s = sqrt(max(1.0 - c * c, 0.0));
@@ -62,7 +64,7 @@ bool coneReachesPlane(LightBound light, vec3 point, vec3 normal) {
     return outside <= 0.0 || inward > -1e-6;
 }
 
-bool coneReaches(LightBound light, CellBounds cell) {
+bool coneReaches(const LightBound light, const CellBounds cell) {
     if (light.cos_cone <= -1.0) return true;
     // Close to the light float32 cannot resolve directions; the slack of the bounds covers this rounding.
     float far = min(cell.depth.y, light.centre.z + light.radius),
@@ -78,7 +80,7 @@ bool coneReaches(LightBound light, CellBounds cell) {
            coneReachesPlane(light, vec3(0.0, 0.0, far + slack), vec3(0.0, 0.0, 1.0));
 }
 
-bool reaches(LightBound light, CellBounds cell) {
+bool reaches(const LightBound light, const CellBounds cell) {
     return sphereReaches(light.centre, light.radius, cell) &&
            (!on(feature_spot_lights) || coneReaches(light, cell));
 }

@@ -21,10 +21,12 @@ layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Liste
 
 // Packets (list entries of grid.width lights) for `lights` lights; at least one if the scene has any of
 // their type.
-uint packetsOf(uint lights, bool any) { return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u); }
+uint packetsOf(const uint lights, const bool any) {
+    return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u);
+}
 
 // Sums a list's counts over its segments; `begin` is the list's first entry.
-LightListCount countOf(uint list) {
+LightListCount countOf(const uint list) {
     LightListCount sum =
         LightListCount(0u, 0u, 0u, four_begins[list / 4u] + counts[list * grid.segments].begin);
     for (uint i = list * grid.segments; i < (list + 1u) * grid.segments; ++i) {
@@ -36,7 +38,7 @@ LightListCount countOf(uint list) {
 }
 
 // The list's first entry and the ends of its light-type segments.
-LightListHead headOf(LightListCount count) {
+LightListHead headOf(const LightListCount count) {
     LightListHead head;
     head.begin = count.begin;
     head.point_end = head.begin + packetsOf(count.points, grid.point_end > 0u);
@@ -47,22 +49,26 @@ LightListHead headOf(LightListCount count) {
     return head;
 }
 
-vec4 boundTexel(uint i) {
+vec4 boundTexel(const uint i) {
     if (on(feature_addressed_lights)) return FloatTexels(grid_block.bounds).at[i];
     return texelFetch(bound_texels, int(i));
 }
-LightBound boundOf(uint light) {
+LightBound boundOf(const uint light) {
     vec4 a = boundTexel(3u * light), b = boundTexel(3u * light + 1u), c = boundTexel(3u * light + 2u);
     return LIGHT_BOUND_OF_TEXELS(a, b, c);
 }
 
 // Mask words are stored word by word, not list by list: neighbouring threads process neighbouring lists
 // and so read adjacent words.
-uint maskWord(uint word, uint list) { return word * grid.list_stride + list; }
+uint maskWord(const uint word, const uint list) { return word * grid.list_stride + list; }
 
 // Index of a word of a tile's or a slice's candidates; also stored word by word.
-uint tileWord(uint word, uint tile) { return word * (grid.tiles.x * grid.tiles.y + grid.slices) + tile; }
-uint sliceWord(uint word, uint slice) { return tileWord(word, grid.tiles.x * grid.tiles.y + slice); }
+uint tileWord(const uint word, const uint tile) {
+    return word * (grid.tiles.x * grid.tiles.y + grid.slices) + tile;
+}
+uint sliceWord(const uint word, const uint slice) {
+    return tileWord(word, grid.tiles.x * grid.tiles.y + slice);
+}
 
 // Linear thread index in a dispatch of rows of workgroups.
 uint threadNumber() {
@@ -70,12 +76,12 @@ uint threadNumber() {
 }
 
 // View depths of a cell, m; for tiles, the depths of the geometry in them.
-vec2 cellDepths(uint tile, uint slice) {
+vec2 cellDepths(const uint tile, const uint slice) {
     return feature_light_lists == LISTS_TILED ? tile_depths[tile] : sliceDepths(slice);
 }
 
 // Bits of mask word `word` for light indices below `end`.
-uint bitsBelow(uint word, uint end) {
+uint bitsBelow(const uint word, const uint end) {
     uint first = word * 32u;
     return end <= first ? 0u : end - first >= 32u ? ~0u : (1u << (end - first)) - 1u;
 }

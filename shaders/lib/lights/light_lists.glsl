@@ -23,23 +23,23 @@ layout(set = SET_FRAME, binding = BINDING_OBJECTS, scalar) readonly buffer Objec
     ObjectLights object_lights[];
 };
 
-vec4 lightTexel(uint i) {
+vec4 lightTexel(const uint i) {
     if (on(feature_addressed_lights)) return FloatTexels(view_block.lights).at[i];
     return texelFetch(light_texels, int(i));
 }
-vec4 spotConeTexel(uint i) {
+vec4 spotConeTexel(const uint i) {
     if (on(feature_addressed_lights)) return FloatTexels(view_block.spot_cones).at[i];
     return texelFetch(spot_cone_texels, int(i));
 }
-vec4 areaLightTexel(uint i) {
+vec4 areaLightTexel(const uint i) {
     if (on(feature_addressed_lights)) return FloatTexels(view_block.area_lights).at[i];
     return texelFetch(area_light_texels, int(i));
 }
-uvec4 headTexel(uint i) {
+uvec4 headTexel(const uint i) {
     if (on(feature_addressed_lights)) return WordTexels(grid_block.heads).at[i];
     return texelFetch(list_heads, int(i));
 }
-uvec4 packetTexel(uint i) {
+uvec4 packetTexel(const uint i) {
     if (on(feature_addressed_lights)) {
         if (feature_list_width == 1u) return uvec4(SingleWords(grid_block.indices).at[i], 0u, 0u, 1u);
         return WordTexels(grid_block.indices).at[i];
@@ -47,12 +47,12 @@ uvec4 packetTexel(uint i) {
     return texelFetch(list_indices, int(i));
 }
 
-Light lightAt(uint i) {
+Light lightAt(const uint i) {
     vec4 a = lightTexel(2u * i), b = lightTexel(2u * i + 1u);
     return LIGHT_OF_TEXELS(a, b);
 }
 
-SpotCone spotConeAt(uint i) {
+SpotCone spotConeAt(const uint i) {
     // The null light uses the last cone.
     uint cone = min(i - view.directional_light_count - view.point_light_count, view.spot_light_count);
     vec4 a = spotConeTexel(2u * cone), b = spotConeTexel(2u * cone + 1u);
@@ -63,7 +63,7 @@ SpotCone spotConeAt(uint i) {
 uint firstDisc() { return view.rect_light_count; }
 uint firstTube() { return view.rect_light_count + view.disc_light_count; }
 uint areaCount() { return firstTube() + view.tube_light_count; }
-AreaLight areaLightAt(uint area) {
+AreaLight areaLightAt(const uint area) {
     vec4 a = areaLightTexel(3u * area), b = areaLightTexel(3u * area + 1u),
          c = areaLightTexel(3u * area + 2u);
     return AREA_LIGHT_OF_TEXELS(a, b, c);
@@ -80,7 +80,7 @@ struct PixelLights {
 // The list of a pixel at a view depth, m. Under MSAA, a triangle that is hidden in some samples may be
 // shaded beyond the farthest surface that is visible in the tile. It then uses the list of all lights,
 // which follows the tiles' lists.
-uint listAt(vec2 pixel, float depth, bool blended) {
+uint listAt(const vec2 pixel, const float depth, const bool blended) {
     uint list = cellOf(pixel, depth);
     if (feature_light_lists == LISTS_TILED && blended) list = listInFront(list);
     if (feature_light_lists == LISTS_TILED && feature_samples > 1)
@@ -89,7 +89,7 @@ uint listAt(vec2 pixel, float depth, bool blended) {
 }
 
 // `pixel`: gl_FragCoord.xy; z: reversed depth; `blended`: the surface is blended over opaque ones.
-PixelLights lightsAt(vec2 pixel, float z, bool blended) {
+PixelLights lightsAt(const vec2 pixel, const float z, const bool blended) {
     if (on(feature_object_lights)) {
         ObjectLights object = object_lights[constants.draw];
         return PixelLights(
@@ -105,16 +105,16 @@ PixelLights lightsAt(vec2 pixel, float z, bool blended) {
     return PixelLights(0u, LightListHead(0u, points, spots, spots + areas));
 }
 
-PixelLights lightsAt(vec2 pixel, float z) { return lightsAt(pixel, z, false); }
+PixelLights lightsAt(const vec2 pixel, const float z) { return lightsAt(pixel, z, false); }
 
 // Number of lights evaluated at the pixel, including directional ones.
-uint lightCount(PixelLights lights) {
+uint lightCount(const PixelLights lights) {
     if (on(feature_object_lights)) return lights.packets.end - object_lights[constants.draw].begin;
     uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.packets.end;
     return view.directional_light_count + local;
 }
 // Whether the pixel's list overflowed.
-bool listOverflowed(PixelLights lights) {
+bool listOverflowed(const PixelLights lights) {
     bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
                   lights.list == grid.lists;
     return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u &&
@@ -122,7 +122,7 @@ bool listOverflowed(PixelLights lights) {
 }
 
 // Packets of [begin, end) that this draw evaluates: all, or those of its light batch.
-uvec2 walked(PixelLights lights, uint begin, uint end) {
+uvec2 walked(const PixelLights lights, const uint begin, const uint end) {
     if (feature_light_batch == BATCH_WHOLE) return uvec2(begin, end);
     uint first = lights.packets.begin;
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
@@ -136,7 +136,7 @@ Light withShare(Light light) {
 }
 
 // Light indices of a packet; without lists only the first component is used.
-uvec4 lightsOfPacket(uint packet) {
+uvec4 lightsOfPacket(const uint packet) {
     if (on(feature_object_lights)) {
         ObjectLight entry = object_list[packet];
         packet_share = entry.weight;
@@ -153,10 +153,10 @@ uvec2 directionalPackets() {
     return uvec2(object.begin, object.local_begin);
 }
 // Index among the directional lights.
-uint directionalOf(uint packet) {
+uint directionalOf(const uint packet) {
     return on(feature_object_lights) ? lightsOfPacket(packet).x : packet;
 }
-Light directionalAt(uint packet) {
+Light directionalAt(const uint packet) {
     return withShare(lightAt(directionalOf(packet)));
 }
 
@@ -175,7 +175,7 @@ void look(inout AreaWalk walk) {
     walk.number = walk.light - first;
     walk.more = walk.place < walk.end && walk.number < areaCount();
 }
-AreaWalk areaWalk(uvec2 packets) {
+AreaWalk areaWalk(const uvec2 packets) {
     AreaWalk walk = AreaWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u, 0u, false);
     look(walk);
     return walk;

@@ -15,7 +15,8 @@ struct TileSize {
 
 // Tiles that the interval [low, high] (m, at depths z) overlaps along one axis: first and one past the
 // last.
-uvec2 tilesCovered(float low, float high, vec2 z, float centre, TileSize size, uint tiles) {
+uvec2 tilesCovered(const float low, const float high, const vec2 z, const float centre, const TileSize size,
+                   const uint tiles) {
     vec2 side = on(feature_orthographic)
                     ? vec2(low, high)
                     : vec2(low / (low < 0.0 ? z.x : z.y), high / (high < 0.0 ? z.y : z.x));
@@ -26,14 +27,15 @@ uvec2 tilesCovered(float low, float high, vec2 z, float centre, TileSize size, u
 }
 
 // View depths of the sphere's part inside the slab, m, above 0; empty if x > y.
-vec2 depthsOfSphere(vec3 sphere, float radius, vec2 slab) {
+vec2 depthsOfSphere(const vec3 sphere, const float radius, const vec2 slab) {
     return vec2(max(max(slab.x, sphere.z - radius), 1e-30), min(slab.y, sphere.z + radius));
 }
 
 // Columns [x, y) and rows [z, w) of tiles that a sphere (centre in view axes and radius, m) may overlap
 // between the view depths `slab`; empty if y <= x or w <= z. Conservative: uses the bounding box of the
 // sphere's part in the slab, which is too large for every light.
-uvec4 tilesOfSphere(vec3 sphere, float radius, vec2 slab, TileSize size, uvec2 tiles) {
+uvec4 tilesOfSphere(const vec3 sphere, const float radius, const vec2 slab, const TileSize size,
+                    const uvec2 tiles) {
     vec2 depths = depthsOfSphere(sphere, radius, slab);
     float beyond = max(max(slab.x - sphere.z, sphere.z - slab.y), 0.0);
     float cut = sqrt(max(radius * radius - beyond * beyond, 0.0));
@@ -46,7 +48,8 @@ uvec4 tilesOfSphere(vec3 sphere, float radius, vec2 slab, TileSize size, uvec2 t
 // Columns [x, y) of one row of tiles that the sphere may overlap in the slab; empty if y <= x. `squared`:
 // lower bound of the squared distance from its centre to the row within the slab. By Pythagoras, the
 // sphere extends along x by at most the root of radius^2 - squared there.
-uvec2 columnsOfSphere(vec3 sphere, float radius, vec2 slab, float squared, TileSize size, uint columns) {
+uvec2 columnsOfSphere(const vec3 sphere, const float radius, const vec2 slab, const float squared,
+                      const TileSize size, const uint columns) {
     vec2 depths = depthsOfSphere(sphere, radius, slab);
     float left = radius * radius - squared, cut = sqrt(max(left, 0.0));
     vec2 z = vec2(depths.x, max(depths.x, depths.y));

@@ -6,21 +6,21 @@
 #include "shaders/lib/contract.glsl"
 #include "shaders/lib/lights/incident.glsl"
 
-Incident fromDirectionalLight(Light light) {
+Incident fromDirectionalLight(const Light light) {
     return Incident(light.position, light.intensity);
 }
 
 // The window max(1 - (d / range)^4, 0), or its square, as a function of d^2. The comparison makes it
 // exactly 0 beyond the range. A light out of range thus adds nothing, not even rounding, if it is
 // evaluated.
-float rangeWindow(Light light, float d2) {
+float rangeWindow(const Light light, const float d2) {
     float x = d2 * light.inverse_range_squared;
     float window = x < 1.0 ? 1.0 - x * x : 0.0;
     if (on(feature_squared_window)) window *= window;
     return window;
 }
 
-Incident fromPointLight(Light light, vec3 position) {
+Incident fromPointLight(const Light light, const vec3 position) {
     vec3 to_light = light.position - position;
     float d2 = max(dot(to_light, to_light), MIN_LIGHT_DISTANCE_SQUARED);
     float window = rangeWindow(light, d2);
@@ -29,7 +29,7 @@ Incident fromPointLight(Light light, vec3 position) {
     return Incident(to_light * inverse, light.intensity * (window * (inverse * inverse)));
 }
 
-Incident fromSpotLight(Light light, SpotCone cone, vec3 position) {
+Incident fromSpotLight(const Light light, const SpotCone cone, const vec3 position) {
     Incident incident = fromPointLight(light, position);
     float c = clamp(cone.offset - dot(incident.direction, cone.direction) * cone.scale, 0.0, 1.0);
     float share = c * c;

@@ -18,16 +18,20 @@ struct Ltc {
     float inverse_a, inverse_c, b;
 };
 
-vec3 toCosine(Ltc m, vec3 l) { return vec3((l.x - m.b * l.z) * m.inverse_a, l.y * m.inverse_c, l.z); }
+vec3 toCosine(const Ltc m, const vec3 l) {
+    return vec3((l.x - m.b * l.z) * m.inverse_a, l.y * m.inverse_c, l.z);
+}
 
-vec3 fromCosine(Ltc m, vec3 l) { return vec3(l.x / m.inverse_a + m.b * l.z, l.y / m.inverse_c, l.z); }
+vec3 fromCosine(const Ltc m, const vec3 l) {
+    return vec3(l.x / m.inverse_a + m.b * l.z, l.y / m.inverse_c, l.z);
+}
 
-vec3 unitOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
+vec3 unitOrZero(const vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
 // One edge of an outline, along the great circle between two directions, counter-clockwise about the
 // direction to the light. The sum over a closed outline is its form factor. Zero if a direction is 0 or
 // both are equal.
-vec3 edgeFactor(vec3 from, vec3 to) {
+vec3 edgeFactor(const vec3 from, const vec3 to) {
     vec3 p = unitOrZero(from), q = unitOrZero(to);
     vec3 c = crossProduct(p, q);
     return c * (angleRatio(dot(p, q), lengthOf(c)) * 0.5 * INVERSE_PI);
@@ -40,9 +44,9 @@ struct Outline {
     vec3 leaves, returns;  // downward and upward crossing; 0 without one
 };
 Outline noOutline() { return Outline(vec3(0.0), vec3(0.0), vec3(0.0)); }
-vec3 closed(Outline o) { return o.sum + edgeFactor(o.leaves, o.returns); }
+vec3 closed(const Outline o) { return o.sum + edgeFactor(o.leaves, o.returns); }
 
-void addEdge(inout Outline o, vec3 p, vec3 q) {
+void addEdge(inout Outline o, const vec3 p, const vec3 q) {
     bool p_above = p.z > 0.0, q_above = q.z > 0.0;
     bool crosses = p_above != q_above;
     // p (-q.z) + q p.z, negated where the edge rises; a direction only, so that nothing is divided.
@@ -79,7 +83,7 @@ struct Cone {
 };
 
 // One step of Laguerre's method, up or down, to the largest root of x^3 - trace x^2 + minors x - det.
-float nearerRoot(float x, float trace, float minors, float det) {
+float nearerRoot(const float x, const float trace, const float minors, const float det) {
     float f = ((x - trace) * x + minors) * x - det;
     float slope = (3.0 * x - 2.0 * trace) * x + minors, bend = 6.0 * x - 2.0 * trace;
     float down = slope + sqrt(max(4.0 * slope * slope - 6.0 * f * bend, 0.0));
@@ -121,7 +125,7 @@ vec3 positiveAxis(vec3 p, vec3 q, vec3 r) {
 
 // The cone's other axes: c c^T - a a^T - b b^T, restricted to the plane perpendicular to z. Frame: Duff et
 // al. 2017, "Building an Orthonormal Basis, Revisited". `volume`: of the three vectors.
-Cone coneAround(vec3 z, vec3 c, vec3 a, vec3 b, float volume) {
+Cone coneAround(const vec3 z, const vec3 c, const vec3 a, const vec3 b, const float volume) {
     float sign_z = z.z >= 0.0 ? 1.0 : -1.0;
     float k = -1.0 / (sign_z + z.z), kxy = z.x * z.y * k;
     vec3 u = vec3(1.0 + sign_z * z.x * z.x * k, sign_z * kxy, -sign_z * z.x);
@@ -147,7 +151,7 @@ Cone coneAround(vec3 z, vec3 c, vec3 a, vec3 b, float volume) {
     return cone;
 }
 
-Cone coneOf(vec3 c, vec3 a, vec3 b) {
+Cone coneOf(const vec3 c, const vec3 a, const vec3 b) {
     vec3 bc = crossProduct(b, c), ca = crossProduct(c, a), ab = crossProduct(a, b);
     float volume = abs(dot(c, ab));
     // z is the axis of c c^T - a a^T - b b^T, and of its adjoint, the same for the cross products. The
@@ -160,7 +164,7 @@ Cone coneOf(vec3 c, vec3 a, vec3 b) {
 }
 
 // atanh(x) / x.
-float atanhRatio(float x) {
+float atanhRatio(const float x) {
     float x2 = x * x;
     float series = 1.0 + x2 * (1.0 / 3.0 + x2 * (0.2 + x2 * (1.0 / 7.0 + x2 * (1.0 / 9.0))));
     return abs(x) < 0.25 ? series : 0.5 * log((1.0 + x) / max(1.0 - x, 1e-7)) / x;
@@ -169,7 +173,7 @@ float atanhRatio(float x) {
 // Part of an outline along the cone from one t to a later one, both as (cos, sin), in the cone's axes.
 // `beyond`: more than half of the cone. In closed form: with r = (half_x cos t, half_y sin t, 1), the
 // integral of cross(r, dr) / r.r, whose denominator is 1 + half_y^2 + (half_x^2 - half_y^2) cos^2 t.
-vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
+vec3 arcFactor(const Cone cone, const vec2 from, const vec2 to, const bool beyond) {
     float x2 = cone.half_x * cone.half_x, y2 = cone.half_y * cone.half_y;
     float gx = 1.0 + x2, gy = 1.0 + y2, between = max(x2 - y2, 0.0);
     // Integral of dt: the angle between the two ends seen along z, stretched.
@@ -190,18 +194,18 @@ vec3 arcFactor(Cone cone, vec2 from, vec2 to, bool beyond) {
            (0.5 * INVERSE_PI);
 }
 
-vec3 onCone(Cone cone, vec2 t) {
+vec3 onCone(const Cone cone, const vec2 t) {
     return cone.x * (cone.half_x * t.x) + cone.y * (cone.half_y * t.y) + cone.z;
 }
-vec3 fromCone(Cone cone, vec3 v) { return cone.x * v.x + cone.y * v.y + cone.z * v.z; }
-vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
+vec3 fromCone(const Cone cone, const vec3 v) { return cone.x * v.x + cone.y * v.y + cone.z * v.z; }
+vec2 turned(const vec2 v, const vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
 // The part of a cone above the horizon: t within `half_angle` of `middle`, both as (cos, sin).
 struct Horizon {
     vec2 middle;
     vec2 half_angle;  // from (1, 0), none of it, to (-1, 0), all of it
 };
-Horizon horizonOf(Cone cone) {
+Horizon horizonOf(const Cone cone) {
     vec2 rise = vec2(cone.x.z * cone.half_x, cone.y.z * cone.half_y);
     float steep = lengthOf(rise);
     float cosine = steep > 0.0 ? clamp(-cone.z.z / steep, -1.0, 1.0) : cone.z.z > 0.0 ? -1.0 : 1.0;
@@ -210,7 +214,7 @@ Horizon horizonOf(Cone cone) {
 }
 
 // Form factor of the filled ellipse c + a cos t + b sin t.
-vec3 ellipseFactor(Ltc m, vec3 c, vec3 a, vec3 b) {
+vec3 ellipseFactor(const Ltc m, const vec3 c, const vec3 a, const vec3 b) {
     Cone cone = coneOf(toCosine(m, c), toCosine(m, a), toCosine(m, b));
     Horizon h = horizonOf(cone);
     vec2 from = turned(h.middle, vec2(h.half_angle.x, -h.half_angle.y)), to = turned(h.middle, h.half_angle);

@@ -18,7 +18,7 @@ struct Tube {
 };
 
 // `axis`: unit, from the bottom to the top.
-Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
+Tube tubeOf(const vec3 centre, const vec3 axis, const float half_length, const float radius) {
     float along = -dot(centre, axis);
     vec3 from_axis = -centre - axis * along;
     float distance = lengthOf(from_axis);
@@ -39,14 +39,15 @@ Tube tubeOf(vec3 centre, vec3 axis, float half_length, float radius) {
     return t;
 }
 
-vec2 onRim(Cone cone, vec3 direction) {
+vec2 onRim(const Cone cone, const vec3 direction) {
     vec2 t = vec2(dot(direction, cone.x) * max(cone.half_y, 1e-6 * cone.half_x),
                   dot(direction, cone.y) * cone.half_x);
     return t * inversesqrt(max(dot(t, t), 1e-37));
 }
 
 // The rim from one direction to another, counter-clockwise; without lines, all of it or none.
-void addRim(inout Outline o, Cone cone, vec3 from, vec3 to, bool shows, bool beside) {
+void addRim(inout Outline o, const Cone cone, const vec3 from, const vec3 to, const bool shows,
+            const bool beside) {
     Horizon h = horizonOf(cone);
     vec2 p = onRim(cone, from), q = onRim(cone, to);
     float cosine = dot(p, q), sine = p.x * q.y - p.y * q.x;
@@ -76,7 +77,7 @@ void addRim(inout Outline o, Cone cone, vec3 from, vec3 to, bool shows, bool bes
     }
 }
 
-vec3 tubeFactor(Ltc m, Tube t) {
+vec3 tubeFactor(const Ltc m, const Tube t) {
     vec3 top = toCosine(m, t.top), bottom = toCosine(m, t.bottom);
     vec3 x = toCosine(m, t.towards), y = toCosine(m, t.across);
     vec3 left = x * t.tangent.x - y * t.tangent.y, right = x * t.tangent.x + y * t.tangent.y;

@@ -12,10 +12,12 @@ Incident weighted(Incident light, float weight) {
     return light;
 }
 
-vec3 lambert(Incident light, vec3 n) { return light.irradiance * max(dot(light.direction, n), 0.0); }
+vec3 lambert(const Incident light, const vec3 n) {
+    return light.irradiance * max(dot(light.direction, n), 0.0);
+}
 
 // Irradiance from the draw's vertex lights at a vertex with the unit normal `n`, W/m^2.
-vec3 vertexIrradiance(vec3 position, vec3 n) {
+vec3 vertexIrradiance(const vec3 position, const vec3 n) {
     ObjectLights object = object_lights[constants.draw];
     vec3 sum = vec3(0.0);
     for (uint i = object.area_end; i < object.vertex_directional_end; ++i) {
@@ -36,7 +38,7 @@ vec3 vertexIrradiance(vec3 position, vec3 n) {
 
 // Irradiance from the draw's remaining lights, W/m^2. Clamped to 0, because three bands of harmonics can
 // be negative.
-vec3 harmonicIrradiance(vec3 n) {
+vec3 harmonicIrradiance(const vec3 n) {
     ObjectIrradiance e = object_lights[constants.draw].irradiance;
     vec3 linear = e.linear_x * n.x + e.linear_y * n.y + e.linear_z * n.z;
     vec3 mixed = e.xy * (n.x * n.y) + e.yz * (n.y * n.z) + e.xz * (n.x * n.z);

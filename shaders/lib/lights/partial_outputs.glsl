@@ -13,7 +13,7 @@ layout(location = 2) out vec4 out_layer_0;
 layout(location = 3) out vec4 out_layer_1;
 layout(location = 4) out vec4 out_layer_2;
 
-void writeLayer(uint layer, vec3 part, inout uint free) {
+void writeLayer(const uint layer, const vec3 part, inout uint free) {
     if (!storesLayer(layer)) return;
     if (free == 0u) out_layer_0 = vec4(part, 0.0);
     if (free == 1u) out_layer_1 = vec4(part, 0.0);
@@ -21,7 +21,7 @@ void writeLayer(uint layer, vec3 part, inout uint free) {
     ++free;
 }
 
-void writeSums(Radiance radiance) {
+void writeSums(const Radiance radiance) {
     out_diffuse = vec4(radiance.diffuse, radiance.local_seen);
     out_specular = vec4(radiance.specular, radiance.local_light);
     uint free = 0u;

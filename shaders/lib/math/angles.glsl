@@ -7,7 +7,7 @@
 
 // acos(x) / sqrt(1 - x^2) for x in [0, 1]. Minimax polynomial of degree 7, exact at 0; relative error
 // 6e-7.
-float arcRatio(float x) {
+float arcRatio(const float x) {
     float p = 0.140058979 - 0.027750602 * x;
     p = -0.329970568 + p * x;
     p = 0.513551354 + p * x;
@@ -18,12 +18,12 @@ float arcRatio(float x) {
 }
 
 // Angle over its sine, for angles in [0, pi].
-float angleRatio(float cosine, float sine) {
+float angleRatio(const float cosine, const float sine) {
     float ratio = arcRatio(min(abs(cosine), 1.0));
     return cosine >= 0.0 ? ratio : PI / max(sine, 1e-15) - ratio;
 }
 // Angle in [0, pi]; `sine` is at least 0.
-float angleOf(float cosine, float sine) {
+float angleOf(const float cosine, const float sine) {
     float small = arcRatio(min(abs(cosine), 1.0)) * sine;
     return cosine >= 0.0 ? small : PI - small;
 }

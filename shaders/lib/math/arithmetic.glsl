@@ -5,35 +5,35 @@
 #ifndef ARITHMETIC_GLSL
 #define ARITHMETIC_GLSL
 
-vec3 crossProduct(vec3 a, vec3 b) { return a.yzx * b.zxy - a.zxy * b.yzx; }
+vec3 crossProduct(const vec3 a, const vec3 b) { return a.yzx * b.zxy - a.zxy * b.yzx; }
 
-float lengthOf(vec2 v) { return sqrt(dot(v, v)); }
-float lengthOf(vec3 v) { return sqrt(dot(v, v)); }
+float lengthOf(const vec2 v) { return sqrt(dot(v, v)); }
+float lengthOf(const vec3 v) { return sqrt(dot(v, v)); }
 
-vec2 normalized(vec2 v) { return v / lengthOf(v); }
-vec3 normalized(vec3 v) { return v / lengthOf(v); }
+vec2 normalized(const vec2 v) { return v / lengthOf(v); }
+vec3 normalized(const vec3 v) { return v / lengthOf(v); }
 
 // Equals normalized() bit for bit; also works if the squared length underflows float32.
-vec3 normalizedOfAnySize(vec3 v) {
+vec3 normalizedOfAnySize(const vec3 v) {
     float shrunk = dot(v, v) < 1e-30 ? 1.2089258e24 : 1.0;  // 2^80
     return normalized(v * shrunk);
 }
 
 // Unit vector for any finite length; 0 for the zero vector.
-vec3 unitVector(vec3 v) {
+vec3 unitVector(const vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     // A selection, not a branch: a variant that does not read the result then does not read v either.
     return mix(vec3(0.0), normalized(v / largest), bvec3(largest > 0.0));
 }
 
 // Linear interpolation from a to b, exact at both ends.
-float blend(float a, float b, float t) { return a * (1.0 - t) + b * t; }
-vec3 blend(vec3 a, vec3 b, float t) { return a * (1.0 - t) + b * t; }
+float blend(const float a, const float b, const float t) { return a * (1.0 - t) + b * t; }
+vec3 blend(const vec3 a, const vec3 b, const float t) { return a * (1.0 - t) + b * t; }
 
 // Clamps to [0, 1]; NaN becomes 0.
-float shareOf(float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
+float shareOf(const float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
 
 // Mirrors v at the plane with unit normal n.
-vec3 reflection(vec3 v, vec3 n) { return v - n * (2.0 * dot(n, v)); }
+vec3 reflection(const vec3 v, const vec3 n) { return v - n * (2.0 * dot(n, v)); }
 
 #endif

@@ -6,6 +6,6 @@
 
 const float LEAST_NORMAL = 1.17549435e-38;  // 2^-126
 
-vec3 flushed(vec3 v) { return mix(v, vec3(0.0), lessThan(abs(v), vec3(LEAST_NORMAL))); }
+vec3 flushed(const vec3 v) { return mix(v, vec3(0.0), lessThan(abs(v), vec3(LEAST_NORMAL))); }
 
 #endif

@@ -14,13 +14,15 @@ struct SampleGroup {
 };
 
 // Bits in the label of sample i.
-uint labelBits(uint i) { return uint(findMSB(i + 1u)) + 1u; }
+uint labelBits(const uint i) { return uint(findMSB(i + 1u)) + 1u; }
 
 // Number of groups of a pixel that has at least one.
-uint groupsOf(float stored) { return (floatBitsToUint(stored) >> GROUP_MANTISSA_BITS) - GROUP_EXPONENT; }
+uint groupsOf(const float stored) {
+    return (floatBitsToUint(stored) >> GROUP_MANTISSA_BITS) - GROUP_EXPONENT;
+}
 
 // Group k of a pixel from its stored groups; it must have more than k.
-SampleGroup sampleGroup(float stored, uint k) {
+SampleGroup sampleGroup(const float stored, const uint k) {
     uint code = floatBitsToUint(stored);
     SampleGroup group = SampleGroup(0, 0u);
     bool found = false;
@@ -37,7 +39,7 @@ SampleGroup sampleGroup(float stored, uint k) {
 }
 
 // labels: group index of each sample i; i + 1 if it is empty. count: number of groups.
-float storedGroups(uint labels[MAX_SAMPLES], uint count) {
+float storedGroups(const uint labels[MAX_SAMPLES], const uint count) {
     uint code = 0u, bits = 0u, i = 0u;
     do {
         code |= labels[i] << bits;

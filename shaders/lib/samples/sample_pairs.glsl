@@ -11,10 +11,10 @@
 // A set of sample pairs is a bit mask: the pairs of sample i with earlier ones begin at bit i (i - 1) / 2.
 // Inner loops have a constant count. A loop around one with a variable count is not unrolled, and its
 // arrays stay in memory, which took three times as long on lavapipe.
-uint pair(uint i, uint j) { return 1u << (i * (i - 1u) / 2u + j); }
+uint pair(const uint i, const uint j) { return 1u << (i * (i - 1u) / 2u + j); }
 
 // Pairs whose bits differ in an attachment.
-uint differingPairs(utexture2DMS attachment, ivec2 p) {
+uint differingPairs(const utexture2DMS attachment, const ivec2 p) {
     uvec4 texels[MAX_SAMPLES];
     uint differ = 0u, i = 0u;
     do {
@@ -26,7 +26,7 @@ uint differingPairs(utexture2DMS attachment, ivec2 p) {
 }
 
 // Pairs whose bits differ in any attachment of the frame.
-uint differingPairs(ivec2 p) {
+uint differingPairs(const ivec2 p) {
     uint differ = differingPairs(gbuffer_albedo_samples, p) | differingPairs(gbuffer_normals_samples, p) |
                   differingPairs(gbuffer_params_samples, p) | differingPairs(gbuffer_shaded_samples, p);
     if (on(feature_emission) || fullGBuffer()) differ |= differingPairs(gbuffer_emission_samples, p);
@@ -42,7 +42,7 @@ uint differingPairs(ivec2 p) {
 }
 
 // Pairs of a set that are not similar either.
-uint dissimilarPairs(uint pairs, ivec2 p) {
+uint dissimilarPairs(const uint pairs, const ivec2 p) {
     GBufferTexel texels[MAX_SAMPLES];
     uint dissimilar = 0u, i = 0u;
     do {
@@ -53,7 +53,7 @@ uint dissimilarPairs(uint pairs, ivec2 p) {
 }
 
 // Whether every triangle visible in the pixel covers all of it.
-bool covered(ivec2 p) {
+bool covered(const ivec2 p) {
     bool whole = true;
     uint i = 0u;
     do {
@@ -64,7 +64,7 @@ bool covered(ivec2 p) {
 }
 
 // Pairs that are not shaded as one.
-uint pairsApart(ivec2 p) {
+uint pairsApart(const ivec2 p) {
     if (feature_sample_edges == EDGES_ALL) return ~0u;
     uint differ = differingPairs(p);
     if (feature_sample_edges == EDGES_SIMILAR) return dissimilarPairs(differ, p);
@@ -73,7 +73,7 @@ uint pairsApart(ivec2 p) {
 }
 
 // Groups of a pixel in the format of storedGroups(). count: number of groups.
-float groupsAt(ivec2 p, out uint count) {
+float groupsAt(const ivec2 p, out uint count) {
     uint apart = pairsApart(p);
     uint labels[MAX_SAMPLES], i = 0u;
     count = 0u;

@@ -11,14 +11,14 @@
 bool multisampled() { return feature_samples > 1; }
 
 // Location of sample i from the pixel's upper left corner, pixels.
-vec2 samplePlace(uint i) {
+vec2 samplePlace(const uint i) {
     uint low = feature_samples == 4 ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
     uint place = (i < 4 ? low : SAMPLE_PLACES_8_HIGH) >> (8 * (i & 3u));
     return vec2(place & 15u, place >> 4 & 15u) / 16.0;
 }
 
 // Mean location of the samples of a mask; the pixel's centre if it is empty.
-vec2 placeOf(uint mask) {
+vec2 placeOf(const uint mask) {
     vec2 sum = vec2(0.0);
     uint i = 0;
     do {
@@ -29,17 +29,17 @@ vec2 placeOf(uint mask) {
 
 // Texel of GBUFFER_SHADED for a fragment: the samples that its triangle covers, those that an alpha mask
 // leaves of them, and its reversed depth.
-uvec2 shadedTexel(uint covered, uint left, float z) {
+uvec2 shadedTexel(const uint covered, const uint left, const float z) {
     return uvec2(floatBitsToUint(z), covered | left << MAX_SAMPLES);
 }
-float depthOfShaded(uvec2 texel) { return uintBitsToFloat(texel.x); }
-vec2 placeOfShaded(uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
-uint leftOfShaded(uvec2 texel) { return texel.y >> MAX_SAMPLES; }
+float depthOfShaded(const uvec2 texel) { return uintBitsToFloat(texel.x); }
+vec2 placeOfShaded(const uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
+uint leftOfShaded(const uvec2 texel) { return texel.y >> MAX_SAMPLES; }
 
 // Samples that a mask's alpha, 0 to 1, covers: the nearest count, so coverage is off by at most half a
 // sample. alphaToCoverageEnable depends on the device (lavapipe: ceil(4 alpha)) and reads the first
 // attachment, whose alpha is packed bits in a G-buffer.
-uint coverageOf(float alpha) {
+uint coverageOf(const float alpha) {
     uint order = feature_samples == 4 ? COVERAGE_ORDER_4 : COVERAGE_ORDER_8;
     uint count = uint(clamp(alpha, 0.0, 1.0) * float(feature_samples) + 0.5), mask = 0u, i = 0u;
     do {

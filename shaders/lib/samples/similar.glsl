@@ -18,16 +18,16 @@ const float SIMILAR_PLANE = 0.01;
 // pixel spans much of a surface, and light on it changes.
 const float SIMILAR_SPAN = 1.5;
 
-bool within(vec3 a, vec3 b, float most) {
+bool within(const vec3 a, const vec3 b, const float most) {
     vec3 d = abs(a - b);
     return max(d.x, max(d.y, d.z)) <= most;
 }
 
-bool alikeRadiance(vec3 a, vec3 b) {
+bool alikeRadiance(const vec3 a, const vec3 b) {
     return within(a, b, SIMILAR_ATTRIBUTE * max(max(a.x, max(a.y, a.z)), max(b.x, max(b.y, b.z))));
 }
 
-bool alikeLayers(Surface s, Surface t) {
+bool alikeLayers(const Surface s, const Surface t) {
     vec3 turned = s.clearcoat_normal - t.clearcoat_normal;
     vec3 along = anisotropyDirection(s) - anisotropyDirection(t);
     float rough = min(s.clearcoat_roughness, t.clearcoat_roughness), turn = SIMILAR_NORMAL * rough * rough;
@@ -45,7 +45,7 @@ bool alikeLayers(Surface s, Surface t) {
 }
 
 // a, b: texels of two samples of pixel p.
-bool areSimilar(ivec2 p, GBufferTexel a, GBufferTexel b) {
+bool areSimilar(const ivec2 p, const GBufferTexel a, const GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
     Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));
     vec3 facing = positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(at)) - s.position;

@@ -39,13 +39,13 @@ struct Brdf {
 };
 
 // Light that a base loses to a layer that reflects `layer`: each component, or the largest.
-vec3 lostBelow(vec3 layer) {
+vec3 lostBelow(const vec3 layer) {
     if (on(feature_base_by_component)) return layer;
     return vec3(max(layer.r, max(layer.g, layer.b)));
 }
 
 // alpha_t = mix(alpha, 1, strength^2) along the direction (KHR_materials_anisotropy).
-void stretch(inout Brdf b, Surface s, vec3 v) {
+void stretch(inout Brdf b, const Surface s, const vec3 v) {
     vec3 x, y;
     axesAcross(s.normal, x, y);
     b.along = x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
@@ -67,12 +67,12 @@ void stretch(inout Brdf b, Surface s, vec3 v) {
 
 // A curve of Schlick's shape through a filmed Fresnel term `here`, for area lights: its f0. `w`:
 // weight of f90 where it is `here`.
-vec3 filmCurve(vec3 here, float f90, float w) {
+vec3 filmCurve(const vec3 here, const float f90, const float w) {
     return clamp((here - f90 * w) / max(1.0 - w, 1e-4), vec3(0.0), vec3(1.0));
 }
 
 // Adds the film of a surface; the gains are known.
-void addFilm(inout Brdf b, Surface s) {
+void addFilm(inout Brdf b, const Surface s) {
     b.film = makeFilm(s.iridescence, s.iridescence_ior, s.iridescence_thickness);
     b.dielectric = makeFilmBase(b.film, s.dielectric_f0);
     b.metal = makeFilmBase(b.film, s.albedo);
@@ -91,7 +91,7 @@ void addFilm(inout Brdf b, Surface s) {
 }
 
 // Without a film; see addFilm().
-Brdf makeBrdf(Surface s, vec3 v) {
+Brdf makeBrdf(const Surface s, const vec3 v) {
     Brdf b;
     b.diffuse = (1.0 - s.metallic) * s.albedo * INVERSE_PI;
     b.through = vec3(0.0);
@@ -131,7 +131,7 @@ Brdf makeBrdf(Surface s, vec3 v) {
 // cancels near the highlight, so Lagrange's identity replaces 1 - (n.h)^2 by |n x h|^2. At roughness 0.1,
 // the first form errs by over 1e-4 on 40 % of near-highlight samples, this one on none.
 // D = (alpha |s|^2 / denominator)^2 / pi, 1/sr.
-float ggxDenominator(float alpha2, vec3 n, vec3 s) {
+float ggxDenominator(const float alpha2, const vec3 n, const vec3 s) {
     vec3 n_cross_s = crossProduct(n, s);
     float n_dot_s = dot(n, s);
     float q = dot(n_cross_s, n_cross_s) + n_dot_s * n_dot_s * alpha2;
@@ -139,7 +139,7 @@ float ggxDenominator(float alpha2, vec3 n, vec3 s) {
 }
 
 // The same of an anisotropic lobe: |s|^2 alpha_t alpha_b ((t.h / alpha_t)^2 + (b.h / alpha_b)^2 + (n.h)^2).
-float ggxDenominator(Brdf b, vec3 n, vec3 s) {
+float ggxDenominator(const Brdf b, const vec3 n, const vec3 s) {
     float along = dot(b.along, s), across = dot(b.across, s), up = dot(n, s);
     float q = along * along * (b.alphas.y / b.alphas.x) + across * across * (b.alphas.x / b.alphas.y) +
               up * up * b.alpha2;
@@ -147,7 +147,7 @@ float ggxDenominator(Brdf b, vec3 n, vec3 s) {
 }
 
 // n.v times Smith's root for the light, whose components are those of s = l + v less the view's.
-float smithOfLight(Brdf b, vec3 s, float n_dot_l) {
+float smithOfLight(const Brdf b, const vec3 s, const float n_dot_l) {
     vec2 wide = (vec2(dot(b.along, s), dot(b.across, s)) - b.viewed) * b.alphas;
     float root = sqrt(dot(wide, wide) + n_dot_l * n_dot_l);
     return b.n_dot_v * root;
@@ -158,7 +158,7 @@ float smithOfLight(Brdf b, vec3 s, float n_dot_l) {
 // Masking-Shadowing Function in Microfacet-Based BRDFs"; 0.5 / (lambda_v + lambda_l). `s` is l + v.
 // Down-facing microfacets are excluded: a normal map that turns away from the viewer would mirror lights
 // behind the surface. If light and viewer are opposite, s is only rounding error and the result is 0.
-float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
+float specularLobe(const Brdf b, const vec3 n, const vec3 s, const float s2, const float n_dot_l) {
     float q = ggxDenominator(b.alpha2, n, s);
     float light = b.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - b.alpha2) + b.alpha2);
     if (hasLayer(LAYER_ANISOTROPY)) {
@@ -175,7 +175,7 @@ float specularLobe(Brdf b, vec3 n, vec3 s, float s2, float n_dot_l) {
 }
 
 // Fraction of light that reaches the base; `weight` is the weight of f90.
-vec3 reachingBase(Brdf b, float weight) {
+vec3 reachingBase(const Brdf b, const float weight) {
     vec3 share = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
     return share;
 }
@@ -184,11 +184,11 @@ vec3 reachingBase(Brdf b, float weight) {
 struct Layered {
     vec3 lobe, base;
 };
-Layered unfilmedAt(Brdf b, float v_dot_h) {
+Layered unfilmedAt(const Brdf b, const float v_dot_h) {
     float weight = schlickWeight(v_dot_h);
     return Layered(b.f0 + (b.f90 - b.f0) * weight, reachingBase(b, weight));
 }
-Layered layeredAt(Brdf b, float v_dot_h) {
+Layered layeredAt(const Brdf b, const float v_dot_h) {
     Layered plain = unfilmedAt(b, v_dot_h);
     if (!hasLayer(LAYER_IRIDESCENCE)) return plain;
     FilmRay ray = filmRay(b.film, v_dot_h);
@@ -211,7 +211,7 @@ struct Reflected {
 // The specular lobe in 16-bit floats (optional in Vulkan), as in mobile renderers. Light and its sums stay
 // in 32 bits. D is (alpha / (|n x h|^2 + (alpha n.h)^2))^2 / pi for a unit half vector, so that no small
 // value is squared. D is clamped to the range of 16 bits, the visibility term where it would be infinite.
-float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
+float halfLobe(const Brdf b, const f16vec3 n, const f16vec3 h, const float16_t n_dot_l) {
     f16vec3 n_cross_h = n.yzx * h.zxy - n.zxy * h.yzx;
     float16_t alpha = float16_t(b.alpha), alpha2 = float16_t(b.alpha2), n_dot_v = float16_t(b.n_dot_v);
     float16_t a = dot(n, h) * alpha;
@@ -225,7 +225,7 @@ float halfLobe(Brdf b, f16vec3 n, f16vec3 h, float16_t n_dot_l) {
     return dot(n, h) > float16_t(0.0) ? lobe : 0.0;
 }
 
-Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) {
+Reflected reflectedInHalf(const Brdf b, const vec3 normal, const vec3 view_vector, const vec3 to_light) {
     f16vec3 n = f16vec3(normal), v = f16vec3(view_vector), l = f16vec3(to_light);
     float16_t n_dot_l = clamp(dot(n, l), float16_t(0.0), float16_t(1.0));
     f16vec3 s = l + v;
@@ -240,7 +240,7 @@ Reflected reflectedInHalf(Brdf b, vec3 normal, vec3 view_vector, vec3 to_light) 
 }
 
 // l: unit vector to the light. `may_be_filmed`: false leaves out the film's code.
-Reflected reflectedLight(Brdf b, vec3 n, vec3 v, vec3 l, bool may_be_filmed) {
+Reflected reflectedLight(const Brdf b, const vec3 n, const vec3 v, const vec3 l, const bool may_be_filmed) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     vec3 s = l + v;
     float s2 = dot(s, s);
@@ -257,7 +257,8 @@ struct Lobes {
 };
 
 // Adds the part of a light that leaves to the unit vector `v`.
-void addLight(Brdf b, vec3 n, vec3 v, Incident light, bool may_be_filmed, inout Lobes sums) {
+void addLight(const Brdf b, const vec3 n, const vec3 v, const Incident light, const bool may_be_filmed,
+              inout Lobes sums) {
     Reflected reflected;
     if (on(feature_half_shading)) {
         reflected = reflectedInHalf(b, n, v, light.direction);

@@ -10,7 +10,7 @@
 const float CLEARCOAT_F0 = 0.04;
 
 // 0 without a coat.
-float clearcoatWeight(Surface s, vec3 v) {
+float clearcoatWeight(const Surface s, const vec3 v) {
     float fresnel = CLEARCOAT_F0 + (1.0 - CLEARCOAT_F0) * schlickWeight(abs(dot(s.clearcoat_normal, v)));
     return s.clearcoat * fresnel;
 }
@@ -21,7 +21,7 @@ struct Clearcoat {
     Brdf brdf;
 };
 
-Clearcoat makeClearcoat(Surface s, vec3 v, float weight) {
+Clearcoat makeClearcoat(const Surface s, const vec3 v, const float weight) {
     Surface coat = s;
     coat.normal = s.clearcoat > 0.0 ? s.clearcoat_normal : s.normal;
     coat.roughness = s.clearcoat_roughness;
@@ -36,7 +36,7 @@ Clearcoat makeClearcoat(Surface s, vec3 v, float weight) {
 }
 
 // The material below layers that let the fraction `rest` pass.
-void dim(inout Brdf b, float rest) {
+void dim(inout Brdf b, const float rest) {
     b.diffuse *= rest;
     b.through *= rest;
     b.f0 *= rest;

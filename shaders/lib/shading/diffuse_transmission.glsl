@@ -19,12 +19,12 @@ Behind makeBehind(Brdf brdf, vec3 n, vec3 v) {
 }
 
 // l: unit vector to the light. `irradiance`: W/m^2, perpendicular to `l`. Radiance, W/(sr m^2).
-vec3 throughSurface(Behind b, vec3 l, vec3 irradiance) {
+vec3 throughSurface(const Behind b, const vec3 l, const vec3 irradiance) {
     Reflected reflected = reflectedLight(b.brdf, b.n, b.v, l, true);
     return reflected.base * (irradiance * reflected.n_dot_l);
 }
 
 // The same of uniform radiance 1.
-vec3 uniformThroughSurface(Behind b) { return b.brdf.diffuse * PI * baseShare(b.brdf); }
+vec3 uniformThroughSurface(const Behind b) { return b.brdf.diffuse * PI * baseShare(b.brdf); }
 
 #endif

@@ -6,7 +6,7 @@
 #include "shaders/lib/contract.glsl"
 
 // Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering": the weight of f90.
-float schlickWeight(float v_dot_h) {
+float schlickWeight(const float v_dot_h) {
     float x = clamp(1.0 - v_dot_h, 0.0, 1.0);
     float x2 = x * x;
     return x2 * x2 * x;
@@ -40,13 +40,13 @@ struct FilmRay {
 
 // Below 0.03 nm the film's index approaches air's, as the extension says, and its upper face fades with it:
 // Schlick's term would reflect at grazing angles even where both sides are air.
-Film makeFilm(float weight, float index, float thickness) {
+Film makeFilm(const float weight, const float index, const float thickness) {
     float t = clamp(thickness / 0.03, 0.0, 1.0), presence = t * t * (3.0 - 2.0 * t);
     float n = blend(1.0, max(index, 1.0), presence), r = (n - 1.0) / (n + 1.0);
     return Film(weight, n, thickness, r * r, presence);
 }
 
-FilmBase makeFilmBase(Film film, vec3 f0) {
+FilmBase makeFilmBase(const Film film, const vec3 f0) {
     vec3 root = sqrt(min(f0, vec3(0.9999))), index = (1.0 + root) / (1.0 - root);
     vec3 r = (index - film.index) / (index + film.index);
     // Indices within 1e-5 of each other count as equal, so that rounding does not decide.
@@ -54,7 +54,7 @@ FilmBase makeFilmBase(Film film, vec3 f0) {
 }
 
 // cos(2 pi x); GLSL's guarantees 11 bits. The series of sin(pi f) up to its eleventh power, 6e-8 off.
-vec4 cosineOfTurns(vec4 x) {
+vec4 cosineOfTurns(const vec4 x) {
     vec4 y = (x - floor(x + 0.5)) * PI, y2 = y * y;
     vec4 p = 2.7557319e-6 - y2 * 2.5052108e-8;
     p = -1.9841270e-4 + y2 * p;
@@ -66,7 +66,7 @@ vec4 cosineOfTurns(vec4 x) {
 
 // Interference at an optical path difference in nm, CIE XYZ relative to its value at 0: the transform of
 // the colour matching functions, as the extension's Gaussians.
-vec3 filmSpectrum(float path) {
+vec3 filmSpectrum(const float path) {
     const vec4 turns = vec4(1.6810e-3, 2.2399e-3, 1.7953e-3, 2.2084e-3);  // per nm
     const vec4 falls = vec4(1.70854696e-7, 1.78766171e-7, 3.67330884e-7, 2.61035245e-7);  // per nm^2
     const vec4 sizes = vec4(0.846590002, 0.153868307, 1.00022189, 1.00112249);
@@ -74,20 +74,20 @@ vec3 filmSpectrum(float path) {
     return vec3(waves.x + waves.y, waves.z, waves.w);
 }
 
-FilmRay filmRay(Film film, float v_dot_h) {
+FilmRay filmRay(const Film film, const float v_dot_h) {
     float c = clamp(v_dot_h, 0.0, 1.0), s2 = (1.0 - c * c) / (film.index * film.index);
     float below = sqrt(max(1.0 - s2, 0.0)), path = 2.0 * film.index * film.thickness * below;
     return FilmRay(schlickWeight(c), schlickWeight(below), filmSpectrum(path), filmSpectrum(2.0 * path));
 }
 
-vec3 rec709FromXyz(vec3 xyz) {
+vec3 rec709FromXyz(const vec3 xyz) {
     return vec3(3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
                 -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
                 0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z);
 }
 
 // Fraction of light that film and material reflect together, 0 or more.
-vec3 filmFresnel(Film film, FilmBase base, FilmRay ray) {
+vec3 filmFresnel(const Film film, const FilmBase base, const FilmRay ray) {
     float r12 = film.presence * (film.f0 + (1.0 - film.f0) * ray.above), through = 1.0 - r12;
     vec3 r23 = base.f0_below + (1.0 - base.f0_below) * ray.below;
     vec3 both = min(r12 * r23, vec3(0.9999)), root = sqrt(both);
@@ -99,7 +99,7 @@ vec3 filmFresnel(Film film, FilmBase base, FilmRay ray) {
 }
 
 // Fresnel term of a material with `f90` and a film of film.weight.
-vec3 filmedFresnel(Film film, FilmBase base, FilmRay ray, float f90) {
+vec3 filmedFresnel(const Film film, const FilmBase base, const FilmRay ray, const float f90) {
     vec3 plain = base.f0 + (vec3(f90) - base.f0) * ray.above;
     return blend(plain, filmFresnel(film, base, ray), film.weight);
 }

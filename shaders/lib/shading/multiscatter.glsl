@@ -15,7 +15,7 @@ struct SpecularFactors {
 };
 
 // Factor by which MULTISCATTER_ENERGY scales the lobe.
-vec3 specularGain(vec3 f0, vec2 albedo) {
+vec3 specularGain(const vec3 f0, const vec2 albedo) {
     float all = albedo.x + albedo.y;
     return 1.0 + f0 * (max(1.0 - all, 0.0) / all);
 }
@@ -28,7 +28,7 @@ vec3 specularGain(vec3 f0, vec2 albedo) {
 // Lighting". 1 - E meets a second facet, which reflects the mean Fresnel reflectance F. E of that leaves,
 // evenly, and 1 - E meets a third facet: (F0 x + F90 y) F (1 - E) / (1 - F (1 - E)). The cosine-weighted
 // mean of Schlick's term is F0 + (F90 - F0) / 21.
-SpecularFactors specularFactors(vec3 f0, float f90, vec2 albedo) {
+SpecularFactors specularFactors(const vec3 f0, const float f90, const vec2 albedo) {
     float all = albedo.x + albedo.y, lost = max(1.0 - all, 0.0);
     SpecularFactors s = SpecularFactors(f0, vec3(f90), vec3(0.0));
     if (feature_multiscatter == MULTISCATTER_ENERGY) {
@@ -45,20 +45,21 @@ SpecularFactors specularFactors(vec3 f0, float f90, vec2 albedo) {
 }
 
 // The same for a mix by `metallic` of a dielectric's layer (f0, f90) and a metal of colour `metal`.
-SpecularFactors mixedFactors(vec3 f0, float f90, vec3 metal, float metallic, vec2 albedo) {
+SpecularFactors mixedFactors(const vec3 f0, const float f90, const vec3 metal, const float metallic,
+                             const vec2 albedo) {
     SpecularFactors a = specularFactors(f0, f90, albedo), b = specularFactors(metal, 1.0, albedo);
     return SpecularFactors(blend(a.f0, b.f0, metallic), blend(a.f90, b.f90, metallic),
                            blend(a.between, b.between, metallic));
 }
 
 // Fraction of ambient light that a base loses to a dielectric's layer.
-vec3 layerAlbedo(vec3 f0, float f90, vec2 albedo) {
+vec3 layerAlbedo(const vec3 f0, const float f90, const vec2 albedo) {
     SpecularFactors s = specularFactors(f0, f90, albedo);
     vec3 all = s.f0 * albedo.x + s.f90 * albedo.y + s.between * PI;
     return min(lostBelow(all), vec3(1.0));
 }
 
-void setSpecular(inout Brdf b, SpecularFactors s) {
+void setSpecular(inout Brdf b, const SpecularFactors s) {
     b.f0 = s.f0;
     b.f90 = s.f90;
     b.between = s.between;
@@ -67,7 +68,7 @@ void setSpecular(inout Brdf b, SpecularFactors s) {
 // The base receives the ambient light that the layer does not reflect, equally from every direction: the
 // half vector's Fresnel term (appendix B) does not conserve energy. If the base loses each component, the
 // half vector's Fresnel term stays, as in the renderers that do so.
-void setBase(inout Brdf b, vec3 layer) {
+void setBase(inout Brdf b, const vec3 layer) {
     b.base_f0 = layer;
     b.base_f90 = layer;
 }

@@ -28,7 +28,7 @@ Radiance noRadiance() {
                     vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
-vec3 lit(Radiance radiance) {
+vec3 lit(const Radiance radiance) {
     vec3 sum = ((radiance.diffuse + radiance.specular) + radiance.ambient) + radiance.emission;
     if (on(feature_haze)) sum = sum * radiance.transmittance + radiance.haze;
     if (on(feature_transmission)) sum += radiance.behind;
@@ -36,7 +36,7 @@ vec3 lit(Radiance radiance) {
 }
 
 // Mean over shadow-casting point and spot lights, weighted by their light; 1 without any.
-float localVisibility(Radiance radiance) {
+float localVisibility(const Radiance radiance) {
     return radiance.local_light > 0.0 ? radiance.local_seen / radiance.local_light : 1.0;
 }
 

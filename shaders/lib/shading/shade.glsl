@@ -33,23 +33,23 @@ struct Shading {
     Behind behind;   // only with LAYER_DIFFUSE_TRANSMISSION
 };
 
-void addFromCoat(vec3 reflected, inout Radiance radiance) {
+void addFromCoat(const vec3 reflected, inout Radiance radiance) {
     radiance.specular += reflected;
     radiance.clearcoat += reflected;
 }
 
-void addFromSheen(vec3 reflected, inout Radiance radiance) {
+void addFromSheen(const vec3 reflected, inout Radiance radiance) {
     radiance.specular += reflected;
     radiance.sheen += reflected;
 }
 
-void addFromBehind(vec3 transmitted, inout Radiance radiance) {
+void addFromBehind(const vec3 transmitted, inout Radiance radiance) {
     radiance.diffuse += transmitted;
     radiance.transmission += transmitted;
 }
 
 // `layered`: false leaves out the code of sheens, films and light from behind.
-void addIncident(Shading shading, Incident light, bool layered, inout Radiance radiance) {
+void addIncident(const Shading shading, const Incident light, const bool layered, inout Radiance radiance) {
     Lobes sums = Lobes(radiance.diffuse, radiance.specular);
     addLight(shading.brdf, shading.surface.normal, shading.v, light, layered, sums);
     radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;
@@ -65,11 +65,11 @@ void addIncident(Shading shading, Incident light, bool layered, inout Radiance r
     addFromCoat(of_coat.specular, radiance);
 }
 
-void addPoint(Shading shading, uint i, bool layered, inout Radiance radiance) {
+void addPoint(const Shading shading, const uint i, const bool layered, inout Radiance radiance) {
     addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), layered, radiance);
 }
 
-void addSpot(Shading shading, uint i, bool layered, inout Radiance radiance) {
+void addSpot(const Shading shading, const uint i, const bool layered, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
                 layered, radiance);
 }
@@ -83,13 +83,15 @@ void addCasting(Shading shading, Incident light, uint place, vec3 position, inou
     addIncident(shading, light, true, radiance);
 }
 
-void addCastingPoint(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+void addCastingPoint(const Shading shading, const uint i, const LocalCasters casters,
+                     inout Radiance radiance) {
     Light light = withShare(lightAt(i));
     Incident incident = fromPointLight(light, shading.surface.position);
     addCasting(shading, incident, i - view.directional_light_count, light.position, radiance);
 }
 
-void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radiance radiance) {
+void addCastingSpot(const Shading shading, const uint i, const LocalCasters casters,
+                    inout Radiance radiance) {
     Light light = withShare(lightAt(i));
     Incident incident = fromSpotLight(light, spotConeAt(i), shading.surface.position);
     addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
@@ -159,7 +161,7 @@ void addCastingSpot(Shading shading, uint i, LocalCasters casters, inout Radianc
     }
 
 // `emission`: dimmed by a clear coat.
-Shading makeShading(Surface s, inout vec3 emission) {
+Shading makeShading(const Surface s, inout vec3 emission) {
     vec3 v = viewVector(s.position);
     Brdf brdf = makeBrdf(s, v);
     if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
@@ -195,7 +197,7 @@ void readPartialSums(inout Radiance radiance) {
     radiance.local_light = specular.a;
 }
 
-void addEnvironment(Shading shading, inout Radiance radiance) {
+void addEnvironment(const Shading shading, inout Radiance radiance) {
     Surface s = shading.surface;
     vec3 from_base, from_lobe;
     reflectEnvironment(s, shading.brdf, shading.v, from_base, from_lobe);
@@ -225,7 +227,7 @@ void addEnvironment(Shading shading, inout Radiance radiance) {
     }
 }
 
-void addDirectionalLights(Shading shading, inout Radiance radiance) {
+void addDirectionalLights(const Shading shading, inout Radiance radiance) {
     uvec2 range = directionalPackets();
     EACH(range) {
         Incident light = fromDirectionalLight(directionalAt(range.x));
@@ -236,7 +238,7 @@ void addDirectionalLights(Shading shading, inout Radiance radiance) {
     }
 }
 
-void addPunctualLights(Shading shading, PixelLights lights, inout Radiance radiance) {
+void addPunctualLights(const Shading shading, const PixelLights lights, inout Radiance radiance) {
     LocalCasters casters = LocalCasters(0u, 0u, 0u, 0u);
     if (on(feature_local_shadows)) casters = localCasters();
     if (on(feature_point_lights)) {
@@ -253,7 +255,7 @@ void addPunctualLights(Shading shading, PixelLights lights, inout Radiance radia
     }
 }
 
-void addAreaLights(Shading shading, PixelLights lights, inout Radiance radiance) {
+void addAreaLights(const Shading shading, const PixelLights lights, inout Radiance radiance) {
     vec3 position = shading.surface.position;
     AreaView area = areaView(shading.brdf, shading.surface, shading.v), coat_area = area, area_behind = area;
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
@@ -269,7 +271,7 @@ void addAreaLights(Shading shading, PixelLights lights, inout Radiance radiance)
     if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
 }
 
-void addAmbient(Shading shading, inout Radiance radiance) {
+void addAmbient(const Shading shading, inout Radiance radiance) {
     Surface s = shading.surface;
     if (on(feature_ambient) || on(feature_lightmap))
         radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
@@ -294,7 +296,7 @@ void addAmbient(Shading shading, inout Radiance radiance) {
 
 // Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
 // lies in front of the sum and only lit() applies it.
-Radiance shade(Surface s, PixelLights lights) {
+Radiance shade(const Surface s, const PixelLights lights) {
     Radiance radiance = noRadiance();
     bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
     // First, while few values are live: a shadow map's filter needs more registers than anything after it.

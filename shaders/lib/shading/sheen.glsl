@@ -20,24 +20,24 @@ struct Sheen {
 };
 
 // The fit's logarithm of Lambda for cosines up to 0.5.
-float lambdaFit(Sheen s, float x) {
+float lambdaFit(const Sheen s, const float x) {
     float power = exp(s.fit[2] * log(max(x, 1e-37)));
     return s.fit[0] / (1.0 + s.fit[1] * power) + s.fit[3] * x + s.fit[4];
 }
 
-float sheenLambda(Sheen s, float cosine) {
+float sheenLambda(const Sheen s, const float cosine) {
     bool steep = cosine < 0.5;
     float fitted = lambdaFit(s, steep ? cosine : 1.0 - cosine);
     return exp(steep ? fitted : s.middle - fitted);
 }
 
-float sheenRow(uint first, vec4 w) {
+float sheenRow(const uint first, const vec4 w) {
     vec4 samples = texelFetch(albedo_pairs, int(SHEEN_TABLE_FIRST + first));
     return dot(samples, w);
 }
 
 // E(n.v) from the table of shared/contract/albedo.h.
-float tabledSheen(float roughness, float n_dot_v, float lambda_v) {
+float tabledSheen(const float roughness, const float n_dot_v, const float lambda_v) {
     float k = SHEEN_TABLE_WIDENS * roughness, least = sqrt(sqrt(MIN_PERCEPTUAL_ROUGHNESS));
     float x = 0.5 * (sqrt(n_dot_v * (1.0 + k) / (n_dot_v + k)) + sqrt(n_dot_v));
     float y = (sqrt(sqrt(roughness)) - least) / (1.0 - least);
@@ -51,7 +51,7 @@ float tabledSheen(float roughness, float n_dot_v, float lambda_v) {
     return max(dot(rows, down), 0.0) / ((1.0 + lambda_v) * 4.0 * n_dot_v);
 }
 
-Sheen makeSheen(Surface surface, vec3 v) {
+Sheen makeSheen(const Surface surface, const vec3 v) {
     Sheen s;
     float roughness = max(surface.sheen_roughness, MIN_PERCEPTUAL_ROUGHNESS), alpha = roughness * roughness;
     float t = (1.0 - alpha) * (1.0 - alpha);
@@ -70,13 +70,13 @@ Sheen makeSheen(Surface surface, vec3 v) {
 }
 
 // Fraction of light that reaches what lies below.
-float belowSheen(Sheen s) {
+float belowSheen(const Sheen s) {
     return max(1.0 - max(s.color.r, max(s.color.g, s.color.b)) * s.albedo, 0.0);
 }
 
 // D V n.l, 1/sr. The sine of the half vector's angle is raised to `exponent`, up to 494, so its logarithm
 // must be exact near the horizon.
-float sheenLobe(Sheen s, vec3 n, vec3 v, vec3 l, float n_dot_l) {
+float sheenLobe(const Sheen s, const vec3 n, const vec3 v, const vec3 l, const float n_dot_l) {
     vec3 sum = l + v, across = crossProduct(n, sum);
     float sum2 = dot(sum, sum), up = dot(n, sum), per = 1.0 / max(sum2, 1e-20);
     float cos2 = up * up * per, sin2 = dot(across, across) * per;
@@ -90,7 +90,7 @@ float sheenLobe(Sheen s, vec3 n, vec3 v, vec3 l, float n_dot_l) {
 
 // Radiance towards the viewer from light of the unit direction `l`. `irradiance`: W/m^2, perpendicular to
 // `l`.
-vec3 sheenReflected(Sheen s, vec3 n, vec3 v, vec3 l, vec3 irradiance) {
+vec3 sheenReflected(const Sheen s, const vec3 n, const vec3 v, const vec3 l, const vec3 irradiance) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     return s.color * (sheenLobe(s, n, v, l, n_dot_l) * irradiance);
 }

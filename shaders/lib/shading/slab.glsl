@@ -7,7 +7,7 @@
 #include "shaders/lib/surface/surface.glsl"
 
 // Fraction of light that crosses the slab (Beer and Lambert).
-vec3 crossing(Surface s) {
+vec3 crossing(const Surface s) {
     // Finite, so that white, whose logarithm is 0, stays white.
     float lengths = s.attenuation_distance > 0.0 ? min(s.thickness / s.attenuation_distance, 3e38) : 0.0;
     vec3 crossed = exp(log(max(s.attenuation_color, vec3(1e-37))) * lengths);
@@ -16,7 +16,7 @@ vec3 crossing(Surface s) {
 
 // From the surface to where the ray leaves the slab, m. `v`: unit, to the viewer. `ior` 0 stands for
 // infinity (KHR_materials_ior).
-vec3 slabShift(Surface s, vec3 v, float ior) {
+vec3 slabShift(const Surface s, const vec3 v, const float ior) {
     float eta = ior > 0.0 ? 1.0 / max(ior, 1.0) : 0.0;
     float outside = eta * clamp(dot(s.normal, v), 0.0, 1.0);
     float inside = sqrt((1.0 - eta) * (1.0 + eta) + outside * outside);  // without cancellation near 1

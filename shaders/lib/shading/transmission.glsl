@@ -16,7 +16,7 @@
 
 // Fraction of light from behind that the specular layer does not reflect and the base neither scatters nor
 // absorbs, for each component.
-vec3 transmittedShare(Surface s, vec3 v) {
+vec3 transmittedShare(const Surface s, const vec3 v) {
     Brdf b = makeBrdf(s, v);
     if (hasLayer(LAYER_IRIDESCENCE)) addFilm(b, s);
     vec3 share = s.albedo * layeredAt(b, b.n_dot_v).base;
@@ -41,14 +41,14 @@ vec2 pixelOf(vec3 position, vec2 here) {
 }
 
 // The pixel where the ray that enters a surface shows the light behind. `pixel`: of the surface.
-vec2 pixelBehind(Surface s, vec3 v, float ior, vec2 pixel) {
+vec2 pixelBehind(const Surface s, const vec3 v, const float ior, const vec2 pixel) {
     vec2 shifted = pixelOf(s.position + slabShift(s, v, ior), pixel);
     return s.thickness > 0.0 ? shifted : pixel;
 }
 
 // Radiance behind the surface, W/(sr m^2). `pixel`: of the surface. No branch depends on the material alone,
 // because lavapipe would compile such a shader again at every draw.
-vec3 lightBehind(Surface s, vec3 v, vec2 pixel) {
+vec3 lightBehind(const Surface s, const vec3 v, const vec2 pixel) {
     bool bends = s.thickness > 0.0 && s.ior > 0.0, spreads = s.dispersion > 0.0 && s.ior > 0.0;
     float level = s.roughness * (log(float(textureSize(backdrop, 0).x)) * 1.44269504);
     level *= bends ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;

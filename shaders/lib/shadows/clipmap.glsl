@@ -12,21 +12,21 @@ Clipmap clipmap() {
     return CLIPMAP_OF_TEXELS(a, b);
 }
 
-Cascade clipmapLevel(uint level) {
+Cascade clipmapLevel(const uint level) {
     vec4 a = texelFetch(shadow_texels, int(SHADOW_LIGHT_TEXELS + CLIPMAP_TEXELS + level));
     return CASCADE_OF_TEXEL(a);
 }
 
 // Finest level that covers the position; the whole-scene level if no window covers it. Computed from the
 // float's exponent, rounded up, so that all devices agree.
-uint levelAt(Clipmap map, vec3 position) {
+uint levelAt(const Clipmap map, const vec3 position) {
     uint bits = floatBitsToUint(lengthOf(position - map.centre) * map.levels_from);
     int exponent = int(bits >> 23) - 127 + ((bits & 0x7fffffu) != 0u ? 1 : 0);
     return uint(clamp(exponent, 0, int(map.levels)));
 }
 
 // Index of the page that contains a position in a level, among all ClipmapPages.
-uint pageAt(Clipmap map, ShadowLight light, uint level, vec3 position) {
+uint pageAt(const Clipmap map, const ShadowLight light, const uint level, const vec3 position) {
     Cascade c = clipmapLevel(level);
     vec2 texel = vec2(dot(position, light.x), dot(position, light.y)) * c.texels_per_metre + c.offset;
     // A position that rounding moves out of the window is within the filter's margin around the pages.
@@ -35,14 +35,14 @@ uint pageAt(Clipmap map, ShadowLight light, uint level, vec3 position) {
     return (level * map.width + page.y) * map.width + page.x;
 }
 
-ClipmapPage clipmapPage(Clipmap map, uint page) {
+ClipmapPage clipmapPage(const Clipmap map, const uint page) {
     uint first = SHADOW_LIGHT_TEXELS + CLIPMAP_TEXELS + map.levels + 1u;
     vec4 a = texelFetch(shadow_texels, int(first + page));
     return CLIPMAP_PAGE_OF_TEXEL(a);
 }
 
 // The page to sample at a position.
-ClipmapPage servingPage(ShadowLight light, vec3 position) {
+ClipmapPage servingPage(const ShadowLight light, const vec3 position) {
     Clipmap map = clipmap();
     return clipmapPage(map, pageAt(map, light, levelAt(map, position), position));
 }

@@ -14,7 +14,7 @@ struct ThreePlaces {
 
 // `b`: means of d, d^2, d^3, d^4; their Hankel matrix must not be near singular. `least_variance`:
 // smallest variance of d.
-ThreePlaces threePlaces(vec4 b, float depth, float least_variance) {
+ThreePlaces threePlaces(const vec4 b, const float depth, const float least_variance) {
     // The Hankel matrix of (1, b) is L D L^T.
     float l32_d22 = b.z - b.x * b.y;
     float d22 = max(b.y - b.x * b.x, least_variance);

@@ -6,14 +6,16 @@
 #include "shaders/lib/shadows/shadow.glsl"
 
 // World directions to a light's own axes.
-vec3 inLight(LocalShadow light, vec3 v) { return vec3(dot(v, light.x), dot(v, light.y), dot(v, light.z)); }
+vec3 inLight(const LocalShadow light, const vec3 v) {
+    return vec3(dot(v, light.x), dot(v, light.y), dot(v, light.z));
+}
 
 // Rounding of positions as a fraction of the distance from camera and light. One ulp each for the
 // position, the light, the map's depth and the depth compared with it.
 const float LOCAL_ROUNDING = 4.8e-7;
 
 // Cube face of a direction in the light's axes: that of its longest component.
-uint faceOf(vec3 direction) {
+uint faceOf(const vec3 direction) {
     vec3 size = abs(direction);
     bool x = size.x > size.y && size.x > size.z, y = !x && size.y > size.z;
     float along = x ? direction.x : y ? direction.y : direction.z;
@@ -21,7 +23,7 @@ uint faceOf(vec3 direction) {
 }
 
 // Components of a vector across a face (xy) and along its axis (z).
-vec3 onFace(vec3 v, uint face) {
+vec3 onFace(const vec3 v, const uint face) {
     vec3 turned = face < 2u ? v.yzx : face < 4u ? v.zxy : v;
     return vec3(turned.xy, (face & 1u) == 0u ? turned.z : -turned.z);
 }
@@ -29,7 +31,8 @@ vec3 onFace(vec3 v, uint face) {
 // As receiverOf() of the directional light, in perspective. `p`, from the light, and the geometric normal
 // `n` are in the face's axes; `rounding`: of p, m. Inverse depth is linear in texels, so the plane is
 // exact. At any slope, no texel of the filter is compared with less than the plane's own depth there.
-Receiver localReceiver(vec3 p, vec3 n, float rounding, LocalShadow light, LocalFace face) {
+Receiver localReceiver(const vec3 p, const vec3 n, const float rounding, const LocalShadow light,
+                       const LocalFace face) {
     float texel = 1.0 / face.texels;  // width at a depth of 1
     float height = max(-dot(n, p), LEAST_SLOPE_COSINE * lengthOf(p));  // of the light above the plane
     // Rise of the plane from the surface to the filter's farthest texel, in texels, for a light one metre

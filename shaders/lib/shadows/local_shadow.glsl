@@ -16,14 +16,14 @@ LocalCasters localCasters() {
     return LOCAL_CASTERS_OF_TEXEL(a);
 }
 
-LocalShadow localShadowAt(uint place) {
+LocalShadow localShadowAt(const uint place) {
     int first = int(1u + LOCAL_SHADOW_TEXELS * place);
     vec4 a = texelFetch(local_shadow_texels, first), b = texelFetch(local_shadow_texels, first + 1),
          c = texelFetch(local_shadow_texels, first + 2);
     return LOCAL_SHADOW_OF_TEXELS(a, b, c);
 }
 
-LocalFace localFaceAt(uint place, uint face) {
+LocalFace localFaceAt(const uint place, const uint face) {
     vec4 a = texelFetch(local_shadow_texels, int(1u + LOCAL_SHADOW_TEXELS * place + 3u + face));
     return LOCAL_FACE_OF_TEXEL(a);
 }
@@ -57,7 +57,7 @@ void look(inout CasterWalk walk) {
     walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
     walk.more = walk.place < walk.end && walk.light < walk.light_end;
 }
-CasterWalk casterWalk(uvec2 packets, uint light_end) {
+CasterWalk casterWalk(const uvec2 packets, const uint light_end) {
     CasterWalk walk = CasterWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u,
                                  light_end, false);
     look(walk);
@@ -69,7 +69,7 @@ void step(inout CasterWalk walk) {
 }
 
 // A packet without its shadow-casting lights.
-uvec4 withoutCasters(uvec4 lights, uint light_end, uint null_light) {
+uvec4 withoutCasters(const uvec4 lights, const uint light_end, const uint null_light) {
     return uvec4(lights.x < light_end ? null_light : lights.x, lights.y < light_end ? null_light : lights.y,
                  lights.z < light_end ? null_light : lights.z, lights.w < light_end ? null_light : lights.w);
 }

@@ -10,10 +10,10 @@
 
 // `depth`: as in the map, 1 towards the light. The result grows away from the light, from `nearest` (0 or
 // -1) to 1.
-float depthAway(float depth, float nearest) { return blend(nearest, 1.0, 1.0 - shareOf(depth)); }
+float depthAway(const float depth, const float nearest) { return blend(nearest, 1.0, 1.0 - shareOf(depth)); }
 
 // Moments of one depth; the last two are for feature_shadows = SHADOWS_EVSM4.
-vec4 warpedMoments(float depth, float exponent, float negative, float nearest) {
+vec4 warpedMoments(const float depth, const float exponent, const float negative, const float nearest) {
     float away = depthAway(depth, nearest);
     float w = exp(exponent * away), n = -exp(-negative * away);
     return vec4(w, w * w, n, n * n);
@@ -21,13 +21,13 @@ vec4 warpedMoments(float depth, float exponent, float negative, float nearest) {
 
 // Largest fraction of a distribution that may lie `behind` or more above its mean; all in one unit
 // (one-sided Chebyshev inequality; Donnelly and Lauritzen 2006, "Variance Shadow Maps", equation 5).
-float chebyshev(float behind, float variance) {
+float chebyshev(const float behind, const float variance) {
     return behind > 0.0 ? variance / (variance + behind * behind) : 1.0;
 }
 
 // Largest fraction of the filter that may lie at or behind `depth`, after light-bleeding reduction. In
 // units of the receiver's w, or of the other warp's mean, so that no value leaves the range of float32.
-float momentVisibility(vec4 moments, float depth, ShadowLight light) {
+float momentVisibility(const vec4 moments, const float depth, const ShadowLight light) {
     const float MOST = 1e30;  // of a variance
     float away = depthAway(depth, light.nearest), range = 1.0 - light.nearest;
     float per_w = exp(-light.exponent * away), mean = moments.x * per_w, square = moments.y * per_w * per_w;

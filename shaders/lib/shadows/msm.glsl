@@ -10,7 +10,7 @@
 
 // Section 4.3 of the paper: the affine map that uses 16 bits best, 0 to 1 for each moment; and its
 // inverse.
-vec4 quantisedMoments(float depth) {
+vec4 quantisedMoments(const float depth) {
     const mat4 quantise = mat4(-2.07224649, 13.7948857237, 0.105877704, 9.7924062118,       //
                                32.23703778, -59.4683975703, -1.9077466311, -33.7652110555,  //
                                -68.571074599, 82.0359750338, 9.3496555107, 47.9456096605,   //
@@ -18,7 +18,7 @@ vec4 quantisedMoments(float depth) {
     float d = depthAway(depth, 0.0), d2 = d * d;
     return quantise * vec4(d, d2, d * d2, d2 * d2) + vec4(0.035955884801, 0.0, 0.0, 0.0);
 }
-vec4 momentsOfQuantised(vec4 q) {
+vec4 momentsOfQuantised(const vec4 q) {
     const mat4 back = mat4(0.2227744146, 0.1549679261, 0.1451988946, 0.163127443,    //
                            0.0771972861, 0.1394629426, 0.2120202157, 0.2591432266,   //
                            0.7926986636, 0.7963415838, 0.7258694464, 0.6539092497,   //
@@ -30,12 +30,12 @@ vec4 momentsOfQuantised(vec4 q) {
 // "Hamburger 4MSM"). A distribution on three points attains it. `bias` moves the moments, by more than
 // their rounding, towards a distribution whose Hankel matrix is far from singular. The result is in [0, 1]
 // for any moments.
-float least4MomentShadow(vec4 moments, float depth, float bias) {
+float least4MomentShadow(const vec4 moments, const float depth, const float bias) {
     return shareOf(threePlaces(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
 }
 
 // Visibility of a receiver at `depth` (as in the map), from the moments of feature_shadows.
-float visibilityOfMoments(vec4 moments, float depth, ShadowLight light) {
+float visibilityOfMoments(const vec4 moments, const float depth, const ShadowLight light) {
     if (feature_shadows != SHADOWS_MSM4) return momentVisibility(moments, depth, light);
     return 1.0 - least4MomentShadow(momentsOfQuantised(moments), depthAway(depth, 0.0), light.moment_bias);
 }

@@ -17,13 +17,13 @@ struct Blocks {
     float step;  // texels
     uint side;   // blocks
 };
-Blocks blocksAround(vec2 middle, float width) {
+Blocks blocksAround(const vec2 middle, const float width) {
     float texels = ceil(width) + 1.0, side = min(ceil(0.5 * texels), SOFT_BLOCKS);
     return Blocks(floor(middle - 0.5 * width), max(texels / side, 2.0), uint(side));
 }
 // The lower corner of a block, and its depths in textureGather's order.
-vec2 cornerOf(Blocks b, uint x, uint y) { return floor(b.first + b.step * vec2(x, y)); }
-vec4 depthsOf(vec2 corner, uint layer) {
+vec2 cornerOf(const Blocks b, const uint x, const uint y) { return floor(b.first + b.step * vec2(x, y)); }
+vec4 depthsOf(const vec2 corner, const uint layer) {
     float size = float(textureSize(shadow_map, 0).x);
     return textureGather(shadow_map, vec3((corner + 1.0) / size, float(layer)));
 }
@@ -31,7 +31,7 @@ const vec2 GATHERED[4] = vec2[](vec2(0.5, 1.5), vec2(1.5, 1.5), vec2(1.5, 0.5), 
 
 // Mean and smallest distance of blockers in front of the receiver, in the map's depth; 0 without any.
 // `cone`: radius in texels at a depth of 1. Texels up to the triangle's own plane are not blockers.
-vec2 blockerDistance(Receiver r, uint layer, float cone, float widest) {
+vec2 blockerDistance(const Receiver r, const uint layer, const float cone, const float widest) {
     Blocks blocks = blocksAround(r.texel, clamp(2.0 * cone * (1.0 - r.depth), 1.0, widest));
     float sum = 0.0, count = 0.0, least = 1.0;
     uvec2 rows = uvec2(0, blocks.side);
@@ -57,7 +57,7 @@ vec2 blockerDistance(Receiver r, uint layer, float cone, float widest) {
 }
 
 // Filters over a disc `width` texels wide around the receiver; texels at the rim count in part.
-float filteredDisc(Receiver r, uint layer, float width) {
+float filteredDisc(const Receiver r, const uint layer, const float width) {
     Blocks blocks = blocksAround(r.texel, width);
     float lit = 0.0, area = 0.0;
     uvec2 rows = uvec2(0, blocks.side);
@@ -82,7 +82,8 @@ float filteredDisc(Receiver r, uint layer, float width) {
 
 // `r`: for the smallest width, feature_shadow_kernel. In a wide filter the plane may rise halfway to the
 // nearest blocker; where it is steeper the filter is narrower.
-float softlyFiltered(Surface s, ShadowLight light, Cascade cascade, Receiver r, uint layer) {
+float softlyFiltered(const Surface s, const ShadowLight light, const Cascade cascade, const Receiver r,
+                     const uint layer) {
     float texels = cascade.texels_per_metre / light.depth_scale, cone = light.disc * texels;
     vec2 blocker = blockerDistance(r, layer, cone, light.widest);
     float most = max(r.most, 0.5 * blocker.y), steepest = 2.0 * most / lengthOf(r.slope) - 1.0;

@@ -11,13 +11,13 @@
 
 layout(set = SET_FRAME, binding = BINDING_SHADOW_MAP) uniform sampler2DArray shadow_map;
 
-Cascade cascadeAt(uint i) {
+Cascade cascadeAt(const uint i) {
     vec4 a = texelFetch(shadow_texels, int(SHADOW_LIGHT_TEXELS + i));
     return CASCADE_OF_TEXEL(a);
 }
 
 // First cascade that covers a view depth, m; feature_shadow_cascades if none does.
-uint cascadeOf(ShadowLight light, float depth) {
+uint cascadeOf(const ShadowLight light, const float depth) {
     uint i = 0;
     for (uint k = 0; k < feature_shadow_cascades; ++k) i += depth > light.ends[k] ? 1 : 0;
     return i;
@@ -25,7 +25,7 @@ uint cascadeOf(ShadowLight light, float depth) {
 
 // Index of that cascade, or the requested level of the clipmap, as a channel; -1 if none covers the
 // position.
-float servingCascade(vec3 position) {
+float servingCascade(const vec3 position) {
     if (!on(feature_shadows)) return -1.0;
     if (feature_shadows == SHADOWS_CLIPMAP) return float(levelAt(clipmap(), position));
     ShadowLight light = shadowLight();
@@ -34,7 +34,7 @@ float servingCascade(vec3 position) {
 }
 
 // Resident level minus requested level of the clipmap, as a channel; -1 without a clipmap.
-float pageResidency(vec3 position) {
+float pageResidency(const vec3 position) {
     if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
     return servingPage(shadowLight(), position).level - servingCascade(position);
 }
@@ -63,7 +63,7 @@ const float MOST_LIFT = 2.0;
 const float LEAST_SLOPE_COSINE = 1e-3;
 
 // `most`: largest rise of the plane above the surface, texels.
-Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float most) {
+Receiver receiverOf(const Surface s, const ShadowLight light, const Cascade cascade, const float most) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
     float cosine = max(dot(s.geometric_normal, light.to_light), LEAST_SLOPE_COSINE);
     float texel = 1.0 / cascade.texels_per_metre;
@@ -83,20 +83,20 @@ Receiver receiverOf(Surface s, ShadowLight light, Cascade cascade, float most) {
 }
 
 // 1 if the map's texel at `texel` (its centre) has nothing nearer to the light than the receiver.
-float seesLight(Receiver r, float stored, vec2 texel) {
+float seesLight(const Receiver r, const float stored, const vec2 texel) {
     float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
     return stored > r.depth + lift ? 0.0 : 1.0;
 }
 
 // Weight of a texel, 0 to 1.
-float countOf(Receiver r, vec2 texel) {
+float countOf(const Receiver r, const vec2 texel) {
     return clamp((r.highest - dot(r.slope, texel - r.texel)) * r.counts, 0.0, 1.0);
 }
 
 // Box filter of feature_shadow_kernel texels around the receiver, each weighted by its area in the box
 // (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
 // `shift`: from the receiver's texels to the layer's, whole.
-float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
+float filtered(const sampler2DArray map, const Receiver r, const vec2 shift, const uint layer) {
     vec2 size = vec2(textureSize(map, 0).xy);
     vec2 low = r.texel - 0.5 * float(feature_shadow_kernel);
     vec2 first = floor(low), part = low - first;
@@ -129,7 +129,7 @@ float filtered(sampler2DArray map, Receiver r, vec2 shift, uint layer) {
 }
 
 // One sample of blurred moments.
-float filteredMoments(Receiver r, uint layer, ShadowLight light) {
+float filteredMoments(const Receiver r, const uint layer, const ShadowLight light) {
     float size = float(textureSize(shadow_map, 0).x);
     vec4 moments = textureLod(shadow_map, vec3(r.texel / size, float(layer)), 0.0);
     return visibilityOfMoments(moments, r.depth, light);
@@ -137,7 +137,7 @@ float filteredMoments(Receiver r, uint layer, ShadowLight light) {
 
 #include "shaders/lib/shadows/pcss.glsl"
 
-float cascadeVisibility(Surface s, ShadowLight light, uint layer) {
+float cascadeVisibility(const Surface s, const ShadowLight light, const uint layer) {
     Cascade cascade = cascadeAt(layer);
     Receiver r = receiverOf(s, light, cascade, MOST_LIFT);
     if (feature_shadows == SHADOWS_PCF) return filtered(shadow_map, r, vec2(0.0), layer);
@@ -145,7 +145,7 @@ float cascadeVisibility(Surface s, ShadowLight light, uint layer) {
     return filteredMoments(r, layer, light);
 }
 
-float clipmapVisibility(Surface s, ShadowLight light) {
+float clipmapVisibility(const Surface s, const ShadowLight light) {
     ClipmapPage page = servingPage(light, s.position);
     Cascade level = clipmapLevel(uint(page.level));
     Receiver r = receiverOf(s, light, level, MOST_LIFT);
@@ -154,7 +154,7 @@ float clipmapVisibility(Surface s, ShadowLight light) {
 
 // `faces`: whether the triangle faces the light. If none of several adjacent pixels does, they read
 // nothing: a loop that no lane enters is skipped, while both sides of a branch run.
-float cascadedVisibility(Surface s, ShadowLight light, bool faces) {
+float cascadedVisibility(const Surface s, const ShadowLight light, const bool faces) {
     float depth = dot(s.position, light.forward);
     uint first = cascadeOf(light, depth);
     float fade = light.fades[min(first, MAX_CASCADES - 1u)], end = light.ends[min(first, MAX_CASCADES - 1u)];

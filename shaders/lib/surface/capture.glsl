@@ -16,10 +16,10 @@ layout(location = 5) out vec4 out_5;
 layout(location = 6) out vec4 out_6;
 layout(location = 7) out vec4 out_7;
 
-bool isCaptured(uint image) { return (feature_captures >> image & 1u) != 0u; }
+bool isCaptured(const uint image) { return (feature_captures >> image & 1u) != 0u; }
 
 // Writes an image of the pass to the next free location.
-void write(uint image, vec4 texel, inout uint free) {
+void write(const uint image, const vec4 texel, inout uint free) {
     if (!isCaptured(image)) return;
     if (free == 0u) out_0 = texel;
     if (free == 1u) out_1 = texel;
@@ -33,7 +33,7 @@ void write(uint image, vec4 texel, inout uint free) {
 }
 
 // shaded: number of Surfaces shaded at the pixel under MSAA.
-void capture(Surface s, float z, uint shaded) {
+void capture(const Surface s, const float z, const uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z, on(feature_transmission));
     Radiance radiance = noRadiance();
     if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {

@@ -9,7 +9,8 @@
 
 // Value of a channel (shared/contract/debug_mode.h), without a colour map. z: reversed depth. shaded:
 // number of Surfaces shaded at the pixel.
-vec4 debugValue(uint mode, Surface s, PixelLights lights, Radiance radiance, float z, uint shaded) {
+vec4 debugValue(const uint mode, const Surface s, const PixelLights lights, const Radiance radiance,
+                const float z, const uint shaded) {
     switch (mode) {
         case DEBUG_lit: return vec4(lit(radiance), 1.0);
         case DEBUG_albedo: return vec4(s.albedo, 1.0);

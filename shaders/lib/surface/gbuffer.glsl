@@ -16,43 +16,43 @@ struct GBufferTexel {
 bool fullGBuffer() { return feature_gbuffer_encoding == GBUFFER_full; }
 bool compactGBuffer() { return feature_gbuffer_encoding == GBUFFER_compact; }
 
-vec3 decodedNormal(uint word) {
+vec3 decodedNormal(const uint word) {
     return decodeOctahedral(word, compactGBuffer() ? COMPACT_NORMAL_BITS : STANDARD_NORMAL_BITS);
 }
 
 // Both paths quantise the geometric normal equally, because shadow bias offsets along it.
-vec3 quantiseGeometricNormal(vec3 n) {
+vec3 quantiseGeometricNormal(const vec3 n) {
     if (fullGBuffer() || !needsGeometricNormal()) return n;
     uint bits = compactGBuffer() ? COMPACT_GEOMETRIC_NORMAL_BITS : STANDARD_NORMAL_BITS;
     return decodeOctahedral(encodeOctahedral(n, bits), bits);
 }
 
-uvec4 encodeRadiance(vec3 radiance, bool wide) {
+uvec4 encodeRadiance(const vec3 radiance, const bool wide) {
     return wide ? uvec4(floatBitsToUint(radiance), 0) : uvec4(packSharedExponent(radiance), 0, 0, 0);
 }
 
-vec3 decodeRadiance(uvec4 texel, bool wide) {
+vec3 decodeRadiance(const uvec4 texel, const bool wide) {
     return wide ? uintBitsToFloat(texel.xyz) : unpackSharedExponent(texel.x);
 }
 
 // A texel of 0 means no lightmap. A black lightmap has 1 in w (wide), or an exponent with mantissas of 0.
-uvec4 encodeLightmap(Surface s, bool wide) {
+uvec4 encodeLightmap(const Surface s, const bool wide) {
     uvec4 texel = encodeRadiance(s.lightmap, wide);
     if (s.lightmapped && wide) texel.w = 1u;
     if (s.lightmapped && texel.x == 0u && !wide) texel.x = SHARED_EXPONENT_BLACK;
     return texel;
 }
 
-void decodeLightmap(uvec4 texel, bool wide, inout Surface s) {
+void decodeLightmap(const uvec4 texel, const bool wide, inout Surface s) {
     s.lightmap = decodeRadiance(texel, wide);
     s.lightmapped = (wide ? texel.w : texel.x) != 0u;
 }
 
-bool storesLayer(uint layer) { return (feature_gbuffer_layers & layer) != 0u; }
+bool storesLayer(const uint layer) { return (feature_gbuffer_layers & layer) != 0u; }
 // Shaders that shade no layers do not read them: they are 0.
 bool decodesLayers() { return on(feature_gbuffer_layers & feature_layers); }
 
-uint wordsOf(uint layer, uint packed_words, uint full_words) {
+uint wordsOf(const uint layer, const uint packed_words, const uint full_words) {
     return !storesLayer(layer) ? 0u : fullGBuffer() ? full_words : packed_words;
 }
 
@@ -70,7 +70,7 @@ uint layerWords() {
                                                DIFFUSE_TRANSMISSION_FULL_WORDS);
 }
 // Whether there is the attachment LAYERS + i.
-bool hasLayerAttachment(uint i) { return layerWords() > 4u * i; }
+bool hasLayerAttachment(const uint i) { return layerWords() > 4u * i; }
 // Number of layer attachments that the first pass has room for; a second pass draws the others.
 uint layersInFirstPass() {
     uint others = 3u;  // albedo, normals, params
@@ -85,7 +85,7 @@ uint layersInFirstPass() {
 const uint LAYER_IS_THERE = 1u << 28;
 
 // Two words: the normal, and the other values.
-uvec2 encodeClearcoat(Surface s) {
+uvec2 encodeClearcoat(const Surface s) {
     if (!(s.clearcoat > 0.0)) return uvec2(0);
     return uvec2(encodeOctahedral(s.clearcoat_normal, CLEARCOAT_NORMAL_BITS),
                  packUnorm(s.clearcoat, CLEARCOAT_BITS) |
@@ -93,7 +93,7 @@ uvec2 encodeClearcoat(Surface s) {
                      LAYER_IS_THERE);
 }
 
-void decodeClearcoat(uvec2 words, inout Surface s) {
+void decodeClearcoat(const uvec2 words, inout Surface s) {
     if ((words.y & LAYER_IS_THERE) == 0u) return;
     s.clearcoat_normal = decodeOctahedral(words.x, CLEARCOAT_NORMAL_BITS);
     s.clearcoat = unpackUnorm(words.y, 0, CLEARCOAT_BITS);
@@ -101,7 +101,7 @@ void decodeClearcoat(uvec2 words, inout Surface s) {
 }
 
 // `n`: the decoded normal, about which the direction will be turned.
-uint encodeAnisotropy(Surface s, vec3 n) {
+uint encodeAnisotropy(const Surface s, const vec3 n) {
     if (!(s.anisotropy > 0.0)) return 0u;
     vec2 turn = turnOf(anisotropyDirection(s), n);
     float angle = angleOf(turn.y < 0.0 ? -turn.x : turn.x, abs(turn.y));
@@ -110,7 +110,7 @@ uint encodeAnisotropy(Surface s, vec3 n) {
     return packUnorm(s.anisotropy, ANISOTROPY_BITS) | (code << ANISOTROPY_BITS) | LAYER_IS_THERE;
 }
 
-void decodeAnisotropy(uint word, inout Surface s) {
+void decodeAnisotropy(const uint word, inout Surface s) {
     if ((word & LAYER_IS_THERE) == 0u) return;
     uint code = bitfieldExtract(word, int(ANISOTROPY_BITS), int(ANISOTROPY_ANGLE_BITS));
     float angle = float(code) * (PI / float(1u << ANISOTROPY_ANGLE_BITS));
@@ -119,27 +119,27 @@ void decodeAnisotropy(uint word, inout Surface s) {
 }
 
 // Fields of one word. A surface without a sheen has the word 0.
-uint encodeSheen(Surface s) { return packSqrt(s.sheen_color, s.sheen_roughness); }
+uint encodeSheen(const Surface s) { return packSqrt(s.sheen_color, s.sheen_roughness); }
 
-void decodeSheen(uint word, inout Surface s) {
+void decodeSheen(const uint word, inout Surface s) {
     s.sheen_color = unpackSqrt(word);
     s.sheen_roughness = unpackUnorm(word, 24, SHEEN_BITS);
 }
 
 // The nearest half to x in [0, 65504], ties to even.
-uint halfOf(float x) {
+uint halfOf(const float x) {
     uint bits = floatBitsToUint(x);
     uint normal = (bits - (112u << 23) + 0xfffu + (bits >> 13 & 1u)) >> 13;
     return x < 6.103515625e-5 ? uint(x * 16777216.0 + 0.5) : normal;
 }
-float fromHalf(uint code) {
+float fromHalf(const uint code) {
     return code < 1024u ? float(code) * 5.9604644775390625e-8 : uintBitsToFloat((code << 13) + (112u << 23));
 }
 
 const float IRIDESCENCE_IOR_STEPS = float((1u << IRIDESCENCE_IOR_BITS) - 2u);
 
 // A surface without a film has the word 0.
-uint encodeIridescence(Surface s) {
+uint encodeIridescence(const Surface s) {
     if (!(s.iridescence_ior > 0.0)) return 0u;
     float x = (s.iridescence_ior - 1.0) / (s.iridescence_ior + 1.0);
     uint ior = 1u + uint(clamp(x, 0.0, 1.0) * IRIDESCENCE_IOR_STEPS + 0.5);
@@ -147,7 +147,7 @@ uint encodeIridescence(Surface s) {
            (halfOf(s.iridescence_thickness) << (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
 }
 
-void decodeIridescence(uint word, inout Surface s) {
+void decodeIridescence(const uint word, inout Surface s) {
     uint ior = bitfieldExtract(word, int(IRIDESCENCE_BITS), int(IRIDESCENCE_IOR_BITS));
     if (ior == 0u) return;
     float x = min(float(ior - 1u) / IRIDESCENCE_IOR_STEPS, 0.9999);
@@ -157,11 +157,11 @@ void decodeIridescence(uint word, inout Surface s) {
 }
 
 // Fields of one word. A surface without diffuse transmission has the word 0.
-uint encodeDiffuseTransmission(Surface s) {
+uint encodeDiffuseTransmission(const Surface s) {
     return packSqrt(s.diffuse_transmission_color, s.diffuse_transmission);
 }
 
-void decodeDiffuseTransmission(uint word, inout Surface s) {
+void decodeDiffuseTransmission(const uint word, inout Surface s) {
     s.diffuse_transmission_color = unpackSqrt(word);
     s.diffuse_transmission = unpackUnorm(word, 24, DIFFUSE_TRANSMISSION_BITS);
 }
@@ -172,7 +172,7 @@ struct LayerWords {
 };
 
 // `decoded_normal`: of the packed encodings.
-LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
+LayerWords encodeLayers(const Surface s, const vec3 decoded_normal) {
     LayerWords w;
     for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = 0u;
     uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
@@ -215,7 +215,7 @@ LayerWords encodeLayers(Surface s, vec3 decoded_normal) {
     return w;
 }
 
-void decodeLayers(LayerWords w, inout Surface s) {
+void decodeLayers(const LayerWords w, inout Surface s) {
     uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
          diffuse = diffuseTransmissionWord();
     if (fullGBuffer()) {
@@ -251,18 +251,18 @@ void decodeLayers(LayerWords w, inout Surface s) {
     if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) decodeDiffuseTransmission(w.words[diffuse], s);
 }
 
-void writeLayers(LayerWords w, inout GBufferTexel t) {
+void writeLayers(const LayerWords w, inout GBufferTexel t) {
     for (uint i = 0; i < LAYER_WORDS / 4; ++i)
         t.attachments[GBUFFER_LAYERS + i] =
             uvec4(w.words[4 * i], w.words[4 * i + 1], w.words[4 * i + 2], w.words[4 * i + 3]);
 }
-LayerWords layersIn(GBufferTexel t) {
+LayerWords layersIn(const GBufferTexel t) {
     LayerWords w;
     for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = t.attachments[GBUFFER_LAYERS + i / 4][i % 4];
     return w;
 }
 
-GBufferTexel encodeGBuffer(Surface s) {
+GBufferTexel encodeGBuffer(const Surface s) {
     GBufferTexel t;
     for (uint i = 0; i < GBUFFER_ATTACHMENTS; ++i) t.attachments[i] = uvec4(0);
     if (fullGBuffer()) {
@@ -301,7 +301,7 @@ GBufferTexel encodeGBuffer(Surface s) {
     return t;
 }
 
-void decodeFull(GBufferTexel t, inout Surface s) {
+void decodeFull(const GBufferTexel t, inout Surface s) {
     s.albedo = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].xyz);
     s.occlusion = uintBitsToFloat(t.attachments[GBUFFER_ALBEDO].w);
     s.normal = uintBitsToFloat(t.attachments[GBUFFER_NORMALS].xyz);
@@ -317,7 +317,7 @@ void decodeFull(GBufferTexel t, inout Surface s) {
     if (on(feature_lightmap)) decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], true, s);
 }
 
-void decodePacked(GBufferTexel t, inout Surface s) {
+void decodePacked(const GBufferTexel t, inout Surface s) {
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
     uint normals = t.attachments[GBUFFER_NORMALS].x;
     uint params = t.attachments[GBUFFER_PARAMS].x;
@@ -348,7 +348,7 @@ void decodePacked(GBufferTexel t, inout Surface s) {
 }
 
 // Decodes all fields except the position, which comes from depth, and fields that only forward+ has.
-Surface decodeGBuffer(GBufferTexel t, vec3 position) {
+Surface decodeGBuffer(const GBufferTexel t, const vec3 position) {
     Surface s;
     s.position = position;
     s.texcoord = vec2(0.0);

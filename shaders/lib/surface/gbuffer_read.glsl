@@ -30,7 +30,7 @@ layout(set = SET_GBUFFER, binding = GBUFFER_SHADED) uniform utexture2DMS gbuffer
 #define FETCHED(name, p, i) (multisampled() ? texelFetch(name##_samples, p, i) : texelFetch(name, p, i))
 
 // i: sample index; 0 without MSAA.
-GBufferTexel texelOfGBuffer(ivec2 p, int i) {
+GBufferTexel texelOfGBuffer(const ivec2 p, const int i) {
     GBufferTexel t;
     for (uint k = 0; k < GBUFFER_ATTACHMENTS; ++k) t.attachments[k] = uvec4(0);
     t.attachments[GBUFFER_ALBEDO] = FETCHED(gbuffer_albedo, p, i);
@@ -53,12 +53,12 @@ GBufferTexel texelOfGBuffer(ivec2 p, int i) {
 }
 
 // The bits of the first `words` components, which the attachment has: others are not 0.
-uint bitsOf(uvec4 texel, uint words) {
+uint bitsOf(const uvec4 texel, const uint words) {
     return texel.x | (words > 1u ? texel.y : 0u) | (words > 2u ? texel.z | texel.w : 0u);
 }
 
 // 0 if a sample stores no layer: the words of layers that it lacks are 0.
-uint layerBits(ivec2 p, int i) {
+uint layerBits(const ivec2 p, const int i) {
     uint bits = 0u, words = layerWords();
     if (hasLayerAttachment(0)) bits |= bitsOf(FETCHED(gbuffer_layers, p, i), words);
     if (hasLayerAttachment(1)) bits |= bitsOf(FETCHED(gbuffer_layers_2, p, i), words - 4u);
@@ -69,7 +69,7 @@ uint layerBits(ivec2 p, int i) {
 }
 
 // Surface of a sample; z is the reversed depth at which it is shaded.
-Surface surfaceFromGBuffer(ivec2 p, int i, out float z) {
+Surface surfaceFromGBuffer(const ivec2 p, const int i, out float z) {
     GBufferTexel t = texelOfGBuffer(p, i);
     vec2 place = vec2(0.5);
     if (multisampled()) {

@@ -21,7 +21,7 @@ MATERIAL_SLOTS(SLOT_TEXTURE)
 // Texture coordinates of a slot, computed per vertex. Computing them here from the material buffer would
 // break derivatives and thus mip levels: lavapipe reads 0 from it in quad pixels that the triangle does
 // not cover.
-vec2 slotTexcoord(uint slot) {
+vec2 slotTexcoord(const uint slot) {
     if (on(feature_texture_transform) || on(feature_second_texcoord)) {
         vec4 two = SHADED(v_slot_texcoords[slot / 2]);
         return slot % 2 == 0 ? two.xy : two.zw;
@@ -31,14 +31,14 @@ vec2 slotTexcoord(uint slot) {
 
 // Samples a slot's texture. Under MSAA, coordinates at the pixel's centre select the mip level: the shaded
 // locations of neighbouring pixels are not one pixel apart.
-vec2 middleTexcoord(uint slot) {
+vec2 middleTexcoord(const uint slot) {
     if (on(feature_texture_transform) || on(feature_second_texcoord)) {
         vec4 two = MIDDLE(v_slot_texcoords[slot / 2]);
         return slot % 2 == 0 ? two.xy : two.zw;
     }
     return middle_texcoord;
 }
-vec4 sampledTexel(sampler2D map, uint slot) {
+vec4 sampledTexel(const sampler2D map, const uint slot) {
     if (!multisampled()) return texture(map, slotTexcoord(slot));
     vec2 middle = middleTexcoord(slot);
     return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
@@ -47,7 +47,7 @@ vec4 sampledTexel(sampler2D map, uint slot) {
 // Texel of a slot: sampled, or constant for images of one colour; `texel` is the slot's feature. In pixels
 // that the triangle does not cover the constant may read 0, so code that takes differences samples the
 // map.
-vec4 slotTexel(sampler2D map, uint slot, uint texel) {
+vec4 slotTexel(const sampler2D map, const uint slot, const uint texel) {
     return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
 }
 // Slots that share a texel repeat the same sample, which compilers merge.
@@ -103,7 +103,7 @@ vec4 baseColor() {
 // excludes the factor, which reads as 0 where a quad leaves its triangle (slotTexcoord). It is at most 1,
 // because pixels beside the triangle may lie where the texture repeats; transparent locations then stay
 // transparent for cutoffs above 3/8.
-float sharpenedAlpha(float alpha) {
+float sharpenedAlpha(const float alpha) {
     float middle = 1.0;
     if (on(feature_base_color_texture))
         middle *= texture(base_color_texture, middleTexcoord(SLOT_base_color)).a;
@@ -117,7 +117,7 @@ float sharpenedAlpha(float alpha) {
 // A masked pixel continues as a helper invocation: its neighbours' mip levels and triangle normals are
 // differences to it and would be undefined after `discard`. Returns the remaining samples of the
 // triangle's coverage.
-uint cutOut(vec4 base_color) {
+uint cutOut(const vec4 base_color) {
     if (feature_alpha_mask == MASK_COVERS) {
         uint covered = coverageOf(sharpenedAlpha(base_color.a));
         gl_SampleMask[0] = int(covered);
@@ -127,26 +127,26 @@ uint cutOut(vec4 base_color) {
     return uint(gl_SampleMaskIn[0]);
 }
 
-float largestOf(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+float largestOf(const vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 // A vector along the triangle's normal, of any non-zero length and either sign. The derivatives are scaled
 // first: in a tiny scene the squared length of their cross product would underflow. A triangle seen
 // edge-on or without area gives the direction to the viewer, `towards` (of any length).
-vec3 alongTriangleNormal(vec3 towards) {
+vec3 alongTriangleNormal(const vec3 towards) {
     vec3 dx = dFdxFine(v_world), dy = dFdyFine(v_world);
     vec3 n = crossProduct(dx * (1.0 / max(largestOf(dx), 1e-37)),
                           dy * (1.0 / max(largestOf(dy), 1e-37)));
     return dot(n, n) > 0.0 ? n : towards * (1.0 / largestOf(towards));
 }
 // The triangle's unit normal, facing the viewer.
-vec3 triangleNormal(vec3 towards) {
+vec3 triangleNormal(const vec3 towards) {
     vec3 along = alongTriangleNormal(towards);
     vec3 unit = along * inversesqrt(dot(along, along));
     return dot(unit, towards) < 0.0 ? -unit : unit;
 }
 
 // Tangent-space normal of a texel, scaled and not normalised.
-vec3 mappedNormal(vec4 texel, float scale) {
+vec3 mappedNormal(const vec4 texel, const float scale) {
     vec3 t = texel.xyz * 2.0 - 1.0;
     t.xy *= scale;
     return t;
@@ -156,14 +156,14 @@ vec3 mappedNormal() {
 }
 
 // Unit vector along `v`; 0 for the zero vector.
-vec3 directionOf(vec3 v) {
+vec3 directionOf(const vec3 v) {
     float length2 = dot(v, v);
     return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
 }
 
 // Transforms `t` from tangent space, (T, w cross(N, T), N) of the interpolated, unnormalised vectors, as
 // MikkTSpace defines it (glTF 2.0).
-vec3 fromTangentSpace(vec3 t, vec3 n, vec4 tangent) {
+vec3 fromTangentSpace(const vec3 t, const vec3 n, const vec4 tangent) {
     vec3 bitangent = tangent.w * crossProduct(n, tangent.xyz);
     return t.x * tangent.xyz + t.y * bitangent + t.z * n;
 }
@@ -193,7 +193,7 @@ vec3 shadingNormal(vec3 towards) {
 }
 
 // Without a map of its own the coat is smooth, whatever the base's map.
-vec3 clearcoatNormal(vec3 towards) {
+vec3 clearcoatNormal(const vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_clearcoat_normal_texture)) {
         vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal,
@@ -205,7 +205,7 @@ vec3 clearcoatNormal(vec3 towards) {
 
 // Gives all four pixels of a quad the value of the covered ones. On lavapipe the others, which derivatives
 // use, read 0 from the material buffer, so they take a neighbour's value.
-float overQuad(float value) {
+float overQuad(const float value) {
     uvec2 odd = uvec2(gl_FragCoord.xy) & 1u;
     float dx = dFdxFine(value);
     float in_row = value != 0.0 ? value : (odd.x != 0 ? -dx : dx);
@@ -216,7 +216,7 @@ float overQuad(float value) {
 // Specular anti-aliasing by the normal's change between pixel centres; shaded locations are not one pixel
 // apart. The change is the same for front and back faces.
 // `n`: the normal at the pixel's centre, of any length.
-float filteredRoughness(float roughness, vec3 n) {
+float filteredRoughness(const float roughness, const vec3 n) {
     vec3 unit = directionOf(n);
     float w = gl_FragCoord.w;
     float rounded = roundedChange(w, gl_FragCoord.xy, dFdxFine(w), dFdyFine(w));
@@ -230,7 +230,7 @@ float filteredRoughness(float roughness, vec3 n) {
     return filteredRoughness(roughness, dFdxFine(unit), dFdyFine(unit), rounded, view.specular_aa_limit);
 }
 
-float filteredRoughness(float roughness) {
+float filteredRoughness(const float roughness) {
     vec3 n = middle_normal;
     if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_normal_texture)) {
         vec2 at = middleTexcoord(SLOT_normal);
@@ -240,7 +240,7 @@ float filteredRoughness(float roughness) {
     return filteredRoughness(roughness, n);
 }
 
-float filteredClearcoatRoughness(float roughness) {
+float filteredClearcoatRoughness(const float roughness) {
     vec3 n = middle_normal;
     if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_clearcoat_normal_texture)) {
         vec2 at = middleTexcoord(SLOT_clearcoat_normal);
@@ -250,7 +250,7 @@ float filteredClearcoatRoughness(float roughness) {
     return filteredRoughness(roughness, n);
 }
 
-void addClearcoat(Material m, vec3 towards, inout Surface s) {
+void addClearcoat(const Material m, const vec3 towards, inout Surface s) {
     float weight = m.clearcoat, roughness = m.clearcoat_roughness;
     if (on(feature_clearcoat_texture))
         weight *= slotTexel(clearcoat_texture, SLOT_clearcoat, feature_clearcoat_texture).r;
@@ -266,7 +266,7 @@ void addClearcoat(Material m, vec3 towards, inout Surface s) {
 }
 
 // The direction turns from the tangent to the bitangent.
-void addAnisotropy(Material m, inout Surface s) {
+void addAnisotropy(const Material m, inout Surface s) {
     float strength = m.anisotropy;
     vec2 direction = vec2(1.0, 0.0);
     if (on(feature_anisotropy_texture)) {
@@ -282,7 +282,7 @@ void addAnisotropy(Material m, inout Surface s) {
     s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);
 }
 
-void addSheen(Material m, inout Surface s) {
+void addSheen(const Material m, inout Surface s) {
     s.sheen_color = m.sheen_color;
     if (on(feature_sheen_color_texture)) s.sheen_color *= sheenColorTexel().rgb;
     float roughness = m.sheen_roughness;
@@ -290,7 +290,7 @@ void addSheen(Material m, inout Surface s) {
     s.sheen_roughness = s.sheen_color != vec3(0.0) ? roughness : 0.0;
 }
 
-void addFilm(Material m, inout Surface s) {
+void addFilm(const Material m, inout Surface s) {
     s.iridescence = m.iridescence;
     if (on(feature_iridescence_texture))
         s.iridescence *= slotTexel(iridescence_texture, SLOT_iridescence, feature_iridescence_texture).r;
@@ -304,7 +304,7 @@ void addFilm(Material m, inout Surface s) {
     s.iridescence_thickness = there ? thickness : 0.0;
 }
 
-void addDiffuseTransmission(Material m, inout Surface s) {
+void addDiffuseTransmission(const Material m, inout Surface s) {
     float weight = m.diffuse_transmission;
     vec3 color = m.diffuse_transmission_color;
     if (on(feature_diffuse_transmission_texture)) weight *= diffuseTransmissionTexel().a;
@@ -313,7 +313,7 @@ void addDiffuseTransmission(Material m, inout Surface s) {
     s.diffuse_transmission_color = weight > 0.0 ? color : vec3(0.0);
 }
 
-void addTransmission(Material m, float alpha, inout Surface s) {
+void addTransmission(const Material m, const float alpha, inout Surface s) {
     s.coverage = feature_transmission == TRANSMISSION_COVERED ? clamp(alpha, 0.0, 1.0) : 1.0;
     s.transmission = m.transmission;
     if (on(feature_transmission_texture))
@@ -330,7 +330,7 @@ void addTransmission(Material m, float alpha, inout Surface s) {
 }
 
 // Fields that unlit materials have too; the lightmap and the layers have no effect yet.
-Surface surfaceAt(vec3 towards) {
+Surface surfaceAt(const vec3 towards) {
     Surface s;
     s.position = positionFromDepth(shadedPixel(), fragmentDepth());
     s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
@@ -357,7 +357,7 @@ Surface surfaceAt(vec3 towards) {
 }
 
 // See contract/material.h.
-void makeUnlit(vec3 base_color, inout Surface s) {
+void makeUnlit(const vec3 base_color, inout Surface s) {
     s.albedo = vec3(0.0);
     s.metallic = 0.0;
     s.roughness = 1.0;
@@ -367,7 +367,7 @@ void makeUnlit(vec3 base_color, inout Surface s) {
     s.dielectric_f90 = 0.0;
 }
 
-void addBase(Material m, vec3 base_color, inout Surface s) {
+void addBase(const Material m, const vec3 base_color, inout Surface s) {
     s.albedo = base_color;
     s.metallic = m.metallic;
     s.roughness = m.roughness;
@@ -395,7 +395,7 @@ void addBase(Material m, vec3 base_color, inout Surface s) {
     }
 }
 
-void addSpecular(Material m, inout Surface s) {
+void addSpecular(const Material m, inout Surface s) {
     s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
     s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {
@@ -409,7 +409,7 @@ void addSpecular(Material m, inout Surface s) {
     if (on(feature_specular_glossiness)) s.albedo *= 1.0 - largestOf(s.dielectric_f0);
 }
 
-Surface surfaceFromMaterial(vec4 base_color) {
+Surface surfaceFromMaterial(const vec4 base_color) {
     Material m = material;
     vec3 towards = on(feature_orthographic) ? view.backward : -v_world;
     Surface s = surfaceAt(towards);

@@ -6,12 +6,12 @@
 
 #include "shaders/lib/math/arithmetic.glsl"
 
-vec2 octahedralWrap(vec2 p) {
+vec2 octahedralWrap(const vec2 p) {
     return (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
 }
 
 // n: unit. Returns x in the low `bits`, y above them.
-uint encodeOctahedral(vec3 n, uint bits) {
+uint encodeOctahedral(const vec3 n, const uint bits) {
     vec2 p = n.xy * (1.0 / (abs(n.x) + abs(n.y) + abs(n.z)));
     if (n.z < 0.0) p = octahedralWrap(p);
     float top = float((1u << (bits - 1u)) - 1u);
@@ -20,7 +20,7 @@ uint encodeOctahedral(vec3 n, uint bits) {
     return (uint(q.x) & mask) | ((uint(q.y) & mask) << bits);
 }
 
-vec3 decodeOctahedral(uint code, uint bits) {
+vec3 decodeOctahedral(const uint code, const uint bits) {
     float top = float((1u << (bits - 1u)) - 1u);
     ivec2 q =
         ivec2(bitfieldExtract(int(code), 0, int(bits)), bitfieldExtract(int(code), int(bits), int(bits)));

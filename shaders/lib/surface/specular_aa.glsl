@@ -14,7 +14,7 @@
 // left). About six roundings are each relative to the largest term. They count most if a pixel of the quad
 // is near the horizon, where 1/w is 0. `inverse_w`: 1/w; `pixel`: its position, pixels; `dx`, `dy`:
 // changes of 1/w.
-float roundedChange(float inverse_w, vec2 pixel, float dx, float dy) {
+float roundedChange(const float inverse_w, const vec2 pixel, const float dx, const float dy) {
     float smallest = inverse_w - abs(dx) - abs(dy);
     float terms = abs(inverse_w) + abs(dx) * pixel.x + abs(dy) * pixel.y;
     float change = terms * (1.0 / 524288.0) / max(smallest, 1e-37);  // 2^-19: 32 roundings
@@ -23,7 +23,8 @@ float roundedChange(float inverse_w, vec2 pixel, float dx, float dy) {
 
 // Perceptual roughness if the unit normal changes by `dn_dx` and `dn_dy` between pixels. A change up to
 // `rounded` counts as flat and keeps the roughness bit for bit. `limit`: kappa.
-float filteredRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, float rounded, float limit) {
+float filteredRoughness(const float roughness, const vec3 dn_dx, const vec3 dn_dy, const float rounded,
+                        const float limit) {
     float change = dot(dn_dx, dn_dx) + dot(dn_dy, dn_dy);
     float variance = uintBitsToFloat(feature_specular_aa_variance);  // sigma^2, square pixels
     float kernel = change > rounded ? min(2.0 * variance * change, limit) : 0.0;
@@ -35,7 +36,8 @@ float filteredRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, float rounded, 
 
 // The filter of three.js (0.187, lights_physical_fragment): adds the largest component of the normal's
 // change to perceptual roughness. Components are along the image's `right` and `down` and its depth.
-float steepenedRoughness(float roughness, vec3 dn_dx, vec3 dn_dy, vec3 right, vec3 down, float rounded) {
+float steepenedRoughness(const float roughness, const vec3 dn_dx, const vec3 dn_dy, const vec3 right,
+                         const vec3 down, const float rounded) {
     if (dot(dn_dx, dn_dx) + dot(dn_dy, dn_dy) <= rounded) return roughness;
     mat3 picture = mat3(right, down, crossProduct(right, down));
     vec3 change = max(abs(dn_dx * picture), abs(dn_dy * picture));

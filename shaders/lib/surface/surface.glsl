@@ -56,7 +56,7 @@ bool needsGeometricNormal() {
     return on(feature_captured) || on(feature_shadows) || on(feature_local_shadows);
 }
 
-bool hasLayer(uint layer) { return (feature_layers & layer) != 0u; }
+bool hasLayer(const uint layer) { return (feature_layers & layer) != 0u; }
 
 void removeLayers(inout Surface s) {
     s.clearcoat = s.clearcoat_roughness = s.anisotropy = 0.0;
@@ -72,7 +72,7 @@ void removeLayers(inout Surface s) {
 
 // Two unit vectors perpendicular to the unit vector `n`, right-handed with it (Duff et al. 2017, "Building
 // an Orthonormal Basis, Revisited").
-void axesAcross(vec3 n, out vec3 x, out vec3 y) {
+void axesAcross(const vec3 n, out vec3 x, out vec3 y) {
     float sign_z = n.z >= 0.0 ? 1.0 : -1.0;
     float a = -1.0 / (sign_z + n.z), b = n.x * n.y * a;
     x = vec3(1.0 + sign_z * n.x * n.x * a, sign_z * b, -sign_z * n.x);
@@ -80,7 +80,7 @@ void axesAcross(vec3 n, out vec3 x, out vec3 y) {
 }
 
 // Unit vector along which highlights stretch, world axes; 0 where isotropic.
-vec3 anisotropyDirection(Surface s) {
+vec3 anisotropyDirection(const Surface s) {
     vec3 x, y;
     axesAcross(s.normal, x, y);
     vec3 direction = x * s.anisotropy_turn.x + y * s.anisotropy_turn.y;
@@ -88,7 +88,7 @@ vec3 anisotropyDirection(Surface s) {
 }
 
 // The turn of any vector that is not along `n`; 0 otherwise.
-vec2 turnOf(vec3 direction, vec3 n) {
+vec2 turnOf(const vec3 direction, const vec3 n) {
     vec3 x, y;
     axesAcross(n, x, y);
     vec2 turn = vec2(dot(direction, x), dot(direction, y));
@@ -97,6 +97,6 @@ vec2 turnOf(vec3 direction, vec3 n) {
 }
 
 // Specular colour at normal incidence.
-vec3 specularF0(Surface s) { return blend(s.dielectric_f0, s.albedo, s.metallic); }
+vec3 specularF0(const Surface s) { return blend(s.dielectric_f0, s.albedo, s.metallic); }
 
 #endif

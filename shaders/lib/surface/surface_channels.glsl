@@ -12,7 +12,7 @@
     layout(set = SET_GBUFFER, binding = number) uniform texture2D channel_##name;
 SURFACE_CHANNELS(CHANNEL_IMAGE)
 
-Surface surfaceFromChannels(ivec2 p) {
+Surface surfaceFromChannels(const ivec2 p) {
     Surface s;
     s.position = texelFetch(channel_position, p, 0).xyz;
     s.normal = texelFetch(channel_normals, p, 0).xyz;

@@ -8,7 +8,7 @@
 // Haze, HazeMarch, direction (unit), reach (below 0: endless) -> transmittance, scattered
 const uint WIDTH = 36;
 
-vec4 texel(uint i) { return vec4(IN3(WIDTH, 4 * i), IN(WIDTH, 4 * i + 3)); }
+vec4 texel(const uint i) { return vec4(IN3(WIDTH, 4 * i), IN(WIDTH, 4 * i + 3)); }
 
 void main() {
     if (PROBE_ROW >= probe_rows) return;

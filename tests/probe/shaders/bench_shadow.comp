@@ -15,7 +15,7 @@ layout(set = 0, binding = 1) uniform sampler2DArrayShadow depth_map;
 layout(set = 0, binding = 2) uniform sampler2DArray moment_map;
 layout(push_constant, scalar) uniform Size { uvec2 size; };
 
-float visibilityAt(vec2 uv, float depth, float texel, ShadowLight light) {
+float visibilityAt(const vec2 uv, const float depth, const float texel, const ShadowLight light) {
     if (FILTER == 1u) {
         float sum = 0.0;
         for (int y = -2; y <= 2; ++y)

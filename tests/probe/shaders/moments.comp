@@ -10,7 +10,7 @@
 // stored moments; for feature_shadows
 const uint WIDTH = 10;
 
-vec4 stored(float depth, ShadowLight light) {
+vec4 stored(const float depth, const ShadowLight light) {
     if (feature_shadows == SHADOWS_MSM4) return quantisedMoments(depth);
     return warpedMoments(depth, light.exponent, light.negative, light.nearest);
 }

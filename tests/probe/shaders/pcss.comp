@@ -11,12 +11,12 @@ const uint WIDTH = 15;
 
 // Takes the place of the shadow map: the blockers' depths in textureGather's order.
 const int MAP_SIZE = 256;
-float storedAt(vec2 texel) {
+float storedAt(const vec2 texel) {
     vec2 offset = texel - vec2(IN(WIDTH, 0), IN(WIDTH, 1));
     float beside = dot(offset, vec2(IN(WIDTH, 7), IN(WIDTH, 8)));
     return beside > IN(WIDTH, 9) ? IN(WIDTH, 10) : beside < -IN(WIDTH, 11) ? IN(WIDTH, 12) : 0.0;
 }
-vec4 storedAround(vec3 place) {
+vec4 storedAround(const vec3 place) {
     vec2 corner = round(place.xy * float(MAP_SIZE)) - 1.0;
     return vec4(storedAt(corner + vec2(0.5, 1.5)), storedAt(corner + vec2(1.5, 1.5)),
                 storedAt(corner + vec2(1.5, 0.5)), storedAt(corner + vec2(0.5, 0.5)));
