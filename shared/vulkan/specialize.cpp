@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sparse conditional constant propagation (Wegman and Zadeck, "Constant propagation with conditional
-// branches", TOPLAS 13(2), 1991) in one pass over the blocks. Loops are not iterated, so values that a
-// loop changes count as unknown. Then marks everything that live code reads, starting at side effects.
+// branches", TOPLAS 13(2), 1991) in passes over the blocks. The first takes every loop's body for code that
+// runs once. The next ones know the loops whose back edge was taken; values that these change count as
+// unknown. Then marks everything that live code reads, starting at side effects.
 #include "shared/vulkan/specialize.h"
 
 #include "shared/vulkan/shader_interface.h"
@@ -178,30 +179,50 @@ private:
 
     void propagate() {
         code_.order = order();
-        std::vector<std::uint32_t> place(code_.blocks.size(), SpecializedCode::none);
-        for (std::uint32_t i = 0; i < code_.order.size(); ++i) place[code_.order[i]] = i;
+        place_.assign(code_.blocks.size(), SpecializedCode::none);
+        for (std::uint32_t i = 0; i < code_.order.size(); ++i) place_[code_.order[i]] = i;
+        while (!propagatedOnce()) continue;
+    }
+
+    // False if a loop turned out to repeat that was taken for code that runs once.
+    bool propagatedOnce() {
+        for (SpecializedCode::Block& block : code_.blocks) block.alive = false, block.taken.clear();
+        for (const std::uint32_t at : code_.at)
+            if (const auto in = code_.instruction(at); !isTerminator(code_.op(at)) && hasResult(in))
+                code_.ids[in[2]].known = false, code_.ids[in[2]].copied = 0;
         code_.blocks[0].alive = true;
+        bool complete = true;
         for (const std::uint32_t number : code_.order) {
             SpecializedCode::Block& block = code_.blocks[number];
             if (!block.alive) continue;
             for (std::uint32_t i = block.first; i < block.last; ++i) evaluate(number, code_.at[i]);
-            const bool ends_loop = std::ranges::any_of(
-                block.targets, [&](std::uint32_t target) { return place[target] <= place[number]; });
-            const auto in = code_.instruction(code_.at[block.last]);
-            block.taken = block.targets;
-            if (code_.op(code_.at[block.last]) == OpBranchConditional && !ends_loop) {
-                if (const auto condition = known(in[1]))
-                    block.taken = {code_.ids[in[*condition != 0 ? 2 : 3]].block};
-            } else if (code_.op(code_.at[block.last]) == OpSwitch && !ends_loop) {
-                if (const auto selector = known(in[1])) {
-                    std::uint32_t label = in[2];
-                    for (std::size_t k = 3; k + 1 < in.size(); k += 2)
-                        if (in[k] == *selector) label = in[k + 1];
-                    block.taken = {code_.ids[label].block};
-                }
+            block.taken = takenFrom(number);
+            for (const std::uint32_t target : block.taken) {
+                code_.blocks[target].alive = true;
+                if (isBackEdge(number, target) && !std::exchange(code_.blocks[target].repeats, true))
+                    complete = false;
             }
-            for (const std::uint32_t target : block.taken) code_.blocks[target].alive = true;
         }
+        return complete;
+    }
+
+    bool isBackEdge(std::uint32_t from, std::uint32_t to) const { return place_[to] <= place_[from]; }
+
+    // A loop keeps both edges of the branch that ends it, unless it is left at once.
+    std::vector<std::uint32_t> takenFrom(std::uint32_t number) const {
+        const SpecializedCode::Block& block = code_.blocks[number];
+        const auto in = code_.instruction(code_.at[block.last]);
+        const std::uint32_t end = code_.op(code_.at[block.last]);
+        if (end != OpBranchConditional && end != OpSwitch) return block.targets;
+        const auto selector = known(in[1]);
+        if (!selector) return block.targets;
+        std::uint32_t label = in[2];
+        if (end == OpBranchConditional) label = in[*selector != 0 ? 2 : 3];
+        for (std::size_t k = 3; end == OpSwitch && k + 1 < in.size(); k += 2)
+            if (in[k] == *selector) label = in[k + 1];
+        const std::uint32_t target = code_.ids[label].block;
+        if (isBackEdge(number, target)) return block.targets;
+        return {target};
     }
 
     void evaluate(std::uint32_t number, std::uint32_t at) {
@@ -209,7 +230,7 @@ private:
         if (!hasResult(in)) return;
         SpecializedCode::Id& id = code_.ids[in[2]];
         if (code_.op(at) == OpPhi) {
-            if (code_.blocks[number].loop_continue != 0 || !code_.ids[in[1]].scalar) return;
+            if (code_.blocks[number].repeats || !code_.ids[in[1]].scalar) return;
             std::optional<std::uint32_t> all;
             for (std::size_t i = 3; i < in.size(); i += 2) {
                 if (!code_.goesTo(code_.ids[in[i + 1]].block, number)) continue;
@@ -231,10 +252,20 @@ private:
         }
     }
 
+    // Whether a loop is no loop any more: its body runs once, and one branch leaves it.
+    bool isUnrolled(const SpecializedCode::Block& loop) const {
+        const std::uint32_t merge = code_.ids[loop.merge].block;
+        return !loop.repeats && std::ranges::count_if(code_.blocks, [&](const SpecializedCode::Block& from) {
+                                    return std::ranges::find(from.taken, merge) != from.taken.end();
+                                }) == 1;
+    }
+
     // Live constructs need the blocks they name, even if unreachable. A branch out of a removed construct
     // declares that construct's merge block as its own.
     void keepStructure() {
         std::vector<char> declared(code_.bound), dropped(code_.bound);
+        for (SpecializedCode::Block& block : code_.blocks)
+            if (block.alive && block.loop_continue != 0 && isUnrolled(block)) block.loop_continue = 0;
         for (const std::uint32_t number : code_.order) {
             SpecializedCode::Block& block = code_.blocks[number];
             if (!block.alive || block.merge == 0) continue;
@@ -317,6 +348,7 @@ private:
 
     SpecializedCode code_;
     const SpecializationValue& value_;
+    std::vector<std::uint32_t> place_;  // of a block in code_.order
     std::vector<std::uint32_t> pending_;
 };
 

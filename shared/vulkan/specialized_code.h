@@ -30,6 +30,7 @@ struct SpecializedCode {
         std::vector<std::uint32_t> targets;                     // successor blocks
         std::vector<std::uint32_t> taken;                       // remaining successors
         bool alive = false;
+        bool repeats = false;          // a loop header whose back edge is taken
         bool stub = false;             // unreachable, but a live construct names it
         std::uint32_t stub_to = none;  // loop header that a stub of a continue target branches to
         std::uint32_t stub_from = 0;   // label of the stub that branches to this loop header

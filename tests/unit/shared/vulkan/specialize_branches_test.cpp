@@ -96,9 +96,8 @@ OpReturn
     }
 }
 
-// A loop that ends in its first iteration keeps its continue target; a loop without iterations has no
-// body.
-TEST(Specialize, ALoopThatDoesNotGoRoundIsStillOne) {
+// A loop that one branch leaves in its first iteration is plain code. A loop without iterations has no body.
+TEST(Specialize, ALoopThatRunsOnceIsNone) {
     const SpirvWords words = fragmentShader(R"(
 OpBranch %loop
 %loop = OpLabel
@@ -125,13 +124,77 @@ OpBranch %loop
 OpStore %out %end
 OpReturn
 )");
-    EXPECT_EQ(countOf(specializedText(words, 3, 0), "OpFAdd"), 1u);
-    const std::string once = specializedText(words, 3, 1), never = specializedText(words, 0, 0);
+    const std::string loops = specializedText(words, 3, 0), once = specializedText(words, 3, 1),
+                      never = specializedText(words, 0, 0);
+    EXPECT_EQ(countOf(loops, "OpFAdd"), 1u);
+    EXPECT_EQ(countOf(loops, "OpLoopMerge"), 1u);
     EXPECT_EQ(countOf(once, "OpFAdd"), 1u);
     EXPECT_EQ(countOf(once, "OpIAdd"), 0u);
-    EXPECT_EQ(countOf(once, "OpUndef"), 2u);
+    EXPECT_EQ(countOf(once, "OpLoopMerge"), 0u);
     EXPECT_EQ(countOf(never, "OpFAdd"), 0u);
     EXPECT_EQ(countOf(never, "OpULessThan"), 0u);
+}
+
+// The test at a loop's end: what the first iteration knows counts only if there is no second.
+TEST(Specialize, ALoopKnowsItsCounterWhileItRunsOnce) {
+    const SpirvWords words = fragmentShader(R"(
+OpBranch %loop
+%loop = OpLabel
+%i = OpPhi %uint %0u %entry %next %again
+%sum = OpPhi %float %x %entry %more %again
+OpLoopMerge %after %again None
+OpBranch %body
+%body = OpLabel
+%first = OpIEqual %bool %i %0u
+%term = OpSelect %float %first %one %y
+%more = OpFAdd %float %sum %term
+OpBranch %again
+%again = OpLabel
+%next = OpIAdd %uint %i %1u
+%goes = OpULessThan %bool %next %number
+OpBranchConditional %goes %loop %after
+%after = OpLabel
+OpStore %out %more
+OpReturn
+)");
+    const std::string once = specializedText(words, 1, 0), twice = specializedText(words, 2, 0);
+    EXPECT_EQ(countOf(once, "OpLoopMerge"), 0u);
+    EXPECT_EQ(countOf(once, "OpIEqual"), 0u);
+    EXPECT_EQ(countOf(once, "OpSelect "), 0u);
+    EXPECT_EQ(countOf(once, "Input"), 2u);  // of x alone
+    EXPECT_EQ(countOf(twice, "OpLoopMerge"), 1u);
+    EXPECT_EQ(countOf(twice, "OpIEqual"), 1u);
+}
+
+// Two branches may leave a loop that does not go round: it stays one, with its continue target.
+TEST(Specialize, ALoopThatDoesNotGoRoundMayStillBeOne) {
+    const SpirvWords words = fragmentShader(R"(
+OpBranch %loop
+%loop = OpLabel
+%sum = OpPhi %float %x %entry %more %again
+OpLoopMerge %after %again None
+OpBranch %test
+%test = OpLabel
+%goes = OpFOrdLessThan %bool %sum %one
+OpBranchConditional %goes %body %after
+%body = OpLabel
+%more = OpFAdd %float %sum %y
+OpSelectionMerge %on None
+OpBranchConditional %flag %leave %on
+%leave = OpLabel
+OpBranch %after
+%on = OpLabel
+OpBranch %again
+%again = OpLabel
+OpBranch %loop
+%after = OpLabel
+%end = OpPhi %float %sum %test %more %leave
+OpStore %out %end
+OpReturn
+)");
+    const std::string once = specializedText(words, 0, 1);
+    EXPECT_EQ(countOf(once, "OpLoopMerge"), 1u);
+    EXPECT_EQ(countOf(once, "OpUndef"), 1u);
 }
 
 // After the outer condition is decided, a branch out of its construct gets its own merge block.
