@@ -29,7 +29,7 @@ struct ChannelDraw {
 // Shades channels into targets, cleared to 0.
 void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::shared_ptr<const DescriptorSets> channels, const ChannelDraw& draw) {
-    const gpu::uint most = inputs.device.profile().list_entries_per_draw;
+    const gpu::uint most = inputs.entries_per_draw;
     if (inputs.longest_list > most)
         throw std::runtime_error(
             fmt::format("relighting from channels reads up to {} light list entries, but a list has {}; use "

@@ -3,6 +3,7 @@
 
 #include "compare/render/frame_facts.h"
 #include "compare/render/left_out.h"
+#include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/resolve.h"
 #include "shared/light/cutoff.h"
@@ -199,6 +200,8 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
     inputs.longest_list = lists.any()               ? lists.grid().all_end
                           : objects.features() != 0 ? objects.longest()
                                                     : lights.local();
+    inputs.entries_per_draw = entriesPerDraw(device.profile(), lights, scene.needs.layers,
+                                             inputs.variant.get(gpu::FEATURE_list_width));
     checkLightsOfBlended(inputs);
     checkSamples(inputs);
     details = functionsOf(settings.path).prepare(inputs, settings);

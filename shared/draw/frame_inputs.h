@@ -48,6 +48,7 @@ struct FrameInputs {
     gpu::BlendedConstants blended{};           // of all blended passes
     const FragmentLists* fragments = nullptr;  // Transparency::list
     gpu::uint longest_list = 0;                // entries of the longest list that a pixel may evaluate
+    gpu::uint entries_per_draw = 1;            // of them that one draw evaluates; see entriesPerDraw()
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  // per pixel, in images that draws write
     bool sample_shading = false;                            // a fragment per sample
     MsaaEdges edges = MsaaEdges::exact;

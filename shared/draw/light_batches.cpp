@@ -61,9 +61,25 @@ double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightB
     return pixels * (costs.surface + costs.light * lights * std::max(1.0, each)) * 1e-6;
 }
 
+gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, gpu::uint layers,
+                         gpu::uint list_width) {
+    // As the loops of shaders/lib/shading/shade.glsl and lights/area.glsl nest.
+    const gpu::uint reflectors = 1 + ((layers & gpu::LAYER_CLEARCOAT) != 0 ? 1 : 0) +
+                                 ((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0 ? 1 : 0),
+                    over_reflectors = reflectors > 1 ? reflectors : 0,
+                    over_packet = list_width > 1 ? list_width : 0;
+    gpu::uint most = 1 + over_packet + list_width * over_reflectors;
+    if (lights.rect + lights.disc + lights.tube > 0) {
+        // Both form factors of a reflector; of a tube, each with two rims of up to two arcs.
+        const gpu::uint factors = 2 * (1 + (lights.tube > 0 ? 2 * (1 + 2) : 0));
+        most = std::max(most, list_width * (1 + over_reflectors + reflectors * factors));
+    }
+    return std::max(profile.light_iterations / most, 1u);
+}
+
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn,
                              gpu::uint layers) {
-    const gpu::uint entries = inputs.longest_list, most = inputs.device.profile().list_entries_per_draw;
+    const gpu::uint entries = inputs.longest_list, most = inputs.entries_per_draw;
     if (entries <= most) return {};
     LightBatch batch{gpu::BATCH_FIRST, 0, most};
     while (batch.first + most < entries) {

@@ -33,8 +33,13 @@ struct LightBatch {
 // costs as much again.
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch);
 
+// FrameInputs::entries_per_draw, so that the loops over a pixel's lights take at most
+// DeviceProfile::light_iterations. `layers`: LAYER_* of all surfaces. `list_width`: lights of an entry.
+gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, gpu::uint layers,
+                         gpu::uint list_width);
+
 // Adds a draw for every light batch but the last, and returns the last for the pass that completes the
-// sum. Lists of up to DeviceProfile::list_entries_per_draw entries are one batch, BATCH_WHOLE, without an
+// sum. Lists of up to FrameInputs::entries_per_draw entries are one batch, BATCH_WHOLE, without an
 // extra draw. `add` declares what the pass reads, including depth and the earlier sums, and records the draw
 // of one batch, which writes attachments of partialSumFormats(). With SumsBy::storage it is a dispatch, which
 // stores to the first two images and declares them. `layers`: LAYER_* of the surfaces that are drawn.

@@ -77,7 +77,7 @@ void checkSamples(const FrameInputs& inputs) {
             fail(fmt::format("does not support {} attachments with this number of samples; use --msaa {}",
                              nameOf(format), samples > 4 ? 4 : 1));
     }
-    const gpu::uint most = device.profile().list_entries_per_draw;
+    const gpu::uint most = inputs.entries_per_draw;
     if (inputs.longest_list > most)
         fail(
             fmt::format("reads up to {} light list entries per draw, but a list has {}; use --assign "

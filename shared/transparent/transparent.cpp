@@ -161,7 +161,7 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 }
 
 void checkLightsOfBlended(const FrameInputs& inputs) {
-    const gpu::uint most = inputs.device.profile().list_entries_per_draw;
+    const gpu::uint most = inputs.entries_per_draw;
     if (inputs.draws.seenThrough().empty() || inputs.longest_list <= most) return;
     throw std::runtime_error(fmt::format(
         "blended surfaces and glass: a light list has {} entries, but a draw on {} reads up to {}; use "

@@ -36,7 +36,7 @@ DeviceProfile profileOf(const DeviceInfo& info, std::uint32_t timestampBits, Pro
             // s.
             .flattens_branches =
                 info.driver.starts_with("SwiftShader") || choices == ProfileChoices::flattening_branches,
-            .list_entries_per_draw = asSoftware ? 65'000u : 1u << 20,
+            .light_iterations = asSoftware ? 65'000u : 1u << 20,
             .fetches_depth = !asSoftware,
             .shades_failed_samples = asSoftware,
             .bins_at_once = asSoftware && timestampBits > 0 ? 15'000u : 0u,

@@ -50,10 +50,10 @@ struct DeviceProfile {
     // The driver's compile time doubles with every branch inside a loop: pipelines use modules with
     // branches converted to selections (flattened() of flatten.h).
     bool flattens_branches = false;
-    // Light list entries that one draw may evaluate per pixel; longer lists are split over several draws.
-    // Mesa lavapipe silently ends all loops of a shader invocation after 65,535 iterations in total, some
-    // of which are reserved for other loops.
-    std::uint32_t list_entries_per_draw = 1;
+    // Iterations that the loops over a pixel's lights may take in one draw; longer lists are split over
+    // several draws. Mesa lavapipe silently ends all loops of a shader invocation after 65,535 iterations in
+    // total, some of which are reserved for other loops.
+    std::uint32_t light_iterations = 1;
     // With a depth pre-pass, forward+ reads the stored depth, as deferred lighting does. On other devices
     // the fragment's own depth has the same bits, though Vulkan does not guarantee it.
     bool fetches_depth = true;

@@ -146,7 +146,7 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     lamp.position = {0, 0, 0.5};
     lamp.intensity = 1;
     for (const std::size_t lights :
-         {std::size_t{1}, std::size_t{device().profile().list_entries_per_draw} + 7}) {
+         {std::size_t{1}, std::size_t{device().profile().light_iterations} + 7}) {
         scene.lights.assign(lights, lamp);
         const std::vector<Frame> shone = bothPaths(scene, settings, shown);
         for (std::size_t i = 0; i < 2; ++i) {

@@ -275,7 +275,7 @@ TEST(LightingImages, AreTheSameInBatches) {
                 s.shadows = shadows;
                 s.shadow_size = 256;
                 s.shadow_lights = shadows == Shadows::off ? 0 : 2;
-                s.lights = fmt::format("point:{}", 2 * device().profile().list_entries_per_draw + 7);
+                s.lights = fmt::format("point:{}", 2 * device().profile().light_iterations + 7);
             });
 }
 

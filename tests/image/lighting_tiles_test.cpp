@@ -195,7 +195,7 @@ TEST(LightingTiles, KeepTheBitsOfBaseLayeredAndMixedTiles) {
 TEST(LightingTiles, KeepTheBitsInLightBatches) {
     Settings settings = tiledSettings({33, 17});
     settings.assign = Assignment::every;
-    settings.lights = fmt::format("point:{}", device().profile().list_entries_per_draw + 7);
+    settings.lights = fmt::format("point:{}", device().profile().light_iterations + 7);
     expectForwardsBits(halfLayered(), settings);
 }
 

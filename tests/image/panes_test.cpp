@@ -332,7 +332,7 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     Light far = many.lights.back();
     far.position = {1e4, 0, 0};
     far.range = 0.1f;
-    const std::size_t most = device().profile().list_entries_per_draw;
+    const std::size_t most = device().profile().light_iterations;
     many.lights.insert(many.lights.end(), 2 * most + 7, far);
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {24, 14};

@@ -451,7 +451,7 @@ TEST(TransparencyModes, PartsOfAPictureJoin) {
 TEST(TransparencyModes, ListsThatOneDrawDoesNotWalkAreAnError) {
     Settings settings = pictureOf(Transparency::sorted);
     settings.assign = Assignment::every;
-    settings.lights = fmt::format("point:{}", device().profile().list_entries_per_draw + 1);
+    settings.lights = fmt::format("point:{}", device().profile().light_iterations + 1);
     const Scene scene = loadScene("builtin:glass");
     try {
         litWith(scene, settings, nothing);

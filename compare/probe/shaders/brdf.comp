@@ -13,7 +13,7 @@ void distribution() {
     out1(0, k * k * INVERSE_PI);
 }
 
-Surface surfaceOf(uint i) {
+Surface surfaceOf(const uint i) {
     Surface s;
     s.roughness = in1(i);
     s.normal = in3(i + 1);
@@ -24,7 +24,7 @@ Surface surfaceOf(uint i) {
     return s;
 }
 
-float lobeOf(Surface s, vec3 v, vec3 l) {
+float lobeOf(const Surface s, const vec3 v, const vec3 l) {
     vec3 sum = l + v;
     return specularLobe(makeBrdf(s, v), s.normal, sum, dot(sum, sum), clamp(dot(s.normal, l), 0.0, 1.0));
 }
@@ -44,8 +44,7 @@ void light() {
     s.dielectric_f0 = vec3(in1(12));
     s.dielectric_f90 = in1(13);
     vec3 v = in3(4);
-    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
-    addLight(makeBrdf(s, v), s.normal, v, Incident(in3(7), vec3(1.0)), false, reflected);
+    Lobes reflected = lobesUnder(makeBrdf(s, v), s.normal, v, Incident(in3(7), vec3(1.0)));
     out1(0, reflected.diffuse.r);
     out1(1, reflected.specular.r);
 }

@@ -11,7 +11,7 @@ const uint OCTAHEDRAL_ENCODE = 0, OCTAHEDRAL_DECODE = 100, UNORM_PACK = 200, UNO
            ROOT_BACK = 401, SHARED_EXPONENT = 402;
 
 // unit vector -> x and y of its code, decoded vector
-void octahedral(uint bits) {
+void octahedral(const uint bits) {
     uint code = encodeOctahedral(in3(0), bits);
     out1(0, float(bitfieldExtract(int(code), 0, int(bits))));
     out1(1, float(bitfieldExtract(int(code), int(bits), int(bits))));
@@ -19,7 +19,7 @@ void octahedral(uint bits) {
 }
 
 // x and y of a code -> unit vector
-void decoded(uint bits) {
+void decoded(const uint bits) {
     uint mask = (1u << bits) - 1u;
     uint code = (uint(int(in1(0))) & mask) | ((uint(int(in1(1))) & mask) << bits);
     out3(0, decodeOctahedral(code, bits));

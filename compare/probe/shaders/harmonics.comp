@@ -13,12 +13,12 @@ struct OneDraw {
 OneDraw constants = OneDraw(0u);
 ObjectLights object_lights[1];
 ObjectLight object_list[1];
-Light lightAt(uint i) { return Light(vec3(0.0), 0.0, vec3(0.0), 0.0); }
-SpotCone spotConeAt(uint i) { return SpotCone(vec3(0.0), 0.0, 0.0, vec3(0.0)); }
+Light lightAt(const uint i) { return Light(vec3(0.0), 0.0, vec3(0.0), 0.0); }
+SpotCone spotConeAt(const uint i) { return SpotCone(vec3(0.0), 0.0, 0.0, vec3(0.0)); }
 #include "shaders/lib/lights/object_lights.glsl"
 
-vec4 rowTexel(samplerBuffer texels, int i) { return in4(4 * uint(i)); }
-vec4 rowTexel(sampler2D texels, ivec2 p, int level) { return vec4(0.0); }
+vec4 rowTexel(const samplerBuffer texels, const int i) { return in4(4 * uint(i)); }
+vec4 rowTexel(const sampler2D texels, const ivec2 p, const int level) { return vec4(0.0); }
 #define texelFetch rowTexel
 #include "shaders/lib/environment/environment.glsl"
 

@@ -6,7 +6,7 @@
 #include "compare/probe/shaders/rows.glsl"
 
 // exponent, the other warp's, nearest depth, bleed, smallest variance, moment bias
-ShadowLight lightAt(uint i) {
+ShadowLight lightAt(const uint i) {
     ShadowLight light;
     light.exponent = in1(i);
     light.negative = in1(i + 1);

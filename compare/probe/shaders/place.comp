@@ -12,7 +12,7 @@ LightGrid grid;
 #include "shaders/lib/geometry/position.glsl"
 #include "compare/probe/shaders/rows.glsl"
 
-void setDepths(uint i) {
+void setDepths(const uint i) {
     view.depth_numerator = vec2(in1(i), in1(i + 1));
     view.depth_denominator = vec2(in1(i + 2), in1(i + 3));
 }

@@ -15,19 +15,19 @@ layout(constant_id = 1000) const uint probed = 0;
 
 bool beyondRows() { return gl_GlobalInvocationID.x >= rows; }
 
-uint inBits(uint i) { return row_in[gl_GlobalInvocationID.x * ins + i]; }
-float in1(uint i) { return uintBitsToFloat(inBits(i)); }
-vec3 in3(uint i) { return vec3(in1(i), in1(i + 1), in1(i + 2)); }
-vec4 in4(uint i) { return vec4(in3(i), in1(i + 3)); }
+uint inBits(const uint i) { return row_in[gl_GlobalInvocationID.x * ins + i]; }
+float in1(const uint i) { return uintBitsToFloat(inBits(i)); }
+vec3 in3(const uint i) { return vec3(in1(i), in1(i + 1), in1(i + 2)); }
+vec4 in4(const uint i) { return vec4(in3(i), in1(i + 3)); }
 
-void outBits(uint i, uint bits) { row_out[gl_GlobalInvocationID.x * outs + i] = bits; }
-void out1(uint i, float value) { outBits(i, floatBitsToUint(value)); }
-void out3(uint i, vec3 value) {
+void outBits(const uint i, const uint bits) { row_out[gl_GlobalInvocationID.x * outs + i] = bits; }
+void out1(const uint i, const float value) { outBits(i, floatBitsToUint(value)); }
+void out3(const uint i, const vec3 value) {
     out1(i, value.x);
     out1(i + 1, value.y);
     out1(i + 2, value.z);
 }
-void out4(uint i, vec4 value) {
+void out4(const uint i, const vec4 value) {
     out3(i, value.xyz);
     out1(i + 3, value.w);
 }

@@ -42,7 +42,7 @@ uint64_t fragmentKey(const float z, const uint triangle) {
 
 // A key greater than the last entry's overflows the list. Entries only decrease, so a stale read never
 // rejects a key that fits.
-void insertKey(uint pixel, uint64_t key) {
+void insertKey(const uint pixel, uint64_t key) {
     if (key > fragment_keys[(list_of.layers - 1u) * listedPixels() + pixel]) return;
     for (uint i = 0; i < list_of.layers && key != NO_FRAGMENT; ++i) {
         uint64_t there = atomicMin(fragment_keys[i * listedPixels() + pixel], key);

@@ -37,7 +37,7 @@ vec3 mapRadiance(const vec3 map, const vec2 place) {
 }
 
 // Interpolates between two levels; clamps at the first and the last.
-vec3 levelRadiance(float level, vec2 place) {
+vec3 levelRadiance(float level, const vec2 place) {
     float levels = environmentTurn().w;
     level = clamp(level, 0.0, levels - 1.0);
     float lower = min(floor(level), levels - 2.0);
@@ -135,29 +135,17 @@ vec3 bentNormal(const Brdf b, const vec3 n, const vec3 v, const float strength) 
     return length2 > 1e-12 ? normalized(between) : n;
 }
 
-// Environment light that the lobe reflects to `v`, times `factor`. `mirror`: the normal that mirrors it.
-vec3 lobeEnvironment(const Brdf b, const vec3 n, const vec3 mirror, const vec3 v, const float factor) {
-    vec3 from_lobe;
-    vec3 r = environmentFromWorld(reflection(-v, mirror));
+// Environment light that the lobe reflects to the viewer, times `factor`. `strength`: of its anisotropy.
+vec3 lobeEnvironment(const Reflector r, const float strength, const float factor) {
+    vec3 from_lobe, mirror = r.n;
+    if (hasLayer(LAYER_ANISOTROPY) && r.brdf.anisotropic) mirror = bentNormal(r.brdf, r.n, r.v, strength);
+    vec3 mirrored = environmentFromWorld(reflection(-r.v, mirror));
     if (on(feature_environment & ENVIRONMENT_SAMPLED))
-        from_lobe = sampledSpecular(b, n, v) * factor;
+        from_lobe = sampledSpecular(r.brdf, r.n, r.v) * factor;
     else
-        from_lobe = lobeShare(b) * levelRadiance(specularLevel(b.alpha), octahedralPlace(r)) * factor;
+        from_lobe =
+            r.lobe_share * levelRadiance(specularLevel(r.brdf.alpha), octahedralPlace(mirrored)) * factor;
     return from_lobe;
-}
-
-// Environment light reflected to `v` by the base and by the lobe, dimmed by occlusion. A lightmapped base
-// takes its light from the lightmap instead.
-void reflectEnvironment(const Surface s, const Brdf b, const vec3 v, out vec3 from_base, out vec3 from_lobe) {
-    float factor = environmentFactor() * s.occlusion;
-    vec3 received = environmentIrradiance(s.normal) * factor;
-    from_base = b.diffuse * PI * baseShare(b) * received;
-    if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
-    vec3 mirror = s.normal;
-    if (hasLayer(LAYER_ANISOTROPY) && b.anisotropic) mirror = bentNormal(b, s.normal, v, s.anisotropy);
-    from_lobe = lobeEnvironment(b, s.normal, mirror, v, factor);
-    // Multiple scattering leaves the surface like Lambertian reflection.
-    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * PI * received;
 }
 
 #endif

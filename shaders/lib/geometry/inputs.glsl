@@ -37,11 +37,11 @@ INPUT(6) vec4 v_slot_texcoords[SLOT_COUNT / 2];  // of two slots each
 
 #ifdef STAGE_frag
 // Offset of the shaded location from the pixel's centre, pixels.
-vec2 shadedOffset() { return placeOf(uint(gl_SampleMaskIn[0])) - 0.5; }
+vec2 shaded_offset = placeOf(uint(gl_SampleMaskIn[0])) - 0.5;
 // Inputs at the shaded location, and at the pixel's centre for differences between pixels. Under MSAA
 // every read gives an offset: in Mesa 22.3 a plain read after a read at an offset returns the value at
 // that offset.
-#define SHADED(name) (multisampled() ? interpolateAtOffset(name, shadedOffset()) : name)
+#define SHADED(name) (multisampled() ? interpolateAtOffset(name, shaded_offset) : name)
 #define MIDDLE(name) (multisampled() ? interpolateAtOffset(name, vec2(0.0)) : name)
 #define shaded_normal SHADED(v_normal)
 #define middle_normal MIDDLE(v_normal)

@@ -26,9 +26,9 @@ struct AreaView {
 };
 
 // Radiance towards the viewer, W/(sr m^2).
-struct AreaSums {
-    vec3 diffuse, specular;
-    vec3 sheen;  // its part of specular
+struct AreaLobes {
+    Lobes lobes;
+    vec3 sheen;
 };
 
 // One entry of the table (shared/contract/ltc.h, shared/light/ltc.h).
@@ -77,13 +77,13 @@ AreaView areaViewOf(const Brdf brdf, const vec3 n, const vec3 v, const LtcCell c
 
 layout(set = SET_FRAME, binding = BINDING_LTC_TABLE) uniform sampler2D ltc_table;
 
-// Looks up the table entry of a surface and makes its AreaView.
-AreaView areaView(const Brdf brdf, const Surface s, const vec3 v) {
+// Looks up the table's entry.
+AreaView areaView(const Reflector r) {
     LtcCell cell = LtcCell(vec4(1.0), vec4(1.0), 1.0, 0.0);
     if (!areaPoints()) {
-        float roughness = sqrt(brdf.alpha);
+        float roughness = sqrt(r.brdf.alpha);
         vec2 at = vec2((roughness - MIN_PERCEPTUAL_ROUGHNESS) / (1.0 - MIN_PERCEPTUAL_ROUGHNESS),
-                       1.0 - sqrt(min(brdf.n_dot_v, 1.0)));
+                       1.0 - sqrt(min(r.brdf.n_dot_v, 1.0)));
         vec2 texel = 1.0 / vec2(LTC_CELLS, LTC_BLOCKS * LTC_CELLS);
         at = (at * float(LTC_CELLS - 1) + 0.5) * texel;
         vec2 block = vec2(0.0, 1.0 / float(LTC_BLOCKS));
@@ -92,7 +92,7 @@ AreaView areaView(const Brdf brdf, const Surface s, const vec3 v) {
         vec2 albedo = textureLod(ltc_table, at + 2.0 * block, 0.0).xy;
         cell.magnitude = albedo.x, cell.fresnel = albedo.y;
     }
-    return areaViewOf(brdf, s.normal, v, cell);
+    return areaViewOf(r.brdf, r.n, r.v, cell);
 }
 
 AreaIncident fromAreaLight(const Light light, const AreaLight shape, const vec3 position,
@@ -112,24 +112,29 @@ AreaIncident fromAreaLight(const Light light, const AreaLight shape, const vec3 
 // direction is far from the centre of the lobe.
 const float LTC_MOST_GAIN = 4.0;
 
-// Adds the sheen as if all light came from its mean direction `l` (unit). `received`: irradiance over the
+// The sheen as if all light came from its mean direction `l` (unit). `received`: irradiance over the
 // radiance of the light, with the cosine.
-void addAreaSheen(const AreaView a, const vec3 l, const float received, const vec3 radiance,
-                  inout AreaSums sums) {
+vec3 areaSheen(const AreaView a, const vec3 l, const float received, const vec3 radiance) {
+    if (!hasLayer(LAYER_SHEEN)) return vec3(0.0);
     float n_dot_l = clamp(dot(a.n, l), 0.0, 1.0);
     float perpendicular = received / max(n_dot_l, 1e-4);
     vec3 reflected = sheenReflected(a.sheen, a.n, a.v, l, radiance * perpendicular);
-    bool lit = any(greaterThan(radiance, vec3(0.0)));
-    sums.specular += lit ? reflected : vec3(0.0);
-    sums.sheen += lit ? reflected : vec3(0.0);
+    return a.woven ? reflected : vec3(0.0);
 }
 
-// Adds one light. `plain`, `lobe`: its form factors (ltc.glsl) under the cosine and under the specular
-// lobe. A small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted
-// density there. A light that fills the lobe reflects the table's albedo. The fourth root of the covered
-// share blends the two; it fits the lights of tests/probe/area_error_test.cpp best.
-void addFactors(const AreaView a, const vec3 plain, const vec3 lobe, const vec3 radiance,
-                inout AreaSums sums) {
+// The reflection of a light that shines here; else nothing, whatever its arithmetic gave.
+AreaLobes areaLobes(const vec3 from_base, const vec3 from_lobe, const vec3 from_sheen, const vec3 radiance) {
+    bool lit = any(greaterThan(radiance, vec3(0.0)));
+    AreaLobes nothing = AreaLobes(Lobes(vec3(0.0), vec3(0.0)), vec3(0.0));
+    if (lit) nothing = AreaLobes(Lobes(from_base, from_lobe), from_sheen);
+    return nothing;
+}
+
+// `plain`, `lobe`: the light's form factors (ltc.glsl) under the cosine and under the specular lobe. A
+// small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted density there.
+// A light that fills the lobe reflects the table's albedo. The fourth root of the covered share blends the
+// two; it fits the lights of tests/probe/area_error_test.cpp best.
+AreaLobes fromFactors(const AreaView a, const vec3 plain, const vec3 lobe, const vec3 radiance) {
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     vec3 base = reachingBase(a.brdf, weight);
@@ -147,21 +152,19 @@ void addFactors(const AreaView a, const vec3 plain, const vec3 lobe, const vec3 
                  (specularLobe(a.brdf, a.n, s, s2, n_dot_l) * n_dot_l / max(density, 1e-20));
     there = min(there, LTC_MOST_GAIN * a.sky);
     vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(share))) * share, a.sky);
-    bool lit = any(greaterThan(radiance, vec3(0.0)));
     vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
     vec3 from_lobe = reflected * radiance;
     if (feature_multiscatter == MULTISCATTER_FDEZ)
         from_lobe += a.brdf.between * (PI * max(plain.z, 0.0)) * radiance;
-    if (lit) sums.diffuse += from_base, sums.specular += from_lobe;
-    if (a.woven) addAreaSheen(a, unitOrZero(world * plain), PI * max(plain.z, 0.0), radiance, sums);
+    vec3 from_sheen = areaSheen(a, unitOrZero(world * plain), PI * max(plain.z, 0.0), radiance);
+    return areaLobes(from_base, from_lobe, from_sheen, radiance);
 }
 
-void addAreaPoint(const AreaView a, const AreaPoint p, const vec3 radiance, inout AreaSums sums) {
+AreaLobes fromPoint(const AreaView a, const AreaPoint p, const vec3 radiance) {
     Lobes reflected = reflectPoint(a.brdf, a.n, a.v, p, radiance);
-    bool lit = any(greaterThan(radiance, vec3(0.0)));
-    if (lit) sums.diffuse += reflected.diffuse, sums.specular += reflected.specular;
     vec3 l = unitOrZero(p.diffuse_at);
-    if (a.woven) addAreaSheen(a, l, max(dot(a.n, l), 0.0) * p.solid_angle, radiance, sums);
+    vec3 from_sheen = areaSheen(a, l, max(dot(a.n, l), 0.0) * p.solid_angle, radiance);
+    return areaLobes(reflected.diffuse, reflected.specular, from_sheen, radiance);
 }
 
 // Scale of lengths: one over the distance of the light's farthest point. Squares then stay within float32
@@ -170,50 +173,55 @@ float unitOf(const AreaIncident i, const AreaLight shape) {
     return 1.0 / (lengthOf(i.centre) + shape.extent);
 }
 
-void addRect(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
-             inout AreaSums sums) {
-    AreaIncident i = fromAreaLight(light, shape, position, true);
-    if (areaPoints()) {
-        addAreaPoint(a, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
-        return;
+// Sets `plain` and `lobe` to `factor`, an expression of `under`: the cosine, then the lobe's. In a loop, so
+// that a module holds its long code once.
+#define BOTH_FACTORS(plain, lobe, factor)      \
+    vec3 plain, lobe = vec3(0.0);              \
+    {                                          \
+        Ltc under = Ltc(1.0, 1.0, 0.0);        \
+        uint turn = 0u;                        \
+        do {                                   \
+            plain = lobe;                      \
+            lobe = factor;                     \
+            under = a.ltc;                     \
+        } while (++turn < 2u);                 \
     }
+
+AreaLobes fromRect(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
+    AreaIncident i = fromAreaLight(light, shape, position, true);
+    if (areaPoints())
+        return fromPoint(a, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance);
     float unit = unitOf(i, shape);
-    Ltc plain = Ltc(1.0, 1.0, 0.0);
     vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
          y = a.surface * (shape.y * (-i.side * unit));
-    addFactors(a, parallelogramFactor(plain, c, x, y), parallelogramFactor(a.ltc, c, x, y), i.radiance, sums);
+    BOTH_FACTORS(plain, lobe, parallelogramFactor(under, c, x, y))
+    return fromFactors(a, plain, lobe, i.radiance);
 }
 
-void addDisc(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
-             inout AreaSums sums) {
+AreaLobes fromDisc(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
-    if (areaPoints()) {
-        addAreaPoint(a, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
-        return;
-    }
+    if (areaPoints())
+        return fromPoint(a, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance);
     float unit = unitOf(i, shape);
-    Ltc plain = Ltc(1.0, 1.0, 0.0);
     vec3 c = a.surface * (i.centre * unit), x = a.surface * (shape.x * unit),
          y = a.surface * (shape.y * unit);
-    addFactors(a, ellipseFactor(plain, c, x, y), ellipseFactor(a.ltc, c, x, y), i.radiance, sums);
+    BOTH_FACTORS(plain, lobe, ellipseFactor(under, c, x, y))
+    return fromFactors(a, plain, lobe, i.radiance);
 }
 
-void addTube(const AreaView a, const Light light, const AreaLight shape, const vec3 position,
-             inout AreaSums sums) {
+AreaLobes fromTube(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
     bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&
                   abs(along) <= lengthOf(shape.x);
     if (within) i.radiance = vec3(0.0);  // a tube emits outwards only
-    if (areaPoints()) {
-        addAreaPoint(a, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance, sums);
-        return;
-    }
+    if (areaPoints())
+        return fromPoint(a, tubePoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance);
     float unit = unitOf(i, shape);
-    Ltc plain = Ltc(1.0, 1.0, 0.0);
     Tube t = tubeOf(a.surface * (i.centre * unit), a.surface * shape.direction, lengthOf(shape.x) * unit,
                     shape.radius * unit);
-    addFactors(a, tubeFactor(plain, t), tubeFactor(a.ltc, t), i.radiance, sums);
+    BOTH_FACTORS(plain, lobe, tubeFactor(under, t))
+    return fromFactors(a, plain, lobe, i.radiance);
 }
 
 #endif

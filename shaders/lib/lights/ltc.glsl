@@ -60,7 +60,7 @@ void addEdge(inout Outline o, const vec3 p, const vec3 q) {
 
 // A parallelogram c +- x +- y whose cross(x, y) points away from the surface. One that looks very small is
 // treated as a point, because its outline is a sum of large terms.
-vec3 parallelogramFactor(Ltc m, vec3 c, vec3 x, vec3 y) {
+vec3 parallelogramFactor(const Ltc m, vec3 c, vec3 x, vec3 y) {
     c = toCosine(m, c), x = toCosine(m, x), y = toCosine(m, y);
     Outline o = noOutline();
     vec3 corners[4] = vec3[](c - x - y, c + x - y, c + x + y, c - x + y);

@@ -82,8 +82,12 @@ vec3 tubeFactor(const Ltc m, const Tube t) {
     vec3 x = toCosine(m, t.towards), y = toCosine(m, t.across);
     vec3 left = x * t.tangent.x - y * t.tangent.y, right = x * t.tangent.x + y * t.tangent.y;
     Outline o = noOutline();
-    addRim(o, coneOf(top, x, y), top + left, top + right, t.top_shows, t.beside);
-    addRim(o, coneOf(bottom, x, y), bottom + right, bottom + left, t.bottom_shows, t.beside);
+    bool on_top = true;
+    do {
+        vec3 end = on_top ? top : bottom, from = on_top ? left : right, to = on_top ? right : left;
+        addRim(o, coneOf(end, x, y), end + from, end + to, on_top ? t.top_shows : t.bottom_shows, t.beside);
+        on_top = !on_top;
+    } while (!on_top);
     if (t.beside) {
         addEdge(o, top + right, bottom + right);
         addEdge(o, bottom + left, top + left);

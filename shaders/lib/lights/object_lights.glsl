@@ -7,7 +7,7 @@
 #include "shaders/lib/lights/light_lists.glsl"
 #include "shaders/lib/lights/lights.glsl"
 
-Incident weighted(Incident light, float weight) {
+Incident weighted(Incident light, const float weight) {
     light.irradiance *= weight;
     return light;
 }

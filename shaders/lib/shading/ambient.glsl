@@ -101,16 +101,29 @@ vec3 lobeShare(const Brdf b) {
     return share;
 }
 
+// A material under its lights: the base with its lobe, a coat, or what lies behind the surface.
+struct Reflector {
+    Brdf brdf;
+    vec3 n, v;                   // unit; the normal, and to the viewer
+    vec3 base_share, lobe_share;  // fractions of ambient light, from baseShare() and lobeShare()
+};
+Reflector makeReflector(const Brdf b, const vec3 n, const vec3 v) {
+    return Reflector(b, n, v, baseShare(b), lobeShare(b));
+}
+
+// Radiance that leaves the base under uniform radiance 1.
+vec3 fromBase(const Reflector r) { return r.brdf.diffuse * PI * r.base_share; }
+
 // Radiance reflected to the viewer, W/(sr m^2), without occlusion. `ambient`: uniform radiance.
 // `lightmap`: irradiance over pi, reflected by the base only.
-vec3 reflectedAmbient(const Brdf b, const vec3 ambient, const vec3 lightmap) {
+vec3 reflectedAmbient(const Reflector r, const vec3 ambient, const vec3 lightmap) {
     vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {
-        vec3 reflected = lobeShare(b);
-        if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += b.between * PI;
+        vec3 reflected = r.lobe_share;
+        if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += r.brdf.between * PI;
         radiance = reflected * ambient;
     }
-    radiance += b.diffuse * PI * baseShare(b) * (ambient + lightmap);
+    radiance += fromBase(r) * (ambient + lightmap);
     return radiance;
 }
 

@@ -239,14 +239,13 @@ Reflected reflectedInHalf(const Brdf b, const vec3 normal, const vec3 view_vecto
                      vec3(fresnel) * halfLobe(b, n, h, n_dot_l));
 }
 
-// l: unit vector to the light. `may_be_filmed`: false leaves out the film's code.
-Reflected reflectedLight(const Brdf b, const vec3 n, const vec3 v, const vec3 l, const bool may_be_filmed) {
+// l: unit vector to the light.
+Reflected reflectedLight(const Brdf b, const vec3 n, const vec3 v, const vec3 l) {
     float n_dot_l = clamp(dot(n, l), 0.0, 1.0);
     vec3 s = l + v;
     float s2 = dot(s, s);
     float v_dot_h = 0.5 * sqrt(s2);
-    Layered at_h = unfilmedAt(b, v_dot_h);
-    if (may_be_filmed) at_h = layeredAt(b, v_dot_h);
+    Layered at_h = layeredAt(b, v_dot_h);
     float lobe = specularLobe(b, n, s, s2, n_dot_l);
     return Reflected(n_dot_l, b.diffuse * at_h.base, at_h.lobe * lobe);
 }
@@ -256,22 +255,17 @@ struct Lobes {
     vec3 diffuse, specular;
 };
 
-// Adds the part of a light that leaves to the unit vector `v`.
-void addLight(const Brdf b, const vec3 n, const vec3 v, const Incident light, const bool may_be_filmed,
-              inout Lobes sums) {
+// The part of a light that leaves to the unit vector `v`.
+Lobes lobesUnder(const Brdf b, const vec3 n, const vec3 v, const Incident light) {
     Reflected reflected;
-    if (on(feature_half_shading)) {
+    if (on(feature_half_shading) && !(b.anisotropic || b.film.weight > 0.0))
         reflected = reflectedInHalf(b, n, v, light.direction);
-        if (b.anisotropic || b.film.weight > 0.0)
-            reflected = reflectedLight(b, n, v, light.direction, may_be_filmed);
-    } else {
-        reflected = reflectedLight(b, n, v, light.direction, may_be_filmed);
-    }
+    else
+        reflected = reflectedLight(b, n, v, light.direction);
     vec3 received = light.irradiance * reflected.n_dot_l;
     vec3 from_lobe = reflected.lobe * received;
     if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += b.between * received;
-    sums.diffuse += reflected.base * received;
-    sums.specular += from_lobe;
+    return Lobes(reflected.base * received, from_lobe);
 }
 
 #endif

@@ -16,12 +16,7 @@ float clearcoatWeight(const Surface s, const vec3 v) {
 }
 
 // A lobe without a base. Where there is no coat it has the surface's normal and reflects nothing.
-struct Clearcoat {
-    Surface surface;
-    Brdf brdf;
-};
-
-Clearcoat makeClearcoat(const Surface s, const vec3 v, const float weight) {
+Reflector makeClearcoat(const Surface s, const vec3 v, const float weight) {
     Surface coat = s;
     coat.normal = s.clearcoat > 0.0 ? s.clearcoat_normal : s.normal;
     coat.roughness = s.clearcoat_roughness;
@@ -32,7 +27,7 @@ Clearcoat makeClearcoat(const Surface s, const vec3 v, const float weight) {
     b.diffuse = vec3(0.0);
     b.f0 = b.f90 = vec3(weight);
     if (on(feature_multiscatter)) b.albedo = specularAlbedo(b.alpha, b.n_dot_v);
-    return Clearcoat(coat, b);
+    return makeReflector(b, coat.normal, v);
 }
 
 // The material below layers that let the fraction `rest` pass.

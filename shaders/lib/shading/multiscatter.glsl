@@ -74,7 +74,7 @@ void setBase(inout Brdf b, const vec3 layer) {
 }
 
 // `albedo`: specularAlbedo() of b.
-Brdf compensated(Brdf b, Surface s, vec2 albedo) {
+Brdf compensated(Brdf b, const Surface s, const vec2 albedo) {
     b.albedo = albedo;
     if (feature_multiscatter == MULTISCATTER_ENERGY && hasLayer(LAYER_IRIDESCENCE)) {
         b.dielectric_gain = specularGain(s.dielectric_f0, albedo);

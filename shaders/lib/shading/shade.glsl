@@ -3,6 +3,8 @@
 #ifndef SHADE_GLSL
 #define SHADE_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "shaders/lib/shading/ambient.glsl"
 #include "shaders/lib/lights/area.glsl"
 #include "shaders/lib/shading/brdf.glsl"
@@ -27,11 +29,29 @@
 struct Shading {
     Surface surface;
     vec3 v;
-    Brdf brdf;
-    Clearcoat coat;  // only with LAYER_CLEARCOAT
-    Sheen sheen;     // only with LAYER_SHEEN
-    Behind behind;   // only with LAYER_DIFFUSE_TRANSMISSION
+    Reflector base;
+    Reflector coat;    // only with LAYER_CLEARCOAT
+    Reflector behind;  // only with LAYER_DIFFUSE_TRANSMISSION
+    Sheen sheen;       // only with LAYER_SHEEN
 };
+
+// Lights run over the reflectors of a material, so that a module holds their code once: the base, then the
+// coat and what lies behind, where there are such layers. specialized() dissolves the loop over a base.
+uint reflectorCount() {
+    return 1u + (hasLayer(LAYER_CLEARCOAT) ? 1u : 0u) + (hasLayer(LAYER_DIFFUSE_TRANSMISSION) ? 1u : 0u);
+}
+bool isBase(const uint reflector) { return reflector == 0u; }
+bool isCoat(const uint reflector) { return hasLayer(LAYER_CLEARCOAT) && reflector == 1u; }
+bool isBehind(const uint reflector) {
+    return hasLayer(LAYER_DIFFUSE_TRANSMISSION) && reflector == reflectorCount() - 1u;
+}
+
+Reflector reflectorOf(const Shading shading, const uint reflector) {
+    Reflector r = shading.base;
+    if (isCoat(reflector)) r = shading.coat;
+    if (isBehind(reflector)) r = shading.behind;
+    return r;
+}
 
 void addFromCoat(const vec3 reflected, inout Radiance radiance) {
     radiance.specular += reflected;
@@ -48,39 +68,46 @@ void addFromBehind(const vec3 transmitted, inout Radiance radiance) {
     radiance.transmission += transmitted;
 }
 
-// `layered`: false leaves out the code of sheens, films and light from behind.
-void addIncident(const Shading shading, const Incident light, const bool layered, inout Radiance radiance) {
-    Lobes sums = Lobes(radiance.diffuse, radiance.specular);
-    addLight(shading.brdf, shading.surface.normal, shading.v, light, layered, sums);
-    radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;
-    if (layered && hasLayer(LAYER_SHEEN))
-        addFromSheen(sheenReflected(shading.sheen, shading.surface.normal, shading.v, light.direction,
-                                    light.irradiance),
-                     radiance);
-    if (layered && hasLayer(LAYER_DIFFUSE_TRANSMISSION))
-        addFromBehind(throughSurface(shading.behind, light.direction, light.irradiance), radiance);
-    if (!hasLayer(LAYER_CLEARCOAT)) return;
-    Lobes of_coat = Lobes(vec3(0.0), vec3(0.0));
-    addLight(shading.coat.brdf, shading.coat.surface.normal, shading.v, light, false, of_coat);
-    addFromCoat(of_coat.specular, radiance);
+// `sheen`: above the base.
+void addFrom(const uint reflector, const Lobes lobes, const vec3 sheen, inout Radiance radiance) {
+    if (isBase(reflector)) {
+        radiance.diffuse += lobes.diffuse;
+        radiance.specular += lobes.specular;
+        if (hasLayer(LAYER_SHEEN)) addFromSheen(sheen, radiance);
+    }
+    if (isCoat(reflector)) addFromCoat(lobes.specular, radiance);
+    if (isBehind(reflector)) addFromBehind(lobes.diffuse, radiance);
 }
 
-void addPoint(const Shading shading, const uint i, const bool layered, inout Radiance radiance) {
-    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), layered, radiance);
+void addIncident(const Shading shading, const Incident light, inout Radiance radiance) {
+    vec3 from_sheen = vec3(0.0);
+    if (hasLayer(LAYER_SHEEN))
+        from_sheen = sheenReflected(shading.sheen, shading.base.n, shading.v, light.direction,
+                                    light.irradiance);
+    uint i = 0u;
+    [[unroll]] do {
+        Reflector r = reflectorOf(shading, i);
+        addFrom(i, lobesUnder(r.brdf, r.n, r.v, light), from_sheen, radiance);
+    } while (++i < reflectorCount());
 }
 
-void addSpot(const Shading shading, const uint i, const bool layered, inout Radiance radiance) {
+void addPoint(const Shading shading, const uint i, inout Radiance radiance) {
+    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), radiance);
+}
+
+void addSpot(const Shading shading, const uint i, inout Radiance radiance) {
     addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
-                layered, radiance);
+                radiance);
 }
 
-void addCasting(Shading shading, Incident light, uint place, vec3 position, inout Radiance radiance) {
+void addCasting(const Shading shading, Incident light, const uint place, const vec3 position,
+                inout Radiance radiance) {
     float seen = visibilityOf(shading.surface, place, position);
     float light_here = dot(light.irradiance, vec3(0.2126, 0.7152, 0.0722));
     radiance.local_light += light_here;
     radiance.local_seen += light_here * seen;
     light.irradiance *= seen;
-    addIncident(shading, light, true, radiance);
+    addIncident(shading, light, radiance);
 }
 
 void addCastingPoint(const Shading shading, const uint i, const LocalCasters casters,
@@ -111,53 +138,34 @@ void addCastingSpot(const Shading shading, const uint i, const LocalCasters cast
     }
 
 // Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
-// those with indices below `end`. The code of these layers is long, so that it stands in a loop over
-// single lights, once for each type.
-#define ADD_PACKETS(add, packets, casting, end)                                                             \
-    {                                                                                                       \
-        uvec2 range = packets;                                                                              \
-        if (hasLayer(LAYER_SHEEN | LAYER_IRIDESCENCE | LAYER_DIFFUSE_TRANSMISSION)) {                       \
-            range *= feature_list_width;                                                                    \
-            EACH(range) {                                                                                   \
-                uvec4 i = lightsOfPacket(range.x / feature_list_width);                                     \
-                if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light);    \
-                add(shading, i[range.x % feature_list_width], true, radiance);                              \
-                NEXT(range);                                                                                \
-            }                                                                                               \
-        } else {                                                                                            \
-            EACH(range) {                                                                                   \
-                uvec4 i = lightsOfPacket(range.x);                                                          \
-                if (on(feature_local_shadows & casting)) i = withoutCasters(i, end, casters.null_light);    \
-                add(shading, i.x, false, radiance);                                                         \
-                if (feature_list_width == 4) {                                                              \
-                    add(shading, i.y, false, radiance);                                                     \
-                    add(shading, i.z, false, radiance);                                                     \
-                    add(shading, i.w, false, radiance);                                                     \
-                }                                                                                           \
-                NEXT(range);                                                                                \
-            }                                                                                               \
-        }                                                                                                   \
+// those with indices below `end`. Drivers unroll the loop over a packet, unless layers make its body long.
+#define ADD_PACKETS(add, packets, casting, end)                                                        \
+    {                                                                                                  \
+        uvec2 range = packets;                                                                         \
+        EACH(range) {                                                                                  \
+            uvec4 packet = lightsOfPacket(range.x);                                                    \
+            if (on(feature_local_shadows & casting))                                                   \
+                packet = withoutCasters(packet, end, casters.null_light);                              \
+            uint k = 0u;                                                                               \
+            do {                                                                                       \
+                add(shading, packet[k], radiance);                                                     \
+            } while (++k < feature_list_width);                                                        \
+            NEXT(range);                                                                               \
+        }                                                                                              \
     }
 
 // Continues with the area lights of one shape, with indices below `end`. One loop per shape, because a
 // loop body costs all the code in it, executed or not.
-#define ADD_AREA(add, end)                                                                              \
-    while (walk.more && walk.number < end) {                                                            \
-        AreaSums sums = AreaSums(radiance.diffuse, radiance.specular, radiance.sheen);                  \
-        add(area, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, sums);            \
-        radiance.diffuse = sums.diffuse, radiance.specular = sums.specular;                             \
-        radiance.sheen = sums.sheen;                                                                    \
-        if (hasLayer(LAYER_CLEARCOAT)) {                                                                \
-            AreaSums of_coat = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));                               \
-            add(coat_area, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, of_coat); \
-            addFromCoat(of_coat.specular, radiance);                                                   \
-        }                                                                                               \
-        if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {                                                     \
-            AreaSums through = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));                               \
-            add(area_behind, withShare(lightAt(walk.light)), areaLightAt(walk.number), position, through); \
-            addFromBehind(through.diffuse, radiance);                                                   \
-        }                                                                                               \
-        step(walk);                                                                                     \
+#define ADD_AREA(from, end)                                                                       \
+    while (walk.more && walk.number < end) {                                                      \
+        Light light = withShare(lightAt(walk.light));                                             \
+        AreaLight shape = areaLightAt(walk.number);                                               \
+        uint i = 0u;                                                                              \
+        do {                                                                                      \
+            AreaLobes reflected = from(viewOf(views, i), light, shape, shading.surface.position); \
+            addFrom(i, reflected.lobes, reflected.sheen, radiance);                               \
+        } while (++i < reflectorCount());                                                         \
+        step(walk);                                                                               \
     }
 
 // `emission`: dimmed by a clear coat.
@@ -166,7 +174,7 @@ Shading makeShading(const Surface s, inout vec3 emission) {
     Brdf brdf = makeBrdf(s, v);
     if (on(feature_multiscatter)) brdf = compensated(brdf, s, specularAlbedo(brdf.alpha, brdf.n_dot_v));
     if (hasLayer(LAYER_IRIDESCENCE)) addFilm(brdf, s);
-    Clearcoat coat = Clearcoat(s, brdf);
+    Reflector coat;
     Sheen sheen;
     sheen.color = vec3(0.0);
     if (hasLayer(LAYER_SHEEN)) {
@@ -180,9 +188,10 @@ Shading makeShading(const Surface s, inout vec3 emission) {
         emission *= 1.0 - weight;
         sheen.color *= 1.0 - weight;
     }
-    Behind behind = Behind(brdf, s.normal, v);
+    Reflector base = makeReflector(brdf, s.normal, v), behind = base;
+    if (!hasLayer(LAYER_CLEARCOAT)) coat = base;
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) behind = makeBehind(brdf, s.normal, v);
-    return Shading(s, v, brdf, coat, sheen, behind);
+    return Shading(s, v, base, coat, behind, sheen);
 }
 
 // The sums of the batches before.
@@ -199,23 +208,29 @@ void readPartialSums(inout Radiance radiance) {
 
 void addEnvironment(const Shading shading, inout Radiance radiance) {
     Surface s = shading.surface;
-    vec3 from_base, from_lobe;
-    reflectEnvironment(s, shading.brdf, shading.v, from_base, from_lobe);
+    float factor = environmentFactor() * s.occlusion;
+    vec3 irradiance = environmentIrradiance(s.normal), received = irradiance * factor;
+    vec3 from_base = fromBase(shading.base) * received, from_lobe, from_coat = vec3(0.0);
+    // A lightmapped base takes its light from the lightmap instead.
+    if (on(feature_lightmap)) from_base = s.lightmapped ? vec3(0.0) : from_base;
+    uint i = 0u;
+    do {
+        vec3 reflected = lobeEnvironment(reflectorOf(shading, i), s.anisotropy, factor);
+        if (isBase(i)) from_lobe = reflected;
+        if (isCoat(i)) from_coat = reflected;
+    } while (isCoat(++i));
+    // Multiple scattering leaves the surface like Lambertian reflection.
+    if (feature_multiscatter == MULTISCATTER_FDEZ) from_lobe += shading.base.brdf.between * PI * received;
     radiance.environment = from_base + from_lobe;
-    vec3 from_coat = vec3(0.0), from_sheen = vec3(0.0), from_behind = vec3(0.0);
+    vec3 from_sheen = vec3(0.0), from_behind = vec3(0.0);
     if (hasLayer(LAYER_SHEEN)) {
         from_sheen = shading.sheen.color * (shading.sheen.albedo * environmentFactor() * s.occlusion) *
-                     environmentIrradiance(s.normal);
+                     irradiance;
         radiance.environment += from_sheen;
     }
-    if (hasLayer(LAYER_CLEARCOAT)) {
-        vec3 n = shading.coat.surface.normal;
-        from_coat = lobeEnvironment(shading.coat.brdf, n, n, shading.v, environmentFactor() * s.occlusion);
-        radiance.environment += from_coat;
-    }
+    if (hasLayer(LAYER_CLEARCOAT)) radiance.environment += from_coat;
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
-        from_behind = uniformThroughSurface(shading.behind) * (environmentFactor() * s.occlusion) *
-                      environmentIrradiance(shading.behind.n);
+        from_behind = fromBase(shading.behind) * factor * environmentIrradiance(shading.behind.n);
         radiance.environment += from_behind;
     }
     if (feature_light_batch != BATCH_LATER) {
@@ -233,7 +248,7 @@ void addDirectionalLights(const Shading shading, inout Radiance radiance) {
         Incident light = fromDirectionalLight(directionalAt(range.x));
         if (on(feature_shadows) && directionalOf(range.x) == castingLight())
             light.irradiance *= radiance.sun_visibility;
-        addIncident(shading, light, true, radiance);
+        addIncident(shading, light, radiance);
         NEXT(range);
     }
 }
@@ -255,26 +270,34 @@ void addPunctualLights(const Shading shading, const PixelLights lights, inout Ra
     }
 }
 
+// How area lights see each reflector of a material.
+struct AreaViews {
+    AreaView base, coat, behind;
+};
+
+AreaView viewOf(const AreaViews views, const uint reflector) {
+    AreaView a = views.base;
+    if (isCoat(reflector)) a = views.coat;
+    if (isBehind(reflector)) a = views.behind;
+    return a;
+}
+
 void addAreaLights(const Shading shading, const PixelLights lights, inout Radiance radiance) {
-    vec3 position = shading.surface.position;
-    AreaView area = areaView(shading.brdf, shading.surface, shading.v), coat_area = area, area_behind = area;
-    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
-        Surface turned = shading.surface;
-        turned.normal = shading.behind.n;
-        area_behind = areaView(shading.behind.brdf, turned, shading.behind.v);
-    }
-    if (hasLayer(LAYER_SHEEN)) area.woven = true, area.sheen = shading.sheen;
-    if (hasLayer(LAYER_CLEARCOAT)) coat_area = areaView(shading.coat.brdf, shading.coat.surface, shading.v);
+    AreaViews views;
+    views.base = views.coat = views.behind = areaView(shading.base);
+    if (hasLayer(LAYER_SHEEN)) views.base.woven = true, views.base.sheen = shading.sheen;
+    if (hasLayer(LAYER_CLEARCOAT)) views.coat = areaView(shading.coat);
+    if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) views.behind = areaView(shading.behind);
     AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
-    if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(addRect, firstDisc())
-    if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(addDisc, firstTube())
-    if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(addTube, areaCount())
+    if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(fromRect, firstDisc())
+    if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(fromDisc, firstTube())
+    if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(fromTube, areaCount())
 }
 
 void addAmbient(const Shading shading, inout Radiance radiance) {
     Surface s = shading.surface;
     if (on(feature_ambient) || on(feature_lightmap))
-        radiance.ambient = s.occlusion * reflectedAmbient(shading.brdf, view.ambient, s.lightmap);
+        radiance.ambient = s.occlusion * reflectedAmbient(shading.base, view.ambient, s.lightmap);
     // Batches hand on the parts of layers, but not the sum.
     bool once = feature_light_batch != BATCH_LATER;
     if (on(feature_ambient) && hasLayer(LAYER_SHEEN)) {
@@ -283,12 +306,12 @@ void addAmbient(const Shading shading, inout Radiance radiance) {
         if (once) radiance.sheen += reflected;
     }
     if (on(feature_ambient) && hasLayer(LAYER_CLEARCOAT)) {
-        vec3 reflected = s.occlusion * (lobeShare(shading.coat.brdf) * view.ambient);
+        vec3 reflected = s.occlusion * (shading.coat.lobe_share * view.ambient);
         radiance.ambient += reflected;
         if (once) radiance.clearcoat += reflected;
     }
     if (on(feature_ambient) && hasLayer(LAYER_DIFFUSE_TRANSMISSION)) {
-        vec3 passed = s.occlusion * (uniformThroughSurface(shading.behind) * view.ambient);
+        vec3 passed = s.occlusion * (fromBase(shading.behind) * view.ambient);
         radiance.ambient += passed;
         if (once) radiance.transmission += passed;
     }
@@ -301,13 +324,14 @@ Radiance shade(const Surface s, const PixelLights lights) {
     bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
     // First, while few values are live: a shadow map's filter needs more registers than anything after it.
     // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
-    if (has_suns) radiance.sun_visibility = sunVisibility(s);
+    // Of all batches, the last one is captured.
+    if (has_suns || on(feature_captured)) radiance.sun_visibility = sunVisibility(s);
     radiance.emission = s.emission;
     Shading shading = makeShading(s, radiance.emission);
     if (feature_light_batch == BATCH_LATER) readPartialSums(radiance);
     if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
         // The base reflects the draw's lights that are not shaded per pixel.
-        vec3 reflected = shading.brdf.diffuse * baseShare(shading.brdf) * s.object_irradiance;
+        vec3 reflected = shading.base.brdf.diffuse * shading.base.base_share * s.object_irradiance;
         radiance.diffuse = reflected;
     }
     if (on(feature_environment)) addEnvironment(shading, radiance);

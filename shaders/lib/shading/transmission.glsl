@@ -26,7 +26,7 @@ vec3 transmittedShare(const Surface s, const vec3 v) {
 }
 
 // The pixel that shows a position; `here` for one behind the camera. The inverse of positionFromDepth().
-vec2 pixelOf(vec3 position, vec2 here) {
+vec2 pixelOf(vec3 position, const vec2 here) {
     vec3 right = view.direction_x, down = view.direction_y, from = view.direction_0;
     if (on(feature_orthographic)) {
         right = view.origin_x, down = view.origin_y, from = view.origin_0;
@@ -64,7 +64,7 @@ vec3 lightBehind(const Surface s, const vec3 v, const vec2 pixel) {
 
 // Adds the light behind to a surface's own. The light behind has its own haze, so that the haze in front
 // counts for the fraction that the surface hides.
-Radiance withTransmission(Surface s, Radiance radiance, vec2 pixel) {
+Radiance withTransmission(const Surface s, Radiance radiance, const vec2 pixel) {
     float covers = s.coverage;
     vec3 v = viewVector(s.position);
     vec3 through = transmittedShare(s, v) * crossing(s);

@@ -30,7 +30,7 @@ LocalFace localFaceAt(const uint place, const uint face) {
 
 // Visibility, 0 to 1, of the light at index `place` of LocalShadow[], at `light_position`. 0 if the
 // triangle faces away from it.
-float visibilityOf(Surface s, uint place, vec3 light_position) {
+float visibilityOf(Surface s, const uint place, const vec3 light_position) {
     LocalShadow light = localShadowAt(place);
     vec3 from_light = s.position - light_position;
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) s = facingLight(s, -from_light);

@@ -172,7 +172,7 @@ float cascadedVisibility(const Surface s, const ShadowLight light, const bool fa
 }
 
 // The side of a surface with diffuse transmission that faces the light.
-Surface facingLight(Surface s, vec3 to_light) {
+Surface facingLight(Surface s, const vec3 to_light) {
     bool behind = dot(s.geometric_normal, to_light) < 0.0 && dot(s.normal, to_light) < 0.0;
     if (s.diffuse_transmission > 0.0 && behind) s.geometric_normal = -s.geometric_normal;
     return s;

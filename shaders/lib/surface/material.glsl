@@ -39,9 +39,10 @@ vec2 middleTexcoord(const uint slot) {
     return middle_texcoord;
 }
 vec4 sampledTexel(const sampler2D map, const uint slot) {
-    if (!multisampled()) return texture(map, slotTexcoord(slot));
+    vec2 at = slotTexcoord(slot);
+    if (!multisampled()) return texture(map, at);
     vec2 middle = middleTexcoord(slot);
-    return textureGrad(map, slotTexcoord(slot), dFdxFine(middle), dFdyFine(middle));
+    return textureGrad(map, at, dFdxFine(middle), dFdyFine(middle));
 }
 
 // Texel of a slot: sampled, or constant for images of one colour; `texel` is the slot's feature. In pixels
@@ -172,7 +173,7 @@ vec3 fromTangentSpace(const vec3 t, const vec3 n, const vec4 tangent) {
 // by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
 // share one normalisation.
 // `n`: of any length.
-vec3 shadingNormal(vec3 n, vec3 towards) {
+vec3 shadingNormal(vec3 n, const vec3 towards) {
     float length2 = dot(n, n);
     bool negated = on(feature_double_sided) && !gl_FrontFacing;
     if (on(feature_vanishing_normals)) {

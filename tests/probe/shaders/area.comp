@@ -41,11 +41,11 @@ void main() {
     if (on(feature_multiscatter)) b = compensated(b, s, vec2(cell.magnitude - cell.fresnel, cell.fresnel));
     AreaView a = areaViewOf(b, s.normal, v, cell);
 
-    AreaSums sums = AreaSums(vec3(0.0), vec3(0.0), vec3(0.0));
+    AreaLobes lobes;
     uint kind = uint(IN(WIDTH, 0));
-    if (kind == 0) addRect(a, light, shape, vec3(0.0), sums);
-    if (kind == 1) addDisc(a, light, shape, vec3(0.0), sums);
-    if (kind == 2) addTube(a, light, shape, vec3(0.0), sums);
-    OUT(2, 0) = sums.diffuse.r;
-    OUT(2, 1) = sums.specular.r;
+    if (kind == 0) lobes = fromRect(a, light, shape, vec3(0.0));
+    if (kind == 1) lobes = fromDisc(a, light, shape, vec3(0.0));
+    if (kind == 2) lobes = fromTube(a, light, shape, vec3(0.0));
+    OUT(2, 0) = lobes.lobes.diffuse.r;
+    OUT(2, 1) = lobes.lobes.specular.r;
 }

@@ -18,8 +18,7 @@ void main() {
     s.dielectric_f90 = IN(11, 10);
     s.transmission = 0.25;  // read only with feature_transmission
     vec3 v = IN3(11, 0), l = IN3(11, 3);
-    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
-    addLight(makeBrdf(s, v), s.normal, v, Incident(l, vec3(1.0)), false, reflected);
+    Lobes reflected = lobesUnder(makeBrdf(s, v), s.normal, v, Incident(l, vec3(1.0)));
     OUT(2, 0) = reflected.diffuse.r;
     OUT(2, 1) = reflected.specular.r;
 }

@@ -24,10 +24,9 @@ void main() {
     s.dielectric_f0 = vec3(IN(WIDTH, 13));
     s.dielectric_f90 = IN(WIDTH, 14);
     Brdf b = makeBrdf(s, v);
-    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
-    addLight(b, s.normal, v, Incident(l, vec3(1.0)), false, reflected);
-    Behind behind = makeBehind(b, s.normal, v);
+    Lobes reflected = lobesUnder(b, s.normal, v, Incident(l, vec3(1.0)));
+    Reflector behind = makeBehind(b, s.normal, v);
     OUT(3, 0) = reflected.diffuse.r;
-    OUT(3, 1) = throughSurface(behind, l, vec3(1.0)).r;
-    OUT(3, 2) = uniformThroughSurface(behind).r;
+    OUT(3, 1) = lobesUnder(behind.brdf, behind.n, behind.v, Incident(l, vec3(1.0))).diffuse.r;
+    OUT(3, 2) = fromBase(behind).r;
 }

@@ -21,8 +21,7 @@ void main() {
     vec3 v = IN3(WIDTH, 0), l = IN3(WIDTH, 3);
     vec2 table = vec2(IN(WIDTH, 11), IN(WIDTH, 12));
     Brdf b = compensated(makeBrdf(s, v), s, table);
-    Lobes reflected = Lobes(vec3(0.0), vec3(0.0));
-    addLight(b, s.normal, v, Incident(l, vec3(1.0)), false, reflected);
+    Lobes reflected = lobesUnder(b, s.normal, v, Incident(l, vec3(1.0)));
     OUT(4, 0) = reflected.diffuse.r;
     OUT(4, 1) = reflected.specular.r;
     OUT(4, 2) = b.diffuse.r * PI * (1.0 - b.base_f0.r);
