@@ -39,16 +39,14 @@ void capture(const Surface s, const float z, const uint shaded) {
     if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
         radiance = shade(s, lights);
         if (on(feature_transmission)) radiance = withTransmission(s, radiance, gl_FragCoord.xy);
-        // An earlier batch shaded the directional light.
-        if (feature_light_batch == BATCH_LATER) radiance.sun_visibility = sunVisibility(s);
     }
     vec4 images[CAPTURE_IMAGES];
     // The channel at component 0 fills its image; later channels take one component each.
-#define CAPTURE(name, image, component)                                                      \
-    if (isCaptured(image)) {                                                                 \
-        vec4 value = debugValue(DEBUG_##name, s, lights, radiance, z, shaded);               \
-        if (component == 0) images[image] = value;                                           \
-        else images[image][component] = value.x;                                             \
+#define CAPTURE(name, image, component)                     \
+    if (isCaptured(image)) {                                \
+        vec4 value = VALUE_##name;                          \
+        if (component == 0) images[image] = value;          \
+        else images[image][component] = value.x;            \
     }
     CAPTURES(CAPTURE)
 #undef CAPTURE
