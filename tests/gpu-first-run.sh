@@ -51,7 +51,7 @@ if [ -n "$absent" ]; then
     [ -z "${DIPTYCH_BUILD-}" ] || fail "$absent: is not there; build it, or leave DIPTYCH_BUILD unset"
     printf 'building in %s\n' "$build" >&2
     "$home/diptych" --version >/dev/null || fail "the build failed (see above)"
-    cmake --build "$build" --target image_tests probe_tests unit_tests >&2 ||
+    cmake --build "$build" --target image_tests probe_tests unit_tests bench_kernels >&2 ||
         fail "the build failed (see above)"
     absent=$(missing)
     [ -z "$absent" ] || fail "$absent: was not built"
@@ -368,6 +368,20 @@ bench() {
     measured+="\`$name\`:"$'\n\n'"$(without_progress "$out/$name.log" | cut -c1-94 | sed 's/^/    /')"$'\n\n'
 }
 
+# kernels RUNS: one light at one pixel.
+kernels() {
+    if [ ! -x "$build/tests/bench_kernels" ]; then
+        what="not in this build"
+        return 3
+    fi
+    if ! limited 1000000 "$build/tests/bench_kernels" "$1"; then
+        what=$(tail -n 1 "$out/$name.log")
+        return 1
+    fi
+    what="$(grep -c ' buffer,' "$out/$name.log") kernels"
+    measured+="\`$name\`:"$'\n\n'"$(sed 's/^/    /' "$out/$name.log")"$'\n\n'
+}
+
 absent() {
     what=$1
     return 3
@@ -402,13 +416,14 @@ case $amount in
         bench_size=64x36
         step parity 60 tests image_tests 'Builtin/BuiltinParity.FullIsBitEqual/triangle'
         step probes 60 tests probe_tests 'Lights.*'
-        step bench-spheres 60 bench 'builtin:spheres?lights=4' --runs 1 --assign clustered --kernels off
+        step bench-spheres 60 bench 'builtin:spheres?lights=4' --runs 1 --assign clustered
         ;;
     cut)
         left_out+="- A CPU device: of \`light-matrix\`, the gallery but for 257 lights, 4,096 lights, the"
         left_out+=" campaign; of \`parity\`, packed encodings and most pre-passes; of \`light-lists\`, 65,600"
         left_out+=" lights; the step \`other-pictures\`; of benchmarks, the"
-        left_out+=" assignments every and per_object, other light counts, the kernels. --long asks all."$'\n'
+        left_out+=" assignments every and per_object, other light counts, the step \`kernels\`. --long asks"
+        left_out+=" all."$'\n'
         parity='Builtin/BuiltinParity.FullIsBitEqual/*:Builtin/BuiltinParity.Prepass*/gallery'
         step parity 240 tests image_tests "$parity"
         step light-matrix 180 tests image_tests 'Lights/LightMatrix.*/spheres_*:*/gallery_257_*-*_4096_*'
@@ -417,8 +432,8 @@ case $amount in
         step light-lists 120 tests image_tests 'LightLists.*-LightLists.SixtyFive*'
         step assets 180 tests image_tests 'Asset/AssetParity.*'
         step probes 120 tests probe_tests '*'
-        step bench-spheres 120 bench builtin:spheres --runs 3 --assign clustered,tiled --kernels off
-        sponza_options=(--light-counts 64 --runs 3 --assign "clustered,tiled" --kernels off)
+        step bench-spheres 120 bench builtin:spheres --runs 3 --assign clustered,tiled
+        sponza_options=(--light-counts 64 --runs 3 --assign "clustered,tiled")
         ;;
     whole | long)
         others='*-*/BuiltinParity.*:*/LightMatrix.*:*/LightPairs.*:*/Asset*:AssetScenes.*'
@@ -433,11 +448,14 @@ case $amount in
         step other-pictures 3600 tests image_tests "$others:Parity*:Verdict*"
         spheres_options=(--light-counts "64,256,1024,4096" --runs 9)
         sponza_options=(--light-counts "64,256,1024" --runs 9)
+        kernel_runs=15
         if [ "$amount" = long ]; then
             spheres_options=(--light-counts "16,64,256,1024,4096,16384" --runs 31)
             sponza_options=(--light-counts "64,256,1024" --runs 31)
+            kernel_runs=31
         fi
         step bench-spheres 1800 bench builtin:spheres "${spheres_options[@]}"
+        step kernels 600 kernels "$kernel_runs"
         ;;
 esac
 if [ "$amount" != quick ]; then

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "compare/bench/cases.h"
-#include "compare/bench/kernels.h"
 #include "compare/output/document.h"
 #include "compare/plot/drawing.h"
 #include "compare/render/renderer.h"
@@ -55,7 +54,6 @@ struct Bench {
     int runs = 0;
     std::vector<BenchRow> rows;
     std::vector<BenchSkip> skips;
-    std::optional<KernelReport> kernels;
     std::string compiler = {};  // device of --compile-on; empty: none
 };
 
@@ -81,10 +79,8 @@ std::vector<Size> sizesOf(const Bench& bench);
 std::string passesInWords(const BenchRow& row);  // "shade 1.2, resolve 0.1"; ms
 
 output::Table modeTable(const Bench& bench);  // a row for each of the benchmark's
-output::Table kernelTable(const KernelReport& kernels);
 
-// Terminal text. benchTable(): rows from `first` on, with a header if it is 0. benchEnd(): skips, kernels,
-// notes.
+// Terminal text. benchTable(): rows from `first` on, with a header if it is 0. benchEnd(): skips, notes.
 std::string benchTable(const Bench& bench, std::size_t first);
 std::string benchEnd(const Bench& bench);
 

@@ -220,8 +220,6 @@ void checkSampleTable(const BenchOptions& options) {
             "--transparencies: --table msaa has rows with and without --transparency already; leave it out");
     if (!options.lightings.empty())
         throw std::runtime_error("--lightings: --table msaa takes one --lighting; run it once for each");
-    if (!options.frames)
-        throw std::runtime_error("--kernels only: does not time --table msaa; leave one out");
 }
 
 std::vector<Assignment> assignmentsOf(const Settings& given, const BenchOptions& options) {
@@ -262,9 +260,6 @@ void refuseLists(std::string_view table, const BenchOptions& options) {
     if (!options.sizes.empty() || !options.transparencies.empty() || !options.lightings.empty())
         throw std::runtime_error(fmt::format(
             "--table {}: takes no --sizes, --transparencies or --lightings; run it once for each", table));
-    if (!options.frames)
-        throw std::runtime_error(
-            fmt::format("--kernels only: does not time --table {}; leave one out", table));
 }
 
 // Throws if they cannot be drawn.

@@ -46,7 +46,6 @@ struct BenchOptions {
     std::vector<Lighting> lightings;           // deferred only; --lighting
     std::vector<std::uint32_t> light_counts;   // ascending; the scene's own lights, or the table's
     double max_ms = 2000;                      // slower frames are not repeated
-    bool frames = true, kernels = true;
 };
 
 // Parse comma-separated words. Throw std::runtime_error naming the option and the word.

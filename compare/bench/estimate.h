@@ -53,8 +53,8 @@ struct FrameEstimate {
 };
 
 // Assumptions, not validated on a GPU: the reached fraction of data sheet values, and operations per
-// light, fragment, vertex and compute invocation. Light operations are counted in kernel_avx2.cpp; a
-// multiply-add is two. The overhead of a pass is in ms.
+// light, fragment, vertex and compute invocation. Light operations are counted in
+// tests/bench/kernel_avx2.cpp; a multiply-add is two. The overhead of a pass is in ms.
 struct EstimateAssumptions {
     double reached = 0.6;
     double light_flops = 120, fragment_flops = 200, vertex_flops = 100, compute_flops = 100;

@@ -41,19 +41,6 @@ std::vector<Block> tableBlocks(const Bench& bench) {
     return {};
 }
 
-void addKernels(std::vector<Block>& blocks, const KernelReport& report) {
-    blocks.emplace_back(Heading{2, "One listed point light at one pixel"});
-    blocks.emplace_back(Paragraph{
-        fmt::format("Nanoseconds per light and pixel: the difference between lists of {} and {} out of {} "
-                    "lights, {}x{}, {}, {}",
-                    report.short_list, report.long_list, report.lights, report.size.width, report.size.height,
-                    counted(static_cast<std::uint64_t>(report.runs), "interleaved run"),
-                    counted(static_cast<std::uint64_t>(report.threads), "thread")),
-        "soft"});
-    blocks.emplace_back(kernelTable(report));
-    for (const std::string& note : report.notes) blocks.emplace_back(Paragraph{note, "soft"});
-}
-
 void addSkips(std::vector<Block>& blocks, const std::vector<BenchSkip>& skips) {
     if (skips.empty()) return;
     output::Terms terms{{}, "box skips"};
@@ -100,7 +87,6 @@ std::string benchHtml(const Bench& bench) {
             output::Box{"box drawn", {output::Drawing{benchPlot(bench, PlotPlace::page)}}});
     }
     page.blocks.push_back(rows(bench));
-    if (bench.kernels) addKernels(page.blocks, *bench.kernels);
     addSkips(page.blocks, bench.skips);
     page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, how(bench)});
     return inHtml(page);

@@ -70,17 +70,6 @@ Json jsonOf(const BenchSkip& skip) {
             {"reason", skip.reason}};
 }
 
-Json jsonOf(const KernelReport& kernels) {
-    Json rows = Json::array();
-    for (const KernelRow& row : kernels.rows)
-        rows.push_back(
-            {{"name", row.name}, {"ns", row.ns}, {"ratio", orNull(row.ratio)}, {"goal", orNull(row.goal)}});
-    return {{"size", jsonOf(kernels.size)}, {"lists", {kernels.short_list, kernels.long_list}},
-            {"lights", kernels.lights},     {"runs", kernels.runs},
-            {"threads", kernels.threads},   {"rows", rows},
-            {"notes", kernels.notes}};
-}
-
 Json jsonOf(const Conclusion& c) {
     return {{"size", jsonOf(c.faster->settings.size)},
             {"lights", c.faster->counters.lights},
@@ -118,7 +107,6 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"growth", growthJson(bench)},
         {"layers", layersJson(bench)},
         {"skipped", skips},
-        {"kernels", bench.kernels ? jsonOf(*bench.kernels) : Json(nullptr)},
         {"files", files}};
     return jsonText(json) + "\n";
 }

@@ -71,40 +71,9 @@ output::Table modeTable(const Bench& bench) {
     return table;
 }
 
-output::Table kernelTable(const KernelReport& kernels) {
-    output::Table table{{{"kernel", Column::words, 44, Column::everywhere, "whole"},
-                         {"ns", Column::number, 6},
-                         {"ratio to CPU", Column::number, 15},
-                         {"goal", Column::number, 6}}};
-    const output::Cell none = output::either("-", "");
-    for (const KernelRow& row : kernels.rows)
-        table.rows.push_back({{row.name, fmt::format("{:.3f}", row.ns),
-                               row.ratio ? output::Cell(fmt::format("{:.2f}", *row.ratio)) : none,
-                               row.goal ? output::either(fmt::format("{:.1f}", *row.goal),
-                                                         fmt::format("at most {:.1f}", *row.goal))
-                                        : none}});
-    return table;
-}
-
 std::string benchTable(const Bench& bench, std::size_t first) {
     return inText(modeTable(bench), first == 0 ? 0 : first + 1);
 }
-
-namespace {
-
-std::string kernelText(const KernelReport& kernels) {
-    std::string out = fmt::format(
-        "\none listed point light at one pixel: the difference between lists of {} and {} out of {} lights, "
-        "{}x{}, {}, {}\n",
-        kernels.short_list, kernels.long_list, kernels.lights, kernels.size.width, kernels.size.height,
-        counted(static_cast<std::uint64_t>(kernels.runs), "run"),
-        counted(static_cast<std::uint64_t>(kernels.threads), "thread"));
-    out += inText(kernelTable(kernels));
-    for (const std::string& note : kernels.notes) out += note + "\n";
-    return out;
-}
-
-}  // namespace
 
 std::string benchEnd(const Bench& bench) {
     std::string out;
@@ -122,7 +91,6 @@ std::string benchEnd(const Bench& bench) {
                                counted(row.counters.lights, "light"),
                                counted(row.counters.unsorted.fragments, "blended fragment"),
                                counted(row.counters.unsorted.pixels, "pixel"));
-    if (bench.kernels) out += kernelText(*bench.kernels);
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
     if (bench.options.table == BenchTable::growth) return out + growthText(bench);

@@ -17,9 +17,6 @@ using namespace bench;
 
 namespace {
 
-// Minimum timed frames per kernel: its slope comes from the two fastest.
-constexpr int fewestKernelRuns = 15;
-
 void checkBenchOptions(const Options& options) {
     if (options.scenes.size() != 1)
         throw std::runtime_error(
@@ -35,7 +32,6 @@ void checkBenchOptions(const Options& options) {
 }
 
 BenchCases casesOf(const Options& options, const BenchOptions& bench) {
-    if (!bench.frames) return {};
     Settings given = options.settings;
     given.camera = options.cameras.front();
     return makeBenchCases(options.scenes.front(), given, bench);
@@ -78,11 +74,10 @@ int runBench(const Options& options) {
                 options.runs,
                 {},
                 cases.skips,
-                {},
                 registers ? registers->info().name : ""};
     const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const Stage whole(progress, bench.scene);
-    const double groups = static_cast<double>(cases.groups.size()) + (requested.kernels ? 0.5 : 0.0);
+    const auto groups = static_cast<double>(cases.groups.size());
     const std::shared_ptr<PipelineSet> pipelines = makePipelineSet(device);
     for (std::size_t i = 0; i < cases.groups.size(); ++i) {
         const BenchGroup& group = cases.groups[i];
@@ -95,10 +90,6 @@ int runBench(const Options& options) {
         if (registers) registers->count(scene, std::span(bench.rows).subspan(first));
         if (live) print(benchTable(bench, first));
     }
-    if (requested.kernels)
-        bench.kernels =
-            measureKernels(device, std::max(options.runs, fewestKernelRuns),
-                           whole.part(static_cast<double>(cases.groups.size()) / groups, 1).about("kernels"));
     checkValidation(device);
     const std::string json = writeBench(bench, folder, options.force);
     progress.wipe();

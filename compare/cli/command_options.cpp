@@ -44,7 +44,7 @@ const Command command_table[] = {
      "diptych view helmet.glb", "report watch debug baseline gbuffer lights shadows camera size device"},
     {"bench", "Times frames and passes of several Settings side by side",
      "diptych bench builtin:spheres --light-counts 16,256,4096 --assign every,clustered --runs 9",
-     "table paths assign light-counts sizes kernels runs device out json"},
+     "table paths assign light-counts sizes shadows runs device out json"},
     {"calibrate", "Finds how another renderer interprets its inputs, from charts with a known result",
      "diptych calibrate three.json"},
     {"merge", "Merges the reports of shards, in any order, into one", "diptych merge shard-*/ -o report"},

@@ -28,7 +28,7 @@ struct ParsedOptions {
     std::optional<double> fps;
     std::string bench_paths, bench_assign, bench_sizes, bench_transparencies, bench_lightings, light_counts;
     std::string bench_axes;
-    std::string bench_table = "modes", kernels = "on", keep = "all", twice = "lit";
+    std::string bench_table = "modes", kernels = "off", keep = "all", twice = "lit";
     std::optional<int> runs;
     double max_ms = 2000;
     std::string max_bytes;

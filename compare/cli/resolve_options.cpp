@@ -187,12 +187,12 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
     bench.max_ms = parsed.max_ms;
     if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))
         throw std::runtime_error(fmt::format("--max-ms {}: must be above 0 and finite", parsed.max_ms));
-    if (parsed.kernels != "on" && parsed.kernels != "off" && parsed.kernels != "only")
-        throw std::runtime_error(fmt::format("--kernels {}: takes on, off or only", parsed.kernels));
+    if (parsed.kernels != "off")
+        throw std::runtime_error(
+            fmt::format("--kernels {}: bench times frames alone; build/tests/bench_kernels times the kernels",
+                        parsed.kernels));
     bench.table = benchTableOf(parsed.bench_table);
     if (!parsed.bench_axes.empty()) bench.axes = growthAxes(parsed.bench_axes);
-    bench.kernels = parsed.kernels != "off" && bench.table == BenchTable::modes;
-    bench.frames = parsed.kernels != "only";
 }
 
 // Parses "64MiB". Empty for an empty word.

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Modes that a benchmark times separately use different pipelines; its kernels compute the same function.
-#include "compare/bench/kernels.h"
+// Modes that a benchmark times separately use different pipelines; kernels of bench_kernels compute the same
+// function.
 #include "shared/contract/debug_mode.h"
+#include "tests/bench/kernels.h"
 #include "tests/image/scenes.h"
 
+#include <functional>
 #include <limits>
+#include <set>
 
 namespace diptych::tests {
 
-using namespace bench;
+using namespace kernels;
 
 namespace {
 
@@ -106,22 +109,39 @@ TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
     }
 }
 
-TEST(BenchKernels, AWorkloadIsTheSameForTheSameSeed) {
-    const KernelWorkload a = makeWorkload({32, 16}, 64, 8, 5), b = makeWorkload({32, 16}, 64, 8, 5),
-                         other = makeWorkload({32, 16}, 64, 8, 6);
-    EXPECT_EQ(a.indices, b.indices);
-    EXPECT_NE(a.indices, other.indices);
-    ASSERT_EQ(a.indices.size(), 2u * 8);
-    for (std::size_t i = 0; i < a.indices.size(); ++i) {
-        EXPECT_LT(a.indices[i], 64u);
-        if (i % 8 > 0) {
-            EXPECT_LT(a.indices[i - 1], a.indices[i]) << "ascending, each once";
-        }
+TEST(BenchKernels, EachTileListsLightsOfItsOwnInOrder) {
+    const KernelWorkload workload = makeWorkload({48, 32}, 64, 16, 7);
+    ASSERT_EQ(workload.lights.size(), 64u);
+    ASSERT_EQ(workload.indices.size(), 6u * 16u) << "3 x 2 tiles";
+    std::set<std::vector<std::uint32_t>> lists;
+    for (std::size_t tile = 0; tile < 6; ++tile) {
+        const auto begin = workload.indices.begin() + static_cast<std::ptrdiff_t>(16 * tile);
+        const std::vector<std::uint32_t> list(begin, begin + 16);
+        EXPECT_EQ(std::ranges::adjacent_find(list, std::greater_equal()), list.end())
+            << "in order, none twice";
+        EXPECT_LT(list.back(), 64u);
+        EXPECT_TRUE(lists.insert(list).second) << "another tile's list";
     }
-    EXPECT_THROW(makeWorkload({30, 16}, 64, 8, 5), std::logic_error);
-    EXPECT_THROW(makeWorkload({32, 16}, 64, 6, 5), std::logic_error);
-    EXPECT_THROW(makeWorkload({32, 16}, 4, 8, 5), std::logic_error);
-    EXPECT_THROW(makeWorkload({32, 16}, mostKernelLights + 1, 8, 5), std::logic_error);
+    EXPECT_EQ(makeWorkload({48, 32}, 64, 16, 7).indices, workload.indices);
+    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).indices, workload.indices);
+    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).lights[0].position, workload.lights[0].position);
+    for (const gpu::Light& light : workload.lights) {
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_GE(light.intensity[axis], 0.2f);
+            EXPECT_LT(light.intensity[axis], 1.0f);
+        }
+        EXPECT_EQ(light.inverse_range_squared * light.range * light.range, 1);
+    }
+}
+
+TEST(BenchKernels, WorkloadsAreOfWholeTilesAndListsThatFit) {
+    EXPECT_EQ(makeWorkload({16, 16}, mostKernelLights, 4, 1).indices.size(), 4u);
+    EXPECT_EQ(makeWorkload({16, 16}, 4, 4, 1).indices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_THROW(makeWorkload({24, 16}, 64, 16, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 24}, 64, 16, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, 64, 6, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, 8, 12, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, mostKernelLights + 1, 4, 1), std::logic_error);
 }
 
 }  // namespace

@@ -49,12 +49,17 @@ case "$BROKEN $*" in
 esac
 )";
 
+constexpr const char* fakeKernels = R"(#!/bin/sh
+[ "$1" -ge 15 ] && printf 'kernel  ns\ntexel buffer, as read  2.2\nstorage buffer, too  3.2\n'
+)";
+
 class GpuFirstRun : public testing::Test {
 protected:
     void SetUp() override {
         home_.write("build/compare/diptych", fakeTool, true);
         for (const char* name : {"image_tests", "probe_tests"})
             home_.write(std::string("build/tests/") + name, fakeTests, true);
+        home_.write("build/tests/bench_kernels", fakeKernels, true);
     }
     Ran run(const std::string& arguments, const std::string& broken, std::string build = "") {
         if (build.empty()) build = (home_ / "build").string();
@@ -101,6 +106,9 @@ TEST_F(GpuFirstRun, LeavesAFolderOfTheDevicesName) {
     fs::rename(home_ / name, home_ / "out");
     EXPECT_NE(summary().find("| device | Fake GPU 1 (discrete) |\n| driver | fake 2 |\n"), std::string::npos);
     EXPECT_TRUE(row("light-matrix").starts_with("passed")) << "a GPU is asked everything\n" << summary();
+    EXPECT_TRUE(row("kernels").starts_with("passed | ")) << summary();
+    EXPECT_NE(row("kernels").find(" | 2 kernels | "), std::string::npos) << summary();
+    EXPECT_NE(summary().find("\n    texel buffer, as read  2.2\n"), std::string::npos) << summary();
     EXPECT_TRUE(row("no-contraction").starts_with("not run | ")) << summary();
     EXPECT_NE(row("no-contraction").find("not in this build"), std::string::npos);
     EXPECT_NE(row("validation").find("2 scenes, 0 differ, 0 with messages or errors, 2 with other depths"),

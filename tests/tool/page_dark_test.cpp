@@ -74,7 +74,7 @@ TEST(PageDark, EveryWordCanBeRead) {
     expectReadable(folder, folder / "diff/index.html");
     ASSERT_EQ(runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 1 -q -o t").code, 0);
     expectReadable(folder, folder / "t/index.html");
-    ASSERT_EQ(runTool(folder, "bench builtin:triangle --size 32x24 --runs 1 --kernels off -q -o b").code, 0);
+    ASSERT_EQ(runTool(folder, "bench builtin:triangle --size 32x24 --runs 1 -q -o b").code, 0);
     expectReadable(folder, folder / "b/index.html");
 }
 

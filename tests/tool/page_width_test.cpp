@@ -101,7 +101,7 @@ TEST(PageWidth, NeitherDoPagesOfTimes) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "tradeoff builtin:triangle --size 32x24 --runs 2 -q -o t").code, 0);
     expectFits(measured(folder, folder / "t/index.html"), "a sweep");
-    ASSERT_EQ(runTool(folder, "bench builtin:triangle --size 32x24 --runs 2 --kernels off -q -o b").code, 0);
+    ASSERT_EQ(runTool(folder, "bench builtin:triangle --size 32x24 --runs 2 -q -o b").code, 0);
     expectFits(measured(folder, folder / "b/index.html"), "a benchmark");
 }
 

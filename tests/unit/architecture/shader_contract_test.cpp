@@ -75,7 +75,6 @@ constexpr ModuleKind moduleKinds[] = {
     {"cull_clusters.comp", 0},
     {"full_screen.vert", 0},
     {"layout.comp", 0},
-    {"bench_", 0},
     {"probe_", 0},
 };
 const ModuleKind* kindOf(std::string_view module) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plans, predictions and output of a benchmark, with made-up times.
 #include "compare/bench/bench.h"
-#include "compare/bench/workload.h"
 #include "compare/cli/command_line.h"
 #include "tests/support/errors.h"
 
@@ -10,11 +9,8 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iterator>
-#include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -67,11 +63,6 @@ TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
     EXPECT_EQ(bench.sizes, (std::vector{Size{16, 12}, Size{8, 8}}));
     EXPECT_EQ(bench.light_counts, (std::vector<std::uint32_t>{4, 16, 256}));
     EXPECT_EQ(bench.max_ms, 12.5);
-    EXPECT_TRUE(bench.frames);
-    EXPECT_FALSE(bench.kernels);
-    EXPECT_FALSE(asked({"--kernels", "only"}).frames);
-    EXPECT_TRUE(asked({"--kernels", "only"}).kernels);
-    EXPECT_TRUE(asked({"--kernels", "on"}).frames && asked({"--kernels", "on"}).kernels);
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
         {{"--paths", "sideways"}, "--paths sideways"},
         {{"--paths", "reference"}, "--paths reference"},
@@ -83,7 +74,10 @@ TEST(BenchCases, ListsParseAndAreNamedWhereTheyDoNot) {
         {{"--light-counts", "4294967296"}, "--light-counts 4294967296"},
         {{"--max-ms", "0"}, "--max-ms 0"},
         {{"--max-ms", "nan"}, "--max-ms nan"},
-        {{"--kernels", "yes"}, "--kernels yes"}};
+        {{"--kernels", "on"},
+         "--kernels on: bench times frames alone; build/tests/bench_kernels times the kernels"},
+        {{"--kernels", "only"},
+         "--kernels only: bench times frames alone; build/tests/bench_kernels times the kernels"}};
     for (const auto& [words, message] : wrong)
         EXPECT_EQ(faultOf([&] { asked(words); }).find(message), 0u) << words[1];
 }
@@ -146,41 +140,6 @@ TEST(BenchCases, LightsComeFromTheSceneAFileOrARig) {
     EXPECT_FALSE(makeBenchCases("a.glb", files, options).groups[0].lights);
 }
 
-TEST(BenchWorkload, EachTileListsLightsOfItsOwnInOrder) {
-    const bench::KernelWorkload workload = makeWorkload({48, 32}, 64, 16, 7);
-    ASSERT_EQ(workload.lights.size(), 64u);
-    ASSERT_EQ(workload.indices.size(), 6u * 16u) << "3 x 2 tiles";
-    std::set<std::vector<std::uint32_t>> lists;
-    for (std::size_t tile = 0; tile < 6; ++tile) {
-        const auto begin = workload.indices.begin() + static_cast<std::ptrdiff_t>(16 * tile);
-        const std::vector<std::uint32_t> list(begin, begin + 16);
-        EXPECT_EQ(std::ranges::adjacent_find(list, std::greater_equal()), list.end())
-            << "in order, none twice";
-        EXPECT_LT(list.back(), 64u);
-        EXPECT_TRUE(lists.insert(list).second) << "another tile's list";
-    }
-    EXPECT_EQ(makeWorkload({48, 32}, 64, 16, 7).indices, workload.indices);
-    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).indices, workload.indices);
-    EXPECT_NE(makeWorkload({48, 32}, 64, 16, 8).lights[0].position, workload.lights[0].position);
-    for (const gpu::Light& light : workload.lights) {
-        for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_GE(light.intensity[axis], 0.2f);
-            EXPECT_LT(light.intensity[axis], 1.0f);
-        }
-        EXPECT_EQ(light.inverse_range_squared * light.range * light.range, 1);
-    }
-}
-
-TEST(BenchWorkload, OfWholeTilesAndListsThatFitAlone) {
-    EXPECT_EQ(makeWorkload({16, 16}, mostKernelLights, 4, 1).indices.size(), 4u);
-    EXPECT_EQ(makeWorkload({16, 16}, 4, 4, 1).indices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
-    EXPECT_THROW(makeWorkload({24, 16}, 64, 16, 1), std::logic_error);
-    EXPECT_THROW(makeWorkload({16, 24}, 64, 16, 1), std::logic_error);
-    EXPECT_THROW(makeWorkload({16, 16}, 64, 6, 1), std::logic_error);
-    EXPECT_THROW(makeWorkload({16, 16}, 8, 12, 1), std::logic_error);
-    EXPECT_THROW(makeWorkload({16, 16}, mostKernelLights + 1, 4, 1), std::logic_error);
-}
-
 TEST(BenchCases, PredictsAlongTheLastTwo) {
     using Points = std::vector<std::pair<std::uint32_t, double>>;
     EXPECT_FALSE(predictedMs(Points{}, 64));
@@ -217,9 +176,6 @@ Bench several() {
                   row("forward_plus", "clustered", "64x48", 1024, 40, {{"assign lights", 10}, {"shade", 30}}),
                   row("deferred", "every", "32x24", 16, 3, {{"shade", 3}})};
     bench.skips = {{Path::deferred, Assignment::every, Size{64, 48}, 4096, {}, "would take <long>"}};
-    KernelReport kernels{{640, 352}, 16, 48, 512, 9, 2, {}, {"a note"}};
-    kernels.rows = {{"by hand", 1.25, {}, {}}, {"uniform buffer", 2.5, 2.0, 2.4}};
-    bench.kernels = kernels;
     for (BenchRow& made : bench.rows) made.notes = {"one note"};
     bench.rows[3].notes.push_back("its own note");
     return bench;
@@ -242,7 +198,7 @@ TEST(BenchOutput, MillisecondsHaveFourDigitsOrAllBeforeThePoint) {
     EXPECT_EQ(msText(40316.4), "40316");
 }
 
-TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
+TEST(BenchOutput, TableHasALineARowAndEndsWithSkips) {
     const Bench bench = several();
     const std::string table = benchTable(bench, 0);
     EXPECT_EQ(std::ranges::count(table, '\n'), 6) << table;
@@ -252,7 +208,6 @@ TEST(BenchOutput, TableHasALineARowAndEndsWithSkipsAndKernels) {
     const std::string end = benchEnd(bench);
     EXPECT_NE(end.find("not timed: deferred, every, 64x48, 4096 lights: would take <long>\n"),
               std::string::npos);
-    EXPECT_NE(end.find("           2.00     2.4\n"), std::string::npos) << end;
     EXPECT_NE(end.find("one note\n"), std::string::npos);
     EXPECT_EQ(end.find("its own note"), std::string::npos) << "of one row, among so many";
 }
@@ -274,14 +229,6 @@ TEST(BenchOutput, EveryNumberOfATableStandsUnderItsHead) {
     const std::vector<std::string> words{"17", "64x48", "deferred", "every", "10",    "5", "20",
                                          "0",  "0.0%",  "G-buffer", "4,",    "shade", "6"};
     EXPECT_EQ(wordsOf(first), words);
-    std::istringstream end(benchEnd(bench));
-    std::map<std::string, std::vector<std::string>> kernels;
-    for (std::string line; std::getline(end, line);) kernels[line.substr(0, line.find("  "))] = wordsOf(line);
-    EXPECT_EQ(kernels.at("uniform buffer"),
-              (std::vector<std::string>{"uniform", "buffer", "2.500", "2.00", "2.4"}));
-    EXPECT_EQ(kernels.at("by hand"), (std::vector<std::string>{"by", "hand", "1.250", "-", "-"}));
-    EXPECT_NE(end.str().find("lists of 16 and 48 out of 512 lights, 640x352, 9 runs, 2 threads\n"),
-              std::string::npos);
 }
 
 TEST(BenchOutput, PixelsThatAreNotFiniteAreSaid) {
@@ -310,13 +257,9 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_EQ(row["notes"], (Json{"one note", "its own note"}));
     EXPECT_EQ(json["skipped"][0]["reason"], "would take <long>");
     EXPECT_EQ(json["skipped"][0]["light_count"], 4096);
-    EXPECT_EQ(json["kernels"]["rows"][1]["ratio"], 2.0);
-    EXPECT_TRUE(json["kernels"]["rows"][0]["ratio"].is_null());
     Bench plain = bench;
-    plain.kernels.reset();
     plain.rows[0].requested_lights.reset();
     const Json without = Json::parse(benchJson(plain, {}));
-    EXPECT_TRUE(without["kernels"].is_null());
     EXPECT_TRUE(without["frames"][0]["light_count"].is_null());
 }
 
@@ -355,14 +298,13 @@ TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
 
 TEST(BenchOutput, ThePageHasEverything) {
     const std::string page = benchHtml(several());
-    for (const char* part :
-         {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;", "uniform buffer",
-          "at most 2.4", "one note", "its own note", "a note", "bench.json"})
+    for (const char* part : {"<svg class=\"chart\"", "assign lights 10", "25.0 %", "would take &lt;long&gt;",
+                             "one note", "its own note", "bench.json"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
-    Bench kernelsOnly = several();
-    kernelsOnly.rows.clear();
-    EXPECT_EQ(benchHtml(kernelsOnly).find("<svg"), std::string::npos);
+    Bench nothingTimed = several();
+    nothingTimed.rows.clear();
+    EXPECT_EQ(benchHtml(nothingTimed).find("<svg"), std::string::npos);
 }
 
 }  // namespace

@@ -47,7 +47,6 @@ TEST(BenchLayers, EachKindAndShareIsTimedUnderEachLightCountInThreeWays) {
     EXPECT_EQ(cases.groups.size(), 39u) << "4 kinds by 3 shares, and none of them once, by 3 light counts";
     EXPECT_EQ(groups.size(), 39u);
     EXPECT_TRUE(groups.contains({"", 0, 1u}) && groups.contains({"glass", 100, 1024u}));
-    EXPECT_FALSE(options.kernels);
     const auto settingsOf = [](const std::vector<std::string>& words) {
         return makeBenchCases("builtin:gallery", Settings(), layerOptions(words)).groups[0].settings;
     };
@@ -89,7 +88,6 @@ TEST(BenchLayers, WhatTheTableHasNoColumnForIsRefused) {
     for (const auto& [list, value] :
          {std::pair{"--sizes", "8x8"}, {"--transparencies", "sorted"}, {"--lightings", "compute"}})
         EXPECT_TRUE(layerRefusal({list, value}).starts_with("--table layers: takes no --sizes")) << list;
-    EXPECT_TRUE(layerRefusal({"--kernels", "only"}).starts_with("--kernels only: "));
     EXPECT_TRUE(layerRefusal({"--axes", "lights"}).starts_with("--axes: needs --table growth"));
     EXPECT_TRUE(layerRefusal({"--assign", "per_object"}).find("per_object") != std::string::npos);
     EXPECT_EQ(layerRefusal({}), "");

@@ -48,7 +48,6 @@ TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {
         EXPECT_EQ(s.path, Path::forward_plus);
         EXPECT_EQ(s.assign, Assignment::tiled);
     }
-    EXPECT_FALSE(one.kernels);
 }
 
 // Settings that only apply to MSAA are requested once; single-sample frames drop them.
@@ -76,7 +75,6 @@ TEST(BenchSamples, WhatSamplesAreForIsLeftToThem) {
 TEST(BenchSamples, WhatTheTableHasNoRowForIsRefused) {
     EXPECT_TRUE(refusal({"--assign", "tiled,clustered"}).starts_with("--table msaa: takes one --assign"));
     EXPECT_TRUE(refusal({"--transparencies", "sorted"}).starts_with("--transparencies: "));
-    EXPECT_TRUE(refusal({"--kernels", "only"}).starts_with("--kernels only: "));
     EXPECT_TRUE(refusal({"--paths", "deferred", "--assign", "per_object"}).starts_with("nothing to time"));
     EXPECT_EQ(refusal({}), "");
     EXPECT_THROW(benchTableOf("aa"), std::runtime_error);

@@ -74,7 +74,7 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     const std::pair<const char*, std::vector<const char*>> unread[] = {
         {"compare", {"--debug", "--heat", "--frames", "--fps"}},
         {"render", {"--times"}},
-        {"bench", {"--debug", "--channels", "--exposure"}},
+        {"bench", {"--debug", "--channels", "--exposure", "--kernels"}},
         {"plan", {"--exposure", "--runs", "--out", "--channels"}},
         {"devices", {"--size", "--exposure", "--lights", "--out"}},
     };

@@ -2,5 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#define BENCH_UNIFORM
-#include "shaders/lib/lights/bench_lights.glsl"
+#define LIGHTS_UNIFORM
+#include "tests/bench/shaders/lights.glsl"

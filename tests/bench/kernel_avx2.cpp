@@ -2,7 +2,7 @@
 // One listed point light at one pixel, optimized for the CPU. Follows shaders/lib/shading/brdf.glsl and
 // lights.glsl function by function. Shades 8 pixels per vector; broadcasts lights from memory and keeps
 // sums in registers. A test compares its image with the shaders'.
-#include "compare/bench/kernel_avx2.h"
+#include "tests/bench/kernel_avx2.h"
 
 #if defined(__AVX2__) && defined(__FMA__)
 
@@ -10,7 +10,7 @@
 
 #include <immintrin.h>
 
-namespace diptych::bench {
+namespace diptych::kernels {
 namespace {
 
 using Float = float __attribute__((vector_size(32)));
@@ -74,7 +74,7 @@ Float schlickWeight(Float v_dot_h) {
     return x2 * x2 * x;
 }
 
-// benchSurface() and makeBrdf() at pixel centres.
+// kernelSurface() and makeBrdf() at pixel centres.
 struct Pixels {
     Vec3 position, normal, view;
     Brdf brdf;
@@ -150,14 +150,14 @@ void shadeTileAvx2(const KernelTile& tile) {
         }
 }
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels
 
 #else
 
-namespace diptych::bench {
+namespace diptych::kernels {
 
 void shadeTileAvx2(const KernelTile&) {}
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The workload of benchmark kernels.
+// The workload of bench_kernels.
 #pragma once
 
 #include "shared/contract/light.h"
@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <vector>
 
-namespace diptych::bench {
+namespace diptych::kernels {
 
-// Tiles of 16 x 16 pixels, each with its own ascending light list. Surfaces come from benchSurface() in
-// shaders/lib/lights/bench_lights.glsl.
+// Tiles of 16 x 16 pixels, each with its own ascending light list. Surfaces come from kernelSurface() in
+// shaders/lights.glsl.
 struct KernelWorkload {
     Size size;                           // multiple of the tile size
     std::vector<gpu::Light> lights;      // at most mostKernelLights
@@ -31,4 +31,4 @@ inline constexpr std::uint32_t mostKernelLights = 512;  // 16 KiB: Vulkan's mini
 // of 4, at most `lights`. Throws std::logic_error otherwise.
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed);
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace diptych::bench {
+namespace diptych::kernels {
 
 // One tile of 16 x 16 pixels. kernel_avx2.cpp is compiled for AVX2 and FMA. It includes only plain types,
 // so that no shared template or inline function is compiled for these extensions.
@@ -18,4 +18,4 @@ struct KernelTile {
 };
 void shadeTileAvx2(const KernelTile& tile);
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels

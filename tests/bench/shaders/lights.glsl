@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Benchmark entry point around shade(): a full-screen target of 16 x 16 pixel tiles, each with its own
-// list of point lights. By default the lights are in the paths' texel buffer. BENCH_UNIFORM or
-// BENCH_STORAGE moves them to a buffer of that kind. BENCH_UNIFORM_BASE declares that all lanes read one
+// Entry point of bench_kernels around shade(): a full-screen target of 16 x 16 pixel tiles, each with its
+// own list of point lights. By default the lights are in the paths' texel buffer. LIGHTS_UNIFORM or
+// LIGHTS_STORAGE moves them to a buffer of that kind. LIGHTS_UNIFORM_BASE declares that all lanes read one
 // list.
-#ifndef BENCH_LIGHTS_GLSL
-#define BENCH_LIGHTS_GLSL
+#ifndef KERNEL_LIGHTS_GLSL
+#define KERNEL_LIGHTS_GLSL
 
 #include "shaders/lib/lights/light_lists.glsl"
 
 // SET_MATERIAL is free: no material is read.
-#if defined(BENCH_UNIFORM)
-layout(set = SET_MATERIAL, binding = 0, scalar) uniform BenchUniform { Light bench_lights[512]; };
-#elif defined(BENCH_STORAGE)
-layout(set = SET_MATERIAL, binding = 1, scalar) readonly buffer BenchStorage { Light bench_lights[]; };
+#if defined(LIGHTS_UNIFORM)
+layout(set = SET_MATERIAL, binding = 0, scalar) uniform UniformLights { Light kernel_lights[512]; };
+#elif defined(LIGHTS_STORAGE)
+layout(set = SET_MATERIAL, binding = 1, scalar) readonly buffer StorageLights { Light kernel_lights[]; };
 #endif
-#if defined(BENCH_UNIFORM) || defined(BENCH_STORAGE)
-Light benchLightAt(const uint i) { return bench_lights[i]; }
-#define lightAt benchLightAt
+#if defined(LIGHTS_UNIFORM) || defined(LIGHTS_STORAGE)
+Light kernelLightAt(uint i) { return kernel_lights[i]; }
+#define lightAt kernelLightAt
 #endif
 
 #include "shaders/lib/shading/shade.glsl"
@@ -25,7 +25,7 @@ layout(location = 0) out vec4 out_lit;
 
 // A curved sheet in front of the camera. Its arithmetic is the same in every language; kernel_avx2.cpp
 // repeats it.
-Surface benchSurface(const vec2 pixel) {
+Surface kernelSurface(const vec2 pixel) {
     float u = pixel.x * (1.0 / 1024.0), v = pixel.y * (1.0 / 1024.0);
     vec3 slope = vec3(0.4 * (u - 0.3), 0.6 * (v - 0.2), 1.0);
     Surface s;
@@ -49,12 +49,12 @@ Surface benchSurface(const vec2 pixel) {
 void main() {
     uvec2 tile = uvec2(gl_FragCoord.xy) >> 4;
     uint begin = (tile.y * constants.draw + tile.x) * constants.material;
-#ifdef BENCH_UNIFORM_BASE
+#ifdef LIGHTS_UNIFORM_BASE
     begin = subgroupBroadcastFirst(begin);
 #endif
     uint end = begin + constants.light_end;
-    out_lit = vec4(
-        lit(shade(benchSurface(gl_FragCoord.xy), PixelLights(0u, LightListHead(begin, end, end, end)))), 1.0);
+    PixelLights lights = PixelLights(0u, LightListHead(begin, end, end, end));
+    out_lit = vec4(lit(shade(kernelSurface(gl_FragCoord.xy), lights)), 1.0);
 }
 
 #endif

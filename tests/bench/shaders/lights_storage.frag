@@ -2,4 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/lights/bench_lights.glsl"
+#define LIGHTS_STORAGE
+#include "tests/bench/shaders/lights.glsl"

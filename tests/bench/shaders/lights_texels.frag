@@ -2,5 +2,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#define BENCH_STORAGE
-#include "shaders/lib/lights/bench_lights.glsl"
+#include "tests/bench/shaders/lights.glsl"

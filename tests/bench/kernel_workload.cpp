@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/workload.h"
+#include "tests/bench/kernel_workload.h"
 
 #include "shared/light/lights.h"
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace diptych::bench {
+namespace diptych::kernels {
 
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed) {
     if (size.width % KernelWorkload::tile != 0 || size.height % KernelWorkload::tile != 0 ||
@@ -42,4 +42,4 @@ KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapa
     return workload;
 }
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/kernels.h"
+#include "tests/bench/kernels.h"
+
 #include "shared/contract/bindings.h"
 #include "shared/contract/geometry.h"
 #include "shared/contract/light_list.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/draw/layouts.h"
-#include "shared/draw/pipeline_parts.h"
 #include "shared/vulkan/check.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cstring>
+#include <stdexcept>
 
-namespace diptych::bench {
+namespace diptych::kernels {
+
+std::span<const ShaderModule> shaderModules();  // tests/bench/shaders, written by embed_spirv
+
 namespace {
 
 constexpr VkBufferUsageFlags anyBuffer = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -27,13 +33,22 @@ GpuBuffer filled(Device& device, const std::string& name, const std::vector<T>& 
     return buffer;
 }
 
+const ShaderModule& moduleOf(const DeviceKernel& kernel) {
+    for (const ShaderModule& module : kernels::shaderModules())
+        if (module.name == kernel.shader) return module;
+    throw std::logic_error(fmt::format("no shader of bench_kernels is called {}", kernel.shader));
+}
+
 class Drawn final : public DrawnKernel {
 public:
     Drawn(Device& device, const KernelWorkload& workload, const DeviceKernel& kernel)
         : workload_(workload),
           lightsLayout_(makeSetLayout(device, lightTypes)),
           layouts_(device, lightsLayout_),
-          pipelines_(device, layouts_.pipeline, drawingParts),
+          pipelines_(device, layouts_.pipeline,
+                     [module = &moduleOf(kernel)](const PipelineKey& key) {
+                         return PipelineParts{&shaderModule(key.vertex), module, {}, {}};
+                     }),
           lights_(filled(device, "lights", workload.lights)),
           indices_(filled(device, "lists", workload.indices)),
           uploader_(device),
@@ -51,11 +66,8 @@ public:
             .set(gpu::FEATURE_light_lists, gpu::LISTS_CLUSTERED)
             .set(gpu::FEATURE_list_width, 4);
         target_ = passes_.image("lit", litFormat);
-        const VkPipeline pipeline = pipelines_.get({.vertex = Shader::full_screen_vert,
-                                                    .fragment = kernel.shader,
-                                                    .variant = variant,
-                                                    .input = NO_VERTICES,
-                                                    .colors = {litFormat}});
+        const VkPipeline pipeline =
+            pipelines_.get({.vertex = Shader::full_screen_vert, .variant = variant, .colors = {litFormat}});
         passes_.draw(kernel.name)
             .color(target_, Load::clear)
             .record([this, pipeline](VkCommandBuffer commands) { record(commands, pipeline); });
@@ -131,10 +143,10 @@ private:
 
 const std::vector<DeviceKernel>& deviceKernels() {
     static const std::vector<DeviceKernel> kernels{
-        {"texel buffer, as the paths read it", Shader::bench_texels_frag, false, {}},
-        {"uniform buffer, uniform base", Shader::bench_uniform_base_frag, true, 2.4},
-        {"uniform buffer, divergent base", Shader::bench_uniform_frag, false, 2.8},
-        {"storage buffer, divergent base", Shader::bench_storage_frag, false, 3.3}};
+        {"texel buffer, as the paths read it", "lights_texels.frag", false, {}},
+        {"uniform buffer, uniform base", "lights_uniform_base.frag", true, 2.4},
+        {"uniform buffer, divergent base", "lights_uniform.frag", false, 2.8},
+        {"storage buffer, divergent base", "lights_storage.frag", false, 3.3}};
     return kernels;
 }
 
@@ -150,4 +162,4 @@ std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkloa
     return std::make_unique<Drawn>(device, workload, kernel);
 }
 
-}  // namespace diptych::bench
+}  // namespace diptych::kernels

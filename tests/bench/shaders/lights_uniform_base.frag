@@ -3,6 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-#define BENCH_UNIFORM
-#define BENCH_UNIFORM_BASE
-#include "shaders/lib/lights/bench_lights.glsl"
+#define LIGHTS_UNIFORM
+#define LIGHTS_UNIFORM_BASE
+#include "tests/bench/shaders/lights.glsl"
