@@ -101,14 +101,6 @@ TEST(ShaderContract, ModulesAreFoundByShader) {
     EXPECT_THROW(shaderModule(Shader::none), std::logic_error);
 }
 
-// One module per entry point keeps the program small and quick to build.
-TEST(ShaderContract, ThereAreFewModulesAndTheyAreSmall) {
-    std::size_t bytes = 0;
-    for (const ShaderModule& module : shaderModules()) bytes += module.words.size_bytes();
-    EXPECT_LE(shaderModules().size(), 75u);
-    EXPECT_LE(bytes, 25u << 20);
-}
-
 // Locations between shader stages, over all modules. Variants of a module use a subset of its locations.
 std::set<std::uint32_t> locationsBetweenStages() {
     std::set<std::uint32_t> found;
