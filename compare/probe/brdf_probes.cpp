@@ -255,7 +255,7 @@ Probe lightProbe() {
     Probe p = brdfProbe(
         "one light, base and lobe", 3,
         "as for the lobe, with n.l at least 1e-3; metallic, albedo, F0 and F90 0 to 1 including both ends",
-        "rounding in addLight(); float32 vectors are only nearly of length 1");
+        "rounding in lobesUnder(); float32 vectors are only nearly of length 1");
     p.ins = 14;
     p.outs = 2;
     p.make = [](Random& random, std::size_t, float* in) {

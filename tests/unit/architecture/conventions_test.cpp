@@ -2,7 +2,6 @@
 // Checks the project's conventions on its own files: one pi, a licence line, one JSON reader, one user of
 // libpng, no machine-specific paths, short shader lines, shader code for every channel. Each check has a
 // negative control.
-#include "shared/frame/debug_modes.h"
 #include "tests/support/sources.h"
 
 #include <fnmatch.h>
@@ -319,22 +318,6 @@ TEST(Conventions, APlantedLongLineOfAShaderIsFound) {
     EXPECT_EQ(longShaderLines({{"shaders/lib/planted.glsl", fits + "//  " + std::string(107, 'x') + "\n"}}),
               Faults{"shaders/lib/planted.glsl:2"});
     EXPECT_TRUE(longShaderLines({{"shaders/lib/planted.glsl", fits}, {"README.md", fits + fits}}).empty());
-}
-
-// Names channels that have no shader code.
-Faults channelsWithoutShader(const std::string& shader) {
-    Faults faults;
-    for (const DebugMode& mode : debugModes())
-        if (!std::regex_search(shader, std::regex("\\bDEBUG_" + std::string(mode.name) + "\\b")))
-            faults.emplace_back(mode.name);
-    return faults;
-}
-
-TEST(Conventions, EveryChannelHasALineInTheShader) {
-    const std::string shader = sources().at("shaders/lib/surface/debug.glsl");
-    EXPECT_EQ(joined(channelsWithoutShader(shader)), "");
-    EXPECT_EQ(channelsWithoutShader(std::regex_replace(shader, std::regex("DEBUG_roughness"), "DEBUG_rough")),
-              Faults{"roughness"});
 }
 
 // Lines of tests/longer.txt (FOLDER.SUITE.TEST with * and ?) that match no TEST of the folder.
