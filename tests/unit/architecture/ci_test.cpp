@@ -43,6 +43,10 @@ TEST(Workflows, TheirCommandsParseAndTheirFilesAreTheReports) {
                           text.find("paths:\n      - " + folder + "/\n") != std::string::npos;
         EXPECT_TRUE(kept) << file;
         EXPECT_EQ(text.find('\t'), std::string::npos) << "YAML is indented by spaces";
+        EXPECT_NE(text.find("--target package && cp /opt/diptych/build/diptych_*.deb ."), std::string::npos);
+        EXPECT_TRUE(text.find("path: diptych_*.deb\n") != std::string::npos ||
+                    text.find("      - diptych_*.deb\n") != std::string::npos)
+            << file << ": keeps no package";
     }
 }
 
