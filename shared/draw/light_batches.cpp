@@ -69,11 +69,10 @@ gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, 
                     over_reflectors = reflectors > 1 ? reflectors : 0,
                     over_packet = list_width > 1 ? list_width : 0;
     gpu::uint most = 1 + over_packet + list_width * over_reflectors;
-    if (lights.rect + lights.disc + lights.tube > 0) {
-        // Both form factors of a reflector; of a tube, each with two rims of up to two arcs.
-        const gpu::uint factors = 2 * (1 + (lights.tube > 0 ? 2 * (1 + 2) : 0));
+    // Both form factors of a reflector, of a tube each with two rims of up to two arcs.
+    constexpr gpu::uint factors = 2 * (1 + 2 * (1 + 2));
+    if (lights.area() > 0)
         most = std::max(most, list_width * (1 + over_reflectors + reflectors * factors));
-    }
     return std::max(profile.light_iterations / most, 1u);
 }
 

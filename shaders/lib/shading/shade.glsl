@@ -80,13 +80,12 @@ void addFrom(const uint reflector, const Lobes lobes, const vec3 sheen, inout Ra
 }
 
 void addIncident(const Shading shading, const Incident light, inout Radiance radiance) {
-    vec3 from_sheen = vec3(0.0);
-    if (hasLayer(LAYER_SHEEN))
-        from_sheen = sheenReflected(shading.sheen, shading.base.n, shading.v, light.direction,
-                                    light.irradiance);
     uint i = 0u;
     [[unroll]] do {
         Reflector r = reflectorOf(shading, i);
+        vec3 from_sheen = vec3(0.0);
+        if (hasLayer(LAYER_SHEEN) && isBase(i))
+            from_sheen = sheenReflected(shading.sheen, r.n, r.v, light.direction, light.irradiance);
         addFrom(i, lobesUnder(r.brdf, r.n, r.v, light), from_sheen, radiance);
     } while (++i < reflectorCount());
 }
@@ -324,8 +323,8 @@ Radiance shade(const Surface s, const PixelLights lights) {
     bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
     // First, while few values are live: a shadow map's filter needs more registers than anything after it.
     // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
-    // Of all batches, the last one is captured.
-    if (has_suns || on(feature_captured)) radiance.sun_visibility = sunVisibility(s);
+    // A capture shows it after the last batch, too.
+    if (has_suns || on(feature_captures)) radiance.sun_visibility = sunVisibility(s);
     radiance.emission = s.emission;
     Shading shading = makeShading(s, radiance.emission);
     if (feature_light_batch == BATCH_LATER) readPartialSums(radiance);

@@ -40,6 +40,7 @@ struct ExactRow {
 constexpr std::string_view movesBits = "moves bits";
 constexpr ExactRow exactInstructions[] = {
     {61, "OpLoad", movesBits},
+    {77, "OpVectorExtractDynamic", movesBits},
     {79, "OpVectorShuffle", movesBits},
     {80, "OpCompositeConstruct", movesBits},
     {81, "OpCompositeExtract", movesBits},
