@@ -71,8 +71,7 @@ gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, 
     gpu::uint most = 1 + over_packet + list_width * over_reflectors;
     // Both form factors of a reflector, of a tube each with two rims of up to two arcs.
     constexpr gpu::uint factors = 2 * (1 + 2 * (1 + 2));
-    if (lights.area() > 0)
-        most = std::max(most, list_width * (1 + over_reflectors + reflectors * factors));
+    if (lights.area() > 0) most = std::max(most, list_width * (1 + over_reflectors + reflectors * factors));
     return std::max(profile.light_iterations / most, 1u);
 }
 

@@ -299,6 +299,29 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
 }
 
+// The loops over reflectors, form factors and rims nest in the loop over lights, and lavapipe counts all of
+// them: the last of many tubes still shines on coats and through leaves.
+TEST(LightLists, ManyTubesOnLayersAreShadedInSeveralDraws) {
+    Scene scene = loadScene("builtin:layers");
+    for (Material& m : scene.materials) m.clearcoat = 1, m.diffuse_transmission = 0.5f;
+    Light near = scene.lights.front(), far = near;
+    near.kind = far.kind = LightKind::tube;
+    near.position = eyeOf("builtin:layers");
+    near.intensity = 1000;
+    near.range = std::numeric_limits<float>::infinity();
+    far.position = near.position + glm::dvec3(1e4, 0, 0);
+    far.range = 0.1f;
+    scene.lights.assign(device().profile().light_iterations / 16, far);
+    scene.lights.push_back(near);
+    Scene few = scene;
+    few.lights = {near};
+    const Settings every = picture({12, 7}, Path::forward_plus, Assignment::every);
+    const Frame many = Renderer(device(), scene, pipelines()).draw(every, untimed()),
+                one = Renderer(device(), few, pipelines()).draw(every, untimed());
+    EXPECT_EQ(wrongPixels(many.channels.at(lit), one.channels.at(lit)), 0u);
+    EXPECT_GT(*std::ranges::max_element(one.channels.at(lit).data), 0.1f);
+}
+
 // More pairs of lights and froxels than fit into the device's largest buffer.
 TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     Scene scene = loadScene("builtin:spheres?lights=1");

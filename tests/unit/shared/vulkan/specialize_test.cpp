@@ -62,8 +62,8 @@ std::map<std::string, int> computations(const SpirvWords& small) {
         // The optimiser keeps every OpCopyLogical and its operands: OpLoad, OpAccessChain, OpBitcast of an
         // address, and, or. It keeps a shift by the counter of a loop that runs once. OpCopyObject computes
         // nothing.
-        const bool copies = op == 400 || op == 61 || op == 65 || op == 124 || op == 83 || op == 166 ||
-                            op == 167 || op == 194;
+        const bool copies =
+            op == 400 || op == 61 || op == 65 || op == 124 || op == 83 || op == 166 || op == 167 || op == 194;
         if (!inside || goes || copies) continue;
         const std::uint32_t extended = op == 12 ? small[at + 4] : 0;  // OpExtInst
         ++instructions[fmt::format("{}.{}", op, extended)];
