@@ -145,8 +145,7 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
     Light lamp;
     lamp.position = {0, 0, 0.5};
     lamp.intensity = 1;
-    for (const std::size_t lights :
-         {std::size_t{1}, std::size_t{device().profile().light_iterations} + 7}) {
+    for (const std::size_t lights : {std::size_t{1}, std::size_t{device().profile().light_iterations} + 7}) {
         scene.lights.assign(lights, lamp);
         const std::vector<Frame> shone = bothPaths(scene, settings, shown);
         for (std::size_t i = 0; i < 2; ++i) {
