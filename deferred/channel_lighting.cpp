@@ -40,7 +40,7 @@ void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
     inputs.lists.read(passes, pass);
     inputs.shadow.read(pass);
     pass.samples(depth, inFragment).depthTest(depth);
-    const VkPipeline pipeline = inputs.pipelines.get(
+    const Pipeline pipeline = inputs.pipelines.get(
         inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
                              .fragment = draw.fragment,
                              .variant = lightingVariant(inputs),

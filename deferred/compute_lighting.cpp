@@ -60,7 +60,7 @@ void addDispatch(PassList& passes, Pass& pass, const FrameInputs& inputs, const 
                                        lightingGroups(passes.width()), dispatch.group));
         return;
     }
-    std::vector<VkPipeline> pipelines;
+    std::vector<Pipeline> pipelines;
     for (const Variant& of_class : tileVariants(variant)) pipelines.push_back(pipelineOf(of_class));
     pass.recordRows(TileLayout(passes).dispatches,
                     recordTileDispatches(inputs, readTiles(passes, pass, frame, inCompute, pipelines),
@@ -78,7 +78,7 @@ void addLitOf(PassList& passes, const FrameInputs& inputs, const FrameImages& fr
                      .depthTest(frame.depth);
     const PartialSumImages images{stored, stored};
     LightBatch read{.images = images, .sums = partialSumSet(passes, pass, inputs, images)};
-    const VkPipeline pipeline =
+    const Pipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
                                                   .fragment = Shader::deferred_lit_frag,
                                                   .variant = lightingVariant(inputs),

@@ -101,7 +101,7 @@ void addDeferredLighting(PassList& passes, Pass& pass, const FrameInputs& inputs
     };
     DescriptorSets sets = gbufferSet(passes, inputs, frame);
     if (!frame.tiles) {
-        const VkPipeline pipeline = inputs.pipelines.get(keyOf(draw.variant));
+        const Pipeline pipeline = inputs.pipelines.get(keyOf(draw.variant));
         pass.record(recordFullScreen(inputs, pipeline, std::move(sets), batch, draw.groups));
         return;
     }

@@ -30,7 +30,7 @@ Pass& addKernel(PassList& passes, const FrameInputs& inputs, Shader shader, glm:
                                      .with(gpu::FEATURE_samples)
                                      .with(gpu::FEATURE_gbuffer_encoding)
                                      .with(gpu::FEATURE_gbuffer_layers);
-    const VkPipeline pipeline =
+    const Pipeline pipeline =
         inputs.pipelines.compute(shader, inputs.variant.only(read), inputs.layouts.pipeline);
     return passes.compute("classify tiles")
         .record(
@@ -88,7 +88,7 @@ std::array<Variant, gpu::TILE_CLASSES> tileVariants(const Variant& variant) {
 }
 
 TiledLighting readTiles(PassList& passes, Pass& pass, const FrameImages& images, VkPipelineStageFlags2 stage,
-                        const std::vector<VkPipeline>& pipelines) {
+                        const std::vector<Pipeline>& pipelines) {
     const BufferRef buffer = passes.buffer(bufferName, *images.tiles);
     pass.uses(buffer, access::indirectRead).uses(buffer, access::storageRead(stage));
     const TileLayout layout(passes);

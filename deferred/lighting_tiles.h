@@ -40,6 +40,6 @@ std::array<Variant, gpu::TILE_CLASSES> tileVariants(const Variant& variant);
 // Declares that the pass shades all tiles, by draws (inVertex) or dispatches (inCompute). `pipelines`: by
 // class.
 TiledLighting readTiles(PassList& passes, Pass& pass, const FrameImages& images, VkPipelineStageFlags2 stage,
-                        const std::vector<VkPipeline>& pipelines);
+                        const std::vector<Pipeline>& pipelines);
 
 }  // namespace diptych

@@ -97,7 +97,7 @@ FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages
     }
     Variant variant = lightingVariant(inputs);
     variant.set(gpu::FEATURE_sample_edges, edgesOf(inputs.edges));
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
+    const Pipeline pipeline = inputs.pipelines.get(PipelineKey{
         .vertex = Shader::deferred_lighting_vert,
         .fragment = further.any() ? Shader::deferred_groups_list_frag : Shader::deferred_groups_frag,
         .variant = variant,
@@ -127,10 +127,10 @@ void addFurtherGroups(PassList& passes, const FrameInputs& inputs, const FrameIm
         .uses(further.count, access::storageImageRead(inVertex | inFragment), onlyPart)
         .uses(further.list, access::storageImageRead(inFragment), onlyPart)
         .uses(lit, access::storageImageWrite(inFragment), onlyPart);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_further_vert,
-                                                                 .fragment = Shader::deferred_further_frag,
-                                                                 .variant = lightingVariant(inputs),
-                                                                 .input = NO_VERTICES});
+    const Pipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::deferred_further_vert,
+                                                               .fragment = Shader::deferred_further_frag,
+                                                               .variant = lightingVariant(inputs),
+                                                               .input = NO_VERTICES});
     pass.record(recordVertices(inputs, pipeline, setOf(passes, inputs, frame, further, lit), 6, draws));
 }
 

@@ -81,7 +81,7 @@ Overdraw measureOverdraw(const FrameInputs& inputs, std::uint32_t width, std::ui
             queries.end(commands, 0);
         });
     // As in deferred lighting, the full-screen triangle passes the depth test on covered pixels.
-    const VkPipeline pipeline =
+    const Pipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::full_screen_vert,
                                                   .fragment = Shader::none,
                                                   .variant = {},

@@ -167,7 +167,7 @@ void judge(CompiledPath& path) {
 
 std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler, SceneViews& views,
                                        const std::vector<Settings>& settings) {
-    SharedResources shared(device, views.scene());
+    SharedResources shared(device, views.scene(), std::make_shared<PipelineSet>(device, Creation::planned));
     std::vector<CompiledPath> paths;
     for (const Settings& s : settings) {
         checkSize(device, s.size);

@@ -91,12 +91,13 @@ std::vector<Requirements::Line> planLines(const SceneView& view, const Settings&
 }
 
 std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::vector<Settings>& settings) {
-    SharedResources shared(device, views.scene());
+    SharedResources shared(device, views.scene(), std::make_shared<PipelineSet>(device, Creation::planned));
     std::vector<PathPlan> plans;
     for (const Settings& s : settings) {
         checkSize(device, s.size);
-        // Counts a path's pipelines as if it were alone, even those that another path has created.
+        // Counts a path's pipelines as if it were alone, even those that another path has too.
         shared.pipelines.clear();
+        const std::size_t others = shared.pipelines.made();
         const PreparedView view(device, shared, views.at(viewRequest(s)), s);
         const PathFunctions& path = functionsOf(s.path);
         PassList passes(device, plannedSize, plannedSize);
@@ -112,7 +113,7 @@ std::vector<PathPlan> planPaths(Device& device, SceneViews& views, const std::ve
             plan.notes.insert(plan.notes.end(), lines->begin(), lines->end());
         plan.notes.push_back(fmt::format("{} in view, {} culled; {}",
                                          counted(view.draws.items.size(), "draw"), view.draws.culled,
-                                         counted(shared.pipelines.count(), "pipeline")));
+                                         counted(shared.pipelines.made() - others, "pipeline")));
         for (const int samples : sampleCounts(device))
             if (samples != s.msaa)
                 plan.bytes.push_back(bytesOf(device, shared, views, withSamples(s, samples)));

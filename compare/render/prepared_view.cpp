@@ -89,10 +89,10 @@ std::optional<Materials> posedMaterials(Device& device, SharedResources& shared,
 
 }  // namespace
 
-PipelineSet::PipelineSet(Device& device)
+PipelineSet::PipelineSet(Device& device, Creation creation)
     : material(Materials::makeLayout(device)),
       layouts(device, material),
-      pipelines(device, layouts.pipeline, drawingParts) {}
+      pipelines(device, layouts.pipeline, drawingParts, creation) {}
 
 SharedResources::SharedResources(Device& d, const Scene& scene, std::shared_ptr<PipelineSet> shared)
     : uploader(d),

@@ -26,7 +26,7 @@ namespace diptych {
 
 // Shared by all scenes on a device, so that each pipeline is compiled once.
 struct PipelineSet {
-    explicit PipelineSet(Device& device);
+    explicit PipelineSet(Device& device, Creation creation = Creation::at_once);
     OwnedDescriptorSetLayout material;
     Layouts layouts;
     Pipelines pipelines;

@@ -6,7 +6,6 @@
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
 
-#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,9 +15,7 @@ class Device;
 struct PipelineSet;  // renderer.h
 
 // renderAll() for one scene after the other with shared pipelines. Compiling dominates the time of small
-// images on lavapipe, so later scenes reuse pipelines. If there are more than `pipelinesKept` after a
-// scene, those of both paths are destroyed; lavapipe takes 1.5 MB for each.
-inline constexpr std::size_t pipelinesKept = 256;
+// images on lavapipe, so later scenes reuse pipelines.
 std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vector<Settings>& settings,
                              const RenderOptions& options, const std::shared_ptr<PipelineSet>& pipelines);
 

@@ -355,7 +355,7 @@ void Renderer::clearPipelines(Path path) {
 }
 
 std::size_t Renderer::pipelines() const {
-    return state_->shared.pipelines.count();
+    return state_->shared.pipelines.made();
 }
 
 PreparedFrames Renderer::prepare(std::span<const Settings> settings) {
@@ -441,8 +441,6 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
                          [&](const Settings& later) { return later.path == settings[i].path; }))
             renderer.clearPipelines(settings[i].path);
     }
-    if (pipelines && renderer.pipelines() > pipelinesKept)
-        for (const Path path : drawn_paths) renderer.clearPipelines(path);
     return frames;
 }
 

@@ -25,7 +25,7 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
     if (variant.get(gpu::FEATURE_view_source) != gpu::VIEW_UNIFORM)
         variant.set(gpu::FEATURE_view_source, gpu::VIEW_FLAT);
     Pass& pass = passes.draw("background").color(lit, load).depthTest(depth);
-    const VkPipeline pipeline =
+    const Pipeline pipeline =
         inputs.pipelines.get(inputs.depth.stored({.vertex = Shader::deferred_lighting_vert,
                                                   .fragment = Shader::background_frag,
                                                   .variant = variant,

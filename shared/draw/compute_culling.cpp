@@ -64,7 +64,7 @@ std::span<std::uint32_t> ComputeCulling::order() {
 
 void ComputeCulling::addPass(PassList& passes, const char* name) const {
     Pass& pass = passes.compute(name);
-    const VkPipeline pipeline = pipelines_.compute(Shader::cull_clusters_comp, {}, layout_);
+    const Pipeline pipeline = pipelines_.compute(Shader::cull_clusters_comp, {}, layout_);
     pass.uses(passes.buffer("chosen indices", indices_), access::storageWrite(inCompute))
         .uses(passes.buffer("indirect draws", draws_), access::storageWrite(inCompute))
         .record([this, pipeline](VkCommandBuffer commands) {

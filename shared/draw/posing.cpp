@@ -267,7 +267,7 @@ void Posing::addPasses(PassList& passes, Pipelines& pipelines) const {
     const auto kernel = [&](Shader shader, std::uint32_t Posed::*threads, bool of_groups) {
         struct Dispatch {
             const Posed* instance;
-            VkPipeline pipeline;
+            Pipeline pipeline;
         };
         std::vector<Dispatch> dispatches;
         for (const Posed& instance : instances_)

@@ -38,13 +38,13 @@ void push(VkCommandBuffer commands, const FrameInputs& inputs, const gpu::DrawCo
 }
 
 // For draws of vertices that the shader generates.
-void bindUnculled(VkCommandBuffer commands, VkPipeline pipeline) {
+void bindUnculled(VkCommandBuffer commands, const Pipeline& pipeline) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
-void recordUnculled(VkCommandBuffer commands, VkPipeline pipeline, gpu::uint vertices) {
+void recordUnculled(VkCommandBuffer commands, const Pipeline& pipeline, gpu::uint vertices) {
     bindUnculled(commands, pipeline);
     vkCmdDraw(commands, vertices, 1, 0, 0);
 }
@@ -67,8 +67,8 @@ gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) 
 }
 
 // `sampled`: draws to images with the frame's samples; shadow maps have one.
-std::vector<VkPipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
-                                    const KeyOf& keyOf, bool sampled) {
+std::vector<Pipeline> pipelinesOf(const FrameInputs& inputs, std::span<const DrawItem> items,
+                                  const KeyOf& keyOf, bool sampled) {
     std::vector<PipelineKey> keys;
     for (const DrawItem& item : items) {
         keys.push_back(keyOf(item));
@@ -116,7 +116,7 @@ template <class ConstantsOf>
 class ItemRecorder {
 public:
     ItemRecorder(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
-                 const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf)
+                 const std::vector<Pipeline>& pipelines, const ConstantsOf& constantsOf)
         : commands_(commands),
           inputs_(inputs),
           source_(source),
@@ -198,7 +198,7 @@ private:
     VkCommandBuffer commands_;
     const FrameInputs& inputs_;
     const DrawSource& source_;
-    const std::vector<VkPipeline>& pipelines_;
+    const std::vector<Pipeline>& pipelines_;
     const ConstantsOf& constants_of_;
     std::uint32_t indirect_draws_;  // per command
     const DrawItem* last_ = nullptr;
@@ -226,7 +226,7 @@ private:
 // Number of items from index i that one draw covers as instances: same triangles, and their gpu::Draw data
 // is adjacent. Push constants (lights by object, indices of blended triangles) must be equal.
 template <class ConstantsOf>
-std::uint32_t instancesFrom(std::size_t i, const DrawSource& source, const std::vector<VkPipeline>& pipelines,
+std::uint32_t instancesFrom(std::size_t i, const DrawSource& source, const std::vector<Pipeline>& pipelines,
                             const ConstantsOf& constantsOf) {
     const ItemRuns first(source, i);
     if (first.all().size() != 1) return 1;
@@ -245,7 +245,7 @@ std::uint32_t instancesFrom(std::size_t i, const DrawSource& source, const std::
 
 template <class ConstantsOf>
 void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
-                 const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
+                 const std::vector<Pipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
     const VkBuffer indirect =
@@ -274,7 +274,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
 // The same, in the order of sorted triangles.
 template <class ConstantsOf>
 void recordSorted(VkCommandBuffer commands, const FrameInputs& inputs, const DrawSource& source,
-                  const std::vector<VkPipeline>& pipelines, const ConstantsOf& constantsOf) {
+                  const std::vector<Pipeline>& pipelines, const ConstantsOf& constantsOf) {
     inputs.geometry.bind(commands, source.buffer, inputs.sorted_indices);
     ItemRecorder recorder(commands, inputs, source, pipelines, constantsOf);
     for (const SortedRange& run : inputs.draws.sorted_runs) {
@@ -331,11 +331,11 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
     };
 }
 
-void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline) {
+void recordTriangle(VkCommandBuffer commands, const Pipeline& pipeline) {
     recordUnculled(commands, pipeline, 3);
 }
 
-std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, const Pipeline& pipeline,
                                                     std::shared_ptr<const DescriptorSets> gbuffer,
                                                     gpu::uint vertices, gpu::uint draws) {
     return [&inputs, pipeline, gbuffer = std::move(gbuffer), vertices, draws](VkCommandBuffer commands) {
@@ -348,7 +348,7 @@ std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, V
     };
 }
 
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch,
                                                       gpu::uint groups) {
     return [&inputs, pipeline, batch, groups,
@@ -363,7 +363,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
 }
 
 std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
-    const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
+    const FrameInputs& inputs, const Pipeline& pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
     const LightBatch& batch, std::uint32_t across, gpu::uint group) {
     return [&inputs, pipeline, gbuffer = std::move(gbuffer), batch, across, group](VkCommandBuffer commands,
                                                                                    const Pass::Rows& rows) {
@@ -416,7 +416,7 @@ std::function<void(VkCommandBuffer, const Pass::Rows&)> recordTileDispatches(
     };
 }
 
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,
                                                       const gpu::BlendedConstants& constants) {
     return [&inputs, pipeline, constants, gbuffer = std::move(gbuffer)](VkCommandBuffer commands) {
@@ -428,7 +428,7 @@ std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs,
     };
 }
 
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline) {
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline) {
     return [&inputs, pipeline](VkCommandBuffer commands) {
         bindFrame(commands, inputs, {}, nullptr);
         recordTriangle(commands, pipeline);

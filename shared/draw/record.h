@@ -28,27 +28,27 @@ std::function<void(VkCommandBuffer)> recordCasters(const FrameInputs& inputs, co
                                                    VkBuffer draw_buffer);
 
 // Draws a full-screen triangle with the bound descriptor sets.
-void recordTriangle(VkCommandBuffer commands, VkPipeline pipeline);
+void recordTriangle(VkCommandBuffer commands, const Pipeline& pipeline);
 // Records a full-screen triangle with the sets of deferred lighting: frame, G-buffer, partial sums.
 // `groups`: draws it once for each of this many sample groups.
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline,
                                                       DescriptorSets gbuffer, const LightBatch& batch,
                                                       gpu::uint groups = 1);
 // Records `draws` draws of `vertices` vertices without vertex buffers. DrawConstants::group is the draw's
 // index.
-std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordVertices(const FrameInputs& inputs, const Pipeline& pipeline,
                                                     std::shared_ptr<const DescriptorSets> gbuffer,
                                                     gpu::uint vertices, gpu::uint draws);
 // Records a dispatch of rows of `across` workgroups with the sets of deferred lighting. `group`: index of
 // the sample group.
 std::function<void(VkCommandBuffer, const Pass::Rows&)> recordDispatch(
-    const FrameInputs& inputs, VkPipeline pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
+    const FrameInputs& inputs, const Pipeline& pipeline, std::shared_ptr<const DescriptorSets> gbuffer,
     const LightBatch& batch, std::uint32_t across, gpu::uint group);
 // Tiles of the image by class (shared/contract/lighting_tiles.h). A pipeline shades those of its class, by
 // indirect draws or dispatches.
 struct TiledLighting {
     struct Class {
-        VkPipeline pipeline;
+        Pipeline pipeline;
         VkDeviceSize commands;  // offset of its TileDraw or first TileDispatch
         VkDeviceAddress list;   // of its tiles
     };
@@ -64,10 +64,10 @@ std::function<void(VkCommandBuffer, const Pass::Rows&)> recordTileDispatches(
     const FrameInputs& inputs, TiledLighting tiled, std::shared_ptr<const DescriptorSets> gbuffer,
     const LightBatch& batch, gpu::uint group);
 // As recordFullScreen(), for a shader that composites blended surfaces.
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline,
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline,
                                                       std::shared_ptr<const DescriptorSets> gbuffer,
                                                       const gpu::BlendedConstants& constants);
 // The same for a shader that reads SET_FRAME alone.
-std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, VkPipeline pipeline);
+std::function<void(VkCommandBuffer)> recordFullScreen(const FrameInputs& inputs, const Pipeline& pipeline);
 
 }  // namespace diptych

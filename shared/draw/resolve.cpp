@@ -44,7 +44,7 @@ void addReading(PassList& passes, const FrameInputs& inputs, const SampleReader&
     Variant variant = inputs.variant.only(featuresReadBy(gpu::PASS_SAMPLES));
     variant.set(gpu::FEATURE_captures, ((1u << sources.size()) - 1) | static_cast<gpu::uint>(reader.sample)
                                                                           << gpu::SAMPLE_IMAGES);
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{
+    const Pipeline pipeline = inputs.pipelines.get(PipelineKey{
         .vertex = Shader::full_screen_vert,
         .fragment = reader.fragment,
         .variant = variant,

@@ -182,7 +182,7 @@ struct LightLists::Step {
     std::array<VkDescriptorSet, 2> sets;
 
     Pass& operator()(const char* name, Shader shader, glm::uvec3 size) const {
-        const VkPipeline pipeline = pipelines.compute(shader, variant, layout);
+        const Pipeline pipeline = pipelines.compute(shader, variant, layout);
         return passes.compute(name).record(
             [pipeline, size, layout = layout, sets = sets](VkCommandBuffer commands) {
                 vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets.data(),

@@ -60,11 +60,11 @@ std::vector<float> sampled(Device& device, const TextureImage& picture, bool srg
     Pipelines pipelines(device, layout);
     PassList passes(device, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const ImageRef target = passes.image("probe", VK_FORMAT_R32G32B32A32_SFLOAT);
-    const VkPipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
-                                               .fragment = Shader::probe_texture_frag,
-                                               .variant = {},
-                                               .input = 0,
-                                               .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}});
+    const Pipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
+                                             .fragment = Shader::probe_texture_frag,
+                                             .variant = {},
+                                             .input = 0,
+                                             .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}});
     passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
         const VkDescriptorSet set = sets[0];
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);

@@ -108,7 +108,7 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
         vkCmdFillBuffer(commands, marks_.handle(), 0, VK_WHOLE_SIZE, 0);
     });
     Pass& mark = passes.compute(name);
-    const VkPipeline pipeline =
+    const Pipeline pipeline =
         inputs.pipelines.compute(Shader::clipmap_mark_comp, variant, layouts_.pipeline());
     mark.samples(depth, inCompute)
         .uses(marks, access::storageRead(inCompute))

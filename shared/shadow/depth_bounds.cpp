@@ -66,7 +66,7 @@ void DepthBounds::addPasses(PassList& passes, const FrameInputs& inputs) {
     Variant variant;
     variant.set(gpu::FEATURE_depth_format, inputs.depth.kind)
         .set(gpu::FEATURE_samples, static_cast<gpu::uint>(inputs.samples));
-    const VkPipeline reduce =
+    const Pipeline reduce =
         inputs.pipelines.compute(Shader::shadow_depth_bounds_comp, variant, pipeline_layout_);
     const auto groups = [](std::uint32_t pixels, std::uint32_t each) { return (pixels + each - 1) / each; };
     passes.compute(name)

@@ -70,7 +70,7 @@ MomentMaps::MomentMaps(Device& device)
     pipeline_layout_ = makePipelineLayout(device, {&layout, 1}, constants);
 }
 
-void MomentMaps::record(Pass& pass, VkPipeline pipeline, std::uint32_t set,
+void MomentMaps::record(Pass& pass, const Pipeline& pipeline, std::uint32_t set,
                         const gpu::MomentConstants& constants, VkExtent2D threads) {
     pass.record([this, pipeline, set, constants, threads](VkCommandBuffer commands) {
         const VkDescriptorSet sets = sets_[set];

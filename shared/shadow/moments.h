@@ -53,8 +53,8 @@ public:
                        std::uint32_t layers, const Request& request);
 
 private:
-    void record(Pass& pass, VkPipeline pipeline, std::uint32_t set, const gpu::MomentConstants& constants,
-                VkExtent2D threads);
+    void record(Pass& pass, const Pipeline& pipeline, std::uint32_t set,
+                const gpu::MomentConstants& constants, VkExtent2D threads);
 
     OwnedDescriptorSetLayout layout_;
     OwnedPipelineLayout pipeline_layout_;

@@ -33,11 +33,11 @@ ImageRef addBackdrop(PassList& passes, const FrameInputs& inputs, ImageRef lit) 
             : 1;
     const ImageRef backdrop =
         passes.image({.name = "backdrop", .format = litFormat, .levels = levels, .life = Life::transient});
-    const VkPipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::full_screen_vert,
-                                                                 .fragment = Shader::backdrop_frag,
-                                                                 .variant = {},
-                                                                 .input = NO_VERTICES,
-                                                                 .colors = {litFormat}});
+    const Pipeline pipeline = inputs.pipelines.get(PipelineKey{.vertex = Shader::full_screen_vert,
+                                                               .fragment = Shader::backdrop_frag,
+                                                               .variant = {},
+                                                               .input = NO_VERTICES,
+                                                               .colors = {litFormat}});
     for (std::uint32_t level = 0; level < levels; ++level) {
         Pass& pass = passes.draw(passName).color(backdrop, Load::clear, {}, {.level = level});
         const ReadImage before = level == 0

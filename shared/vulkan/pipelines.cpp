@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -205,23 +206,36 @@ SpecializationValue valueOf(const Variant& variant) {
     return [variant](std::uint32_t id) { return variant.get(id); };
 }
 
-OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& key,
-                           const PipelineParts& parts) {
+namespace {
+
+// Modules of a pipeline's stages, reduced to its variant: vertex and, if there is one, fragment; or compute.
+using StageCode = std::vector<std::vector<std::uint32_t>>;
+
+StageCode codeOf(const CreationContext& context, const PipelineKey& key, const PipelineParts& parts) {
     checkPipeline(context, key, parts);
-    std::vector<OwnedShaderModule> code;
-    std::vector<VkPipelineShaderStageCreateInfo> stages;
-    const auto addStage = [&](VkShaderStageFlagBits stage, std::span<const std::uint32_t> words) {
-        code.push_back(makeModule(context, words));
-        stages.push_back(stageOf(stage, code.back()));
-    };
     const SpecializationValue value = valueOf(key.variant);
-    std::vector<std::uint32_t> fragment;
-    if (parts.fragment != nullptr) fragment = specializedWords(context, *parts.fragment, value);
-    const std::vector<std::uint32_t> vertex =
-        specializedWords(context, *parts.vertex, value, inputLocations(fragment));
-    addStage(VK_SHADER_STAGE_VERTEX_BIT, vertex);
-    if (parts.fragment != nullptr) addStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
-    const std::vector<VkVertexInputAttributeDescription> attributes = fetchedBy(vertex, parts.attributes);
+    if (parts.fragment == nullptr)
+        return {specializedWords(context, *parts.vertex, value, inputLocations({}))};
+    std::vector<std::uint32_t> fragment = specializedWords(context, *parts.fragment, value);
+    return {specializedWords(context, *parts.vertex, value, inputLocations(fragment)), std::move(fragment)};
+}
+
+StageCode codeOf(const CreationContext& context, const ShaderModule& module,
+                 const SpecializationValue& value) {
+    return {specializedWords(context, module, value)};
+}
+
+OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& key, const PipelineParts& parts,
+                           const StageCode& code) {
+    std::vector<OwnedShaderModule> modules;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    for (const std::vector<std::uint32_t>& words : code) {
+        modules.push_back(makeModule(context, words));
+        stages.push_back(stageOf(stages.empty() ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT,
+                                 modules.back()));
+    }
+    const std::vector<VkVertexInputAttributeDescription> attributes =
+        fetchedBy(code.front(), parts.attributes);
     const VkPipelineVertexInputStateCreateInfo input{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
         .pNext = nullptr,
@@ -264,13 +278,12 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
     return {context.device, pipeline};
 }
 
-OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& module,
-                           const SpecializationValue& value) {
-    const OwnedShaderModule code = makeModule(context, specializedWords(context, module, value));
+OwnedPipeline makePipeline(const CreationContext& context, const StageCode& code) {
+    const OwnedShaderModule module = makeModule(context, code.front());
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = context.flags | VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
-    info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, code);
+    info.stage = stageOf(VK_SHADER_STAGE_COMPUTE_BIT, module);
     info.layout = context.layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
     checkResult(vkCreateComputePipelines(context.device, context.cache, 1, &info, nullptr, &pipeline),
@@ -278,50 +291,126 @@ OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& m
     return {context.device, pipeline};
 }
 
-std::vector<VkPipeline> Pipelines::get(std::span<const PipelineKey> keys) {
-    struct Missing {
-        const PipelineKey* key;
-        PipelineParts parts;
-        OwnedPipeline* pipeline;
-    };
-    std::vector<Missing> missing;
+}  // namespace
+
+OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& key,
+                           const PipelineParts& parts) {
+    return makePipeline(context, key, parts, codeOf(context, key, parts));
+}
+
+OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& module,
+                           const SpecializationValue& value) {
+    return makePipeline(context, codeOf(context, module, value));
+}
+
+struct Pipeline::State {
+    std::function<StageCode()> code;  // throws what the device does not support
+    std::function<OwnedPipeline(const StageCode&)> make;
+    OwnedPipeline made{};
+    std::uint64_t code_bytes = 0;
+    std::uint64_t asked = 0;  // order of the latest request
+
+    VkPipeline handle() {
+        if (made == VK_NULL_HANDLE) {
+            const StageCode words = code();
+            for (const auto& stage : words) code_bytes += stage.size() * sizeof(std::uint32_t);
+            made = make(words);
+        }
+        return made;
+    }
+};
+
+Pipeline::operator VkPipeline() const& {
+    return state_->handle();
+}
+
+std::vector<Pipeline> Pipelines::get(std::span<const PipelineKey> keys) {
     const CreationContext context = contextOf(device_, layout_);
     if (PipelineCompiler* const compiler = device_.compiler())
         for (const PipelineKey& key : keys) compiler->ask(layout_, key, choose_);
-    try {
-        for (const PipelineKey& key : keys) {
-            const auto [entry, isNew] = pipelines_.try_emplace(key);
-            if (!isNew) continue;
-            missing.push_back({&entry->first, {}, &entry->second});
-            missing.back().parts = choose_(key);
-        }
-        tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-            *missing[i].pipeline = makePipeline(context, *missing[i].key, missing[i].parts);
-        });
-    } catch (...) {
-        // Pipelines that were not created must not be found later.
-        std::erase_if(pipelines_, [](const auto& entry) { return entry.second.get() == VK_NULL_HANDLE; });
-        throw;
+    std::vector<Pipeline> pipelines, added;
+    for (const PipelineKey& key : keys) {
+        const auto [pipeline, isNew] = find(key);
+        pipelines.push_back(pipeline);
+        if (!isNew) continue;
+        added.push_back(pipeline);
+        pipeline.state_->code = [=, choose = choose_] { return codeOf(context, key, choose(key)); };
+        pipeline.state_->make = [=, choose = choose_](const StageCode& code) {
+            return makePipeline(context, key, choose(key), code);
+        };
     }
-    std::vector<VkPipeline> pipelines;
-    for (const PipelineKey& key : keys) pipelines.push_back(pipelines_.at(key));
+    create(added);
     return pipelines;
 }
 
-VkPipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
+Pipeline Pipelines::compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout) {
     if (PipelineCompiler* const compiler = device_.compiler()) compiler->ask(layout, module, variant);
-    const auto [entry, isNew] = compute_.try_emplace({&module, variant});
-    if (isNew) entry->second = makePipeline(contextOf(device_, layout), module, valueOf(variant));
-    return entry->second;
+    const auto [pipeline, isNew] = find(std::pair(&module, variant));
+    if (!isNew) return pipeline;
+    const CreationContext context = contextOf(device_, layout);
+    pipeline.state_->code = [context, &module, variant] { return codeOf(context, module, valueOf(variant)); };
+    pipeline.state_->make = [context](const StageCode& code) { return makePipeline(context, code); };
+    create(std::span(&pipeline, 1));
+    return pipeline;
+}
+
+std::pair<Pipeline, bool> Pipelines::find(const Key& key) {
+    const auto [entry, isNew] = pipelines_.try_emplace(key);
+    if (isNew) entry->second.state_ = std::make_shared<Pipeline::State>();
+    entry->second.state_->asked = ++asked_;
+    return {entry->second, isNew};
+}
+
+void Pipelines::create(std::span<const Pipeline> added) {
+    if (added.empty()) return;
+    made_ += added.size();
+    try {
+        tbb::parallel_for(std::size_t{0}, added.size(), [&](std::size_t i) {
+            if (creation_ == Creation::planned)
+                added[i].state_->code();
+            else
+                added[i].state_->handle();
+        });
+    } catch (...) {
+        // Pipelines that were not created must not be found later.
+        std::erase_if(pipelines_,
+                      [&](const auto& entry) { return std::ranges::count(added, entry.second) > 0; });
+        throw;
+    }
+    releaseUnused();
+}
+
+// lavapipe keeps several translations of a shader: measured for specialised modules of 1 to 80 KB.
+std::uint64_t Pipelines::bytesOf(const Pipeline& pipeline) const {
+    const std::uint64_t code = pipeline.state_->code_bytes;
+    return device_.profile().software ? (std::uint64_t{1} << 20) + 70 * code : code;
+}
+
+std::uint64_t Pipelines::bytes(bool inUse) const {
+    std::uint64_t sum = 0;
+    for (const auto& [key, pipeline] : pipelines_)
+        if (isUsed(pipeline) == inUse) sum += bytesOf(pipeline);
+    return sum;
+}
+
+void Pipelines::releaseUnused() {
+    std::uint64_t unused = bytes(false);
+    while (unused > mostUnused) {
+        auto oldest = pipelines_.end();
+        for (auto entry = pipelines_.begin(); entry != pipelines_.end(); ++entry)
+            if (!isUsed(entry->second) &&
+                (oldest == pipelines_.end() || entry->second.state_->asked < oldest->second.state_->asked))
+                oldest = entry;
+        unused -= bytesOf(oldest->second);
+        pipelines_.erase(oldest);
+    }
 }
 
 void Pipelines::erase(const std::function<bool(const PipelineKey&)>& which) {
-    std::erase_if(pipelines_, [&](const auto& pipeline) { return which(pipeline.first); });
-}
-
-void Pipelines::clear() {
-    pipelines_.clear();
-    compute_.clear();
+    std::erase_if(pipelines_, [&](const auto& entry) {
+        const auto* const key = std::get_if<PipelineKey>(&entry.first);
+        return key != nullptr && which(*key);
+    });
 }
 
 }  // namespace diptych

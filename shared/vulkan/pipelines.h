@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Graphics pipelines by key; each is compiled once.
+// Pipelines by key; each is compiled once.
 #pragma once
 
 #include "shared/vulkan/device.h"
@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace diptych {
@@ -84,33 +86,63 @@ OwnedPipeline makePipeline(const CreationContext& context, const PipelineKey& ke
 OwnedPipeline makePipeline(const CreationContext& context, const ShaderModule& module,
                            const SpecializationValue& value);
 
+// A pipeline of Pipelines, shared by its copies. It is created at its first use at the latest.
+class Pipeline {
+public:
+    operator VkPipeline() const&;
+    operator VkPipeline() const&& = delete;  // nothing would keep it
+    bool operator==(const Pipeline&) const = default;
+
+private:
+    friend class Pipelines;
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+// planned: pipelines are checked and counted, and created only if they are used.
+enum class Creation : std::uint8_t { at_once, planned };
+
+// Keeps pipelines that nothing uses any more, the latest up to `mostUnused` bytes of host memory.
 class Pipelines {
 public:
-    // `layout` must outlive the pipelines. Without `choose` there is no vertex input.
-    Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts)
-        : device_(device), layout_(layout), choose_(std::move(choose)) {}
+    static constexpr std::uint64_t mostUnused = std::uint64_t{128} << 20;
 
-    VkPipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
-    std::vector<VkPipeline> get(std::span<const PipelineKey> keys);  // compiles new ones on all cores
+    // `layout` must outlive the pipelines. Without `choose` there is no vertex input.
+    Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts,
+              Creation creation = Creation::at_once)
+        : device_(device), layout_(layout), choose_(std::move(choose)), creation_(creation) {}
+
+    Pipeline get(const PipelineKey& key) { return get(std::span(&key, 1)).front(); }
+    std::vector<Pipeline> get(std::span<const PipelineKey> keys);  // compiles new ones on all cores
     // A compute shader with its own layout, whose dispatches may begin at any workgroup.
-    VkPipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout) {
+    Pipeline compute(Shader shader, const Variant& variant, VkPipelineLayout layout) {
         return compute(shaderModule(shader), variant, layout);
     }
     // `module` must outlive the pipelines.
-    VkPipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);
+    Pipeline compute(const ShaderModule& module, const Variant& variant, VkPipelineLayout layout);
     VkPipelineLayout layout() const { return layout_; }
-    // Destroys graphics pipelines with such keys, none of which may be in use: drivers may need megabytes
-    // for each.
+    // Forgets graphics pipelines with such keys, or all: drivers may need megabytes for each.
     void erase(const std::function<bool(const PipelineKey&)>& which);
-    void clear();  // destroys all; none may be in use
-    std::size_t count() const { return pipelines_.size() + compute_.size(); }
+    void clear() { pipelines_.clear(); }
+    std::size_t made() const { return made_; }  // so far, released ones included
+    // Host memory, about: of pipelines that are in use, or of the others.
+    std::uint64_t bytes(bool inUse) const;
 
 private:
+    using Key = std::variant<PipelineKey, std::pair<const ShaderModule*, Variant>>;
+    std::pair<Pipeline, bool> find(const Key& key);  // and whether it is new
+    void create(std::span<const Pipeline> added);
+    static bool isUsed(const Pipeline& pipeline) { return pipeline.state_.use_count() > 1; }
+    std::uint64_t bytesOf(const Pipeline& pipeline) const;
+    void releaseUnused();
+
     Device& device_;
     VkPipelineLayout layout_;
     ChooseParts choose_;
-    std::map<PipelineKey, OwnedPipeline> pipelines_;
-    std::map<std::pair<const ShaderModule*, Variant>, OwnedPipeline> compute_;
+    Creation creation_;
+    std::map<Key, Pipeline> pipelines_;
+    std::uint64_t asked_ = 0;
+    std::size_t made_ = 0;
 };
 
 }  // namespace diptych

@@ -21,11 +21,11 @@ std::vector<std::uint32_t> drawProbe(Device& device, Shader fragment, VkFormat f
     Pipelines pipelines(device, layout);
     PassList passes(device, width, 1);
     const ImageRef target = passes.image("probe", format);
-    const VkPipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
-                                               .fragment = fragment,
-                                               .variant = {},
-                                               .input = 0,
-                                               .colors = {format}});
+    const Pipeline pipeline = pipelines.get({.vertex = Shader::full_screen_vert,
+                                             .fragment = fragment,
+                                             .variant = {},
+                                             .input = 0,
+                                             .colors = {format}});
     passes.draw("probe").color(target, Load::clear).record([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);

@@ -66,7 +66,7 @@ public:
             .set(gpu::FEATURE_light_lists, gpu::LISTS_CLUSTERED)
             .set(gpu::FEATURE_list_width, 4);
         target_ = passes_.image("lit", litFormat);
-        const VkPipeline pipeline =
+        const Pipeline pipeline =
             pipelines_.get({.vertex = Shader::full_screen_vert, .variant = variant, .colors = {litFormat}});
         passes_.draw(kernel.name)
             .color(target_, Load::clear)
@@ -105,7 +105,7 @@ private:
         for (std::uint32_t i = 0; i < lightTypes.size(); ++i) lightSets_.buffer(0, i, lights_.handle());
     }
 
-    void record(VkCommandBuffer commands, VkPipeline pipeline) const {
+    void record(VkCommandBuffer commands, const Pipeline& pipeline) const {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         const std::array<VkDescriptorSet, 2> sets{frameSets_[0], lightSets_[0]};
         static_assert(gpu::SET_FRAME == 0 && gpu::SET_MATERIAL == 1);

@@ -38,7 +38,7 @@ public:
         Pipelines reading(device_, layout, [&](const PipelineKey&) {
             return PipelineParts{&shaderModule(Shader::full_screen_vert), &read, {}, {}};
         });
-        const VkPipeline pipeline = reading.get(PipelineKey{.colors = {litFormat}});
+        const Pipeline pipeline = reading.get(PipelineKey{.colors = {litFormat}});
         DescriptorSets sets(device_, set_layout, types, 1);
         const OwnedSampler sampler = makeNearestSampler(device_);
         const ImageRef drawn = frame.images.lit_samples;

@@ -91,7 +91,7 @@ public:
         }
         DescriptorSets sets(device(), setLayout, types, 1);
         std::array<ImageRef, 4> one, oneDepth;
-        const VkPipeline reading = pipelines.get(PipelineKey{.colors = {uintFormat, oneFormat}});
+        const Pipeline reading = pipelines.get(PipelineKey{.colors = {uintFormat, oneFormat}});
         const OwnedSampler sampler = makeNearestSampler(device());
         for (std::uint32_t s = 0; s < 4; ++s) {
             one[s] = passes.image("one", uintFormat);

@@ -58,7 +58,7 @@ public:
             vkCmdDraw(commands, 3, 1, 0, 0);
         };
     }
-    void bind(VkCommandBuffer commands, VkPipeline pipeline, const DrawnTriangle& triangle) const {
+    void bind(VkCommandBuffer commands, const Pipeline& pipeline, const DrawnTriangle& triangle) const {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
@@ -217,7 +217,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     DescriptorSets sets(device(), setLayout, storage, 1);
     const std::vector<std::uint32_t> words = compiledTestShader("pass_kinds.comp");
     const ShaderModule module{"pass_kinds.comp", words};
-    const VkPipeline kernel = triangles.pipelines().compute(module, {}, layout);
+    const Pipeline kernel = triangles.pipelines().compute(module, {}, layout);
 
     constexpr std::uint32_t groups = 5;
     const std::array<std::uint32_t, 8> sizes{groups, height, 1, 0,
@@ -235,7 +235,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
             vkCmdDispatchIndirect(commands, arguments.handle(), 0);
         });
-    const VkPipeline add =
+    const Pipeline add =
         triangles.pipelines().get({.colors = {VK_FORMAT_R32_SFLOAT}, .blends = {Blend::add}});
     passes.draw("draw")
         .color(picture, Load::keep)

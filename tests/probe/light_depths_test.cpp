@@ -244,7 +244,7 @@ TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint t
     set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     Pipelines kernels(probeDevice(), VK_NULL_HANDLE);
     const auto samples_of = static_cast<gpu::uint>(picture.samples);
-    const VkPipeline kernel = kernels.compute(
+    const Pipeline kernel = kernels.compute(
         Shader::light_depths_comp, Variant().set(gpu::FEATURE_samples, samples_of), frame.lists().pipeline());
     probeDevice().submit([&](VkCommandBuffer commands) {
         samples.record(commands, image);

@@ -44,10 +44,10 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
         EXPECT_EQ(shared.posings.made(), posed + 1) << "both paths draw one pose";
         // The target weight is 0 at time 0.25 and nonzero from 0.5 on: its shader is compiled on demand.
         drawAt(0.6);
-        const std::size_t compiled = shared.pipelines.count();
+        const std::size_t compiled = shared.pipelines.made();
         const std::uint64_t uploaded = shared.uploader.bytes();
         drawAt(0.5);
-        EXPECT_EQ(shared.pipelines.count(), compiled);
+        EXPECT_EQ(shared.pipelines.made(), compiled);
         EXPECT_EQ(shared.posings.made(), posed + 3);
         EXPECT_GT(shared.uploader.bytes(), uploaded) << "the third pose";
         EXPECT_LT(shared.uploader.bytes() - uploaded, shared.geometry.bytes() / 4)
