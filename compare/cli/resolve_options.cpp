@@ -118,10 +118,9 @@ void resolveTimes(Options& options, const ParsedOptions& parsed) {
 }
 
 void resolveBaseline(Options& options, const ParsedOptions& parsed) {
-    const auto path =
-        std::ranges::find(enumNames<Path>(), parsed.baseline, &std::pair<Path, std::string_view>::second);
+    const auto path = std::ranges::find(enumNames<Path>(), parsed.baseline, &EnumName<Path>::name);
     const bool isPath = path != enumNames<Path>().end();
-    if (isPath) options.baseline = path->first;
+    if (isPath) options.baseline = path->value;
     const PictureName name = pictureName(parsed.baseline);
     if (!isPath && name.file.extension() != ".exr")
         throw std::runtime_error(
