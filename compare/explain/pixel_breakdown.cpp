@@ -3,6 +3,7 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
+#include "compare/reference/pixel.h"
 #include "compare/render/frame_facts.h"
 #include "compare/verdict/channel_diff.h"
 #include "compare/verdict/encoding_use.h"

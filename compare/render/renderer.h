@@ -2,7 +2,6 @@
 // Renders Frames of a scene with Settings, on one device.
 #pragma once
 
-#include "compare/reference/reference.h"
 #include "compare/render/channel_shading.h"
 #include "compare/render/light_terms.h"
 #include "compare/render/prepared_frames.h"
@@ -14,6 +13,10 @@
 #include <memory>
 #include <span>
 #include <vector>
+
+namespace diptych::reference {
+struct PixelLight;
+}
 
 namespace diptych {
 

@@ -2,6 +2,7 @@
 #include "compare/viewer/left_panel.h"
 
 #include "compare/files/frame_exr.h"
+#include "compare/reference/reference.h"
 #include "compare/render/frame_facts.h"
 
 #include <stdexcept>
