@@ -74,7 +74,8 @@ std::vector<std::string> heldOutCameras(const Scene& scene, const std::vector<st
     std::vector<std::string> held_out;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         if (std::ranges::count(cameras, std::to_string(i)) == 0 &&
-            std::ranges::count(cameras, scene.cameras[i].name) == 0)
+            std::ranges::count(cameras, scene.cameras[i].name) == 0 &&
+            std::ranges::count(cameras, scene.cameras[i].node_name) == 0)
             held_out.push_back(std::to_string(i));
     return held_out;
 }

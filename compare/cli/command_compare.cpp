@@ -73,6 +73,7 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     const Stage drawn_stage = Stage(progress, name).part(0, experiment::sharesOf(render).drawn);
     const double loading = loadingShare(name, render, settings.size());
     const Scene scene = loadShown(name, options.settings, drawn_stage.part(0, loading));
+    if (!options.allow_empty) requireTriangles(scene, name);
     const double ours = loading + compared.ourShare() * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);
     experiment::Devices devices(device, other.get(), false);

@@ -129,9 +129,10 @@ void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& par
 
 void addTolerances(CLI::App& app, Options& options) {
     app.option_defaults()->group(selection_group);
-    app.add_flag("--strict", options.strict,
-                 "make failures of these notes: a channel on only one side, a colour profile or pixel aspect "
-                 "that is not applied, an empty picture");
+    app.add_flag(
+        "--strict", options.strict,
+        "make failures of these notes: a channel on only one side, a file that is read in part, a colour "
+        "profile or pixel aspect that is not applied, an empty picture, a large error that is granted");
     app.add_flag(
         "--allow-empty", options.allow_empty,
         "no warning about pictures that are black, empty, or show the scene on less than 1 % of the pixels");
@@ -147,7 +148,7 @@ void addDiff(CLI::App& app, PictureDiffOptions& diff, ParsedOptions& parsed) {
         ->type_name("NAME");
     app.add_option(
            "--tolerance", parsed.tolerance,
-           "largest metric value that passes; for psnr and ssim the smallest (only equal images pass)")
+           "largest metric value that passes; for psnr and ssim the smallest (none: only equal values pass)")
         ->type_name("T");
     app.add_option("--warn", diff.warn, "warn beyond this value")->type_name("T");
     app.add_option("--failing", diff.failing,

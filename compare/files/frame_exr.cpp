@@ -96,6 +96,8 @@ Frame frameFromExr(const std::filesystem::path& path) {
         frame.settings.size = {file.width, file.height};
         frame.notes.insert(frame.notes.end(), file.notes.lines.begin(), file.notes.lines.end());
         frame.origin.not_applied = file.notes.not_applied;
+        frame.origin.not_applied.insert(frame.origin.not_applied.end(), file.notes.in_part.begin(),
+                                        file.notes.in_part.end());
         for (PictureChannel& channel : channelsOf(std::move(file), {})) {
             const DebugMode* mode = findDebugMode(channel.name);
             if (mode && mode->name == channel.name && mode->width == channel.image.components)

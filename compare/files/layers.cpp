@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/layers.h"
 
+#include "compare/files/layer_kinds.h"
 #include "compare/files/our_files.h"
 #include "shared/text/did_you_mean.h"
 #include "shared/text/fail.h"
@@ -12,9 +13,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -22,19 +21,6 @@ namespace diptych {
 namespace {
 
 using Names = std::vector<std::string>;
-
-// Component name after the last dot. Colour letters and words in any case become R, G, B or A.
-std::string suffix(const std::string& channel) {
-    const std::size_t dot = channel.rfind('.');
-    const std::string component = dot == channel.npos ? channel : channel.substr(dot + 1);
-    std::string lower = component;
-    std::ranges::transform(lower, lower.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    for (const auto& [letter, word] : {std::pair{"r", "red"}, {"g", "green"}, {"b", "blue"}, {"a", "alpha"}})
-        if (lower == letter || lower == word) return {static_cast<char>(*letter - 'a' + 'A')};
-    return component;
-}
 
 // Selected components of an image.
 Image picked(const Image& image, const std::vector<std::size_t>& components) {
@@ -54,17 +40,6 @@ Image8 picked(const Image8& coded, const std::vector<std::size_t>& components) {
         for (std::size_t c = 0; c < components.size(); ++c)
             result.data[i * components.size() + c] = coded.data[i * stored + components[c]];
     return result;
-}
-
-const DebugMode* modeOf(const std::string& name, std::size_t width) {
-    const DebugMode* mode = findDebugMode(name);
-    return mode && mode->name == name && static_cast<std::size_t>(mode->width) == width ? mode : nullptr;
-}
-
-ChannelKind kindOf(const std::string& name, const Names& channels, const std::string& type) {
-    if (const DebugMode* mode = modeOf(name, channels.size())) return mode->kind;
-    if (channels.size() == 3) return suffix(channels[0]) == "X" ? ChannelKind::vector : ChannelKind::color;
-    return type == "uint" ? ChannelKind::id : ChannelKind::scalar;
 }
 
 // Converts colours from the layer's primaries. Other channels, such as normals written as R, G, B, do not
@@ -122,7 +97,7 @@ private:
         if (channel == "Z") return "depth";
         // "roughness.Y" is all of roughness.
         if (alone && !layer_.name.empty()) return layer_.name;
-        if (suffix(channel) != "A") return channel;
+        if (componentOf(channel) != "A") return channel;
         return layer_.name.empty() ? "A" : layer_.name + ".A";
     }
 
@@ -130,7 +105,7 @@ private:
         std::vector<std::size_t> components;
         for (const std::string& wanted : suffixes)
             for (std::size_t i = 0; i < layer_.channels.size(); ++i)
-                if (left_[i] && suffix(layer_.channels[i]) == wanted) {
+                if (left_[i] && componentOf(layer_.channels[i]) == wanted) {
                     components.push_back(i);
                     break;
                 }
@@ -184,7 +159,7 @@ std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renami
         if (renaming.channels != Names{layer.name}) continue;
         std::vector<Renaming> all{{renaming.name, {}}};
         for (const char* wanted : {"R", "G", "B", "A"}) {
-            const auto found = std::ranges::find(layer.channels, wanted, suffix);
+            const auto found = std::ranges::find(layer.channels, wanted, componentOf);
             if (found == layer.channels.end()) continue;
             if (*wanted == 'A')
                 all.push_back({alphaOf(renaming.name), {*found}});
@@ -262,7 +237,7 @@ Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChann
     };
     Names added;
     for (const PictureChannel& alpha : has) {
-        if (suffix(alpha.name) != "A" || find(lacks, alpha.name) != lacks.end()) continue;
+        if (componentOf(alpha.name) != "A" || find(lacks, alpha.name) != lacks.end()) continue;
         const std::string color = alpha.name == "A" ? "lit" : alpha.name.substr(0, alpha.name.size() - 2);
         if (find(has, color) == has.end() || find(lacks, color) == lacks.end()) continue;
         PictureChannel opaque{alpha.name, alpha.channels, alpha.type, alpha.kind, {}};
@@ -319,10 +294,21 @@ std::string mapText(const std::vector<PictureChannel>& reference, const std::vec
     return "--map can match them";
 }
 
-Metric metricOf(const std::string& name, const PictureChannel& channel) {
-    const DebugMode* mode = modeOf(name, channel.channels.size());
-    if (mode && (isAngle(mode->metric) || mode->metric == Metric::exact)) return mode->metric;
-    return channel.kind == ChannelKind::id ? Metric::exact : Metric::absolute;
+// Sets the kind of a's three components if either image shows that they are no light. Returns a note on R, G,
+// B that are taken as something else, or an empty string.
+std::string setKind(PictureChannel& a, const PictureChannel& b) {
+    if (a.components() != 3) return {};
+    a.kind = std::max(a.kind, b.kind);
+    const bool negative = a.kind == ChannelKind::color && (isNegative(a.image) || isNegative(b.image));
+    if (negative) a.kind = ChannelKind::vector;
+    if (a.kind == ChannelKind::color || componentOf(a.channels[0]) != "R" ||
+        (isDebugMode(a.name, 3) && !negative))
+        return {};
+    return fmt::format("{}: not light, by its {}; {} are compared", a.name,
+                       negative           ? "negative values"
+                       : a.type == "uint" ? "integers"
+                                          : "name",
+                       a.kind == ChannelKind::id ? "exact values" : "vectors");
 }
 
 }  // namespace
@@ -407,7 +393,8 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             matched.notes.push_back(
                 fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));
         keepDistinct(a, *b);
-        const Metric metric = metricOf(a.name, a);
+        if (std::string note = setKind(a, *b); !note.empty()) matched.notes.push_back(std::move(note));
+        const Metric metric = metricOf(a.name, a.channels.size(), a.kind);
         const auto stored = [](PictureChannel& c) {
             return StoredPicture{std::move(c.image), std::move(c.coded), c.components()};
         };

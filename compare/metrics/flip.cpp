@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -52,27 +53,21 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Flip
             fmt::format("FLIP with {} pixels per degree: give 1 to 1000", options.pixels_per_degree));
 }
 
-// Finds holes and counts; finite values outside [least, most] count as limited.
-FlipPair inspect(const PictureRows& reference, const PictureRows& test, float least, float most,
-                 FlipResult& result) {
+// Finds and counts holes.
+FlipPair inspect(const PictureRows& reference, const PictureRows& test, FlipResult& result) {
     FlipPair pair{reference, test, {}};
     std::mutex lock;
     tbb::parallel_for(tbb::blocked_range<int>(0, reference.height, 32), [&](const auto& rows) {
         FlipResult found;
         eachPair(reference, test, rows.begin(), rows.end(), [&](std::size_t, const float* r, const float* t) {
-            const bool showsR = within(r, least, most), showsT = within(t, least, most);
-            if (showsR && showsT && finite(r, 3) && finite(t, 3)) return;
+            if (finite(r, 3) && finite(t, 3)) return;
             found.nonfinite_reference += !finite(r, 3);
             found.nonfinite_test += !finite(t, 3);
-            found.limited_reference += finite(r, 3) && !showsR;
-            found.limited_test += finite(t, 3) && !showsT;
-            found.nonfinite_different += !(finite(r, 3) && finite(t, 3)) && !same(r, t);
+            found.nonfinite_different += !same(r, t);
         });
         const std::lock_guard hold(lock);
         result.nonfinite_reference += found.nonfinite_reference;
         result.nonfinite_test += found.nonfinite_test;
-        result.limited_reference += found.limited_reference;
-        result.limited_test += found.limited_test;
         result.nonfinite_different += found.nonfinite_different;
     });
     if (result.nonfinite_reference + result.nonfinite_test == 0) return pair;
@@ -159,6 +154,47 @@ metrics::Order luminances(const PictureRows& picture, bool lit) {
             }};
 }
 
+// Linear values that no exposure shows: within half an 8-bit step of black at the highest, or of white at the
+// lowest.
+struct Beyond {
+    double black = 0, white = std::numeric_limits<double>::infinity();
+    explicit Beyond(const std::vector<FlipLook>& looks) {
+        if (looks.empty()) return;
+        constexpr double half = 0.5 / 255;
+        black = whereCurveReaches(looks.back().mapper, half / 12.92) / double{looks.back().scale};
+        white = whereCurveReaches(looks.front().mapper, 1 - half) / double{looks.front().scale};
+    }
+    bool operator()(float r, float t) const { return std::max(r, t) <= black || std::min(r, t) >= white; }
+};
+
+// Sets the errors of different pixels that FLIP cannot see. `looks`: as for flipErrorMap().
+void judgeUnseen(const FlipPair& pair, const std::vector<FlipLook>& looks, FlipResult& result) {
+    const Beyond beyond(looks);
+    const float most = looks.empty() ? 1 : std::numeric_limits<float>::max();
+    const auto isUnseen = [&](const float* r, const float* t) {
+        if (!finite(r, 3) || !finite(t, 3) || same(r, t)) return false;
+        if (!within(r, 0, most) || !within(t, 0, most)) return true;
+        for (int c = 0; c < 3; ++c)
+            if (r[c] != t[c] && !beyond(r[c], t[c])) return false;
+        return true;
+    };
+    std::once_flag measured;
+    double least = 0;
+    std::atomic<std::uint64_t> different = 0;
+    tbb::parallel_for(tbb::blocked_range<int>(0, pair.reference.height, 32), [&](const auto& rows) {
+        eachPair(pair.reference, pair.test, rows.begin(), rows.end(),
+                 [&](std::size_t i, const float* r, const float* t) {
+                     if (!isUnseen(r, t)) return;
+                     std::call_once(measured,
+                                    [&] { least = 1e-3 * luminances(pair.reference, false).mean(); });
+                     const bool differs = metrics::distance(r, t, 3) > least;
+                     result.error.data[i] = differs ? 1.0f : 0.0f;
+                     different += differs;
+                 });
+    });
+    result.unseen_different = different;
+}
+
 }  // namespace
 
 double pixelsPerDegree(double distance, double width, int pixels) {
@@ -179,8 +215,9 @@ ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper) {
 FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
     checkPair(reference, test, options);
     FlipResult result;
-    const FlipPair pair = inspect(reference, test, 0, 1, result);
+    const FlipPair pair = inspect(reference, test, result);
     flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error);
+    judgeUnseen(pair, {}, result);
     pool(pair, options.covered, result);
     return result;
 }
@@ -200,23 +237,21 @@ struct HdrFlipAgainst::State {
             looks.push_back({static_cast<float>(std::exp2(begun.start_exposure + i * step)), o.tone_mapper});
         if (most_bytes == 0) return;
         FlipResult found;
-        const FlipPair itself = inspectLinear(r, found);
+        const FlipPair itself = inspect(r, r, found);
         kept.emplace(r, itself.holes, filters, looks, most_bytes);
     }
 
-    FlipPair inspectLinear(const PictureRows& test, FlipResult& result) const {
-        return inspect(reference, test, 0, std::numeric_limits<float>::max(), result);
-    }
     // Computes only the error map; returns the pair.
     FlipPair compare(const PictureRows& test, HdrFlipResult& result) const {
         checkPair(reference, test, options);
         result = begun;
-        FlipPair pair = inspectLinear(test, result);
+        FlipPair pair = inspect(reference, test, result);
         // The cached reference excludes only its own holes; a test may have more.
         const auto holes =
             pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
         flipErrorMap(pair, filters, looks, result.error,
                      kept && holes == result.nonfinite_reference ? &*kept : nullptr);
+        judgeUnseen(pair, looks, result);
         return pair;
     }
 

@@ -34,7 +34,8 @@ struct HdrFlipOptions : FlipOptions {
 };
 
 // Statistics are over the covered pixels, except those with the same non-finite value in both images.
-// Other non-finite pixels have error 1 and count.
+// Other non-finite pixels have error 1 and count. FLIP cannot see differences at pixels with a component
+// outside the range (LDR [0, 1], HDR below 0), or black or white at every exposure.
 struct FlipResult {
     Image error;  // W x H x 1, in [0, 1]; all pixels, covered or not
     double mean = 0, min = 0, max = 0;
@@ -45,8 +46,9 @@ struct FlipResult {
     // Counts over all pixels, covered or not:
     std::uint64_t nonfinite_reference = 0, nonfinite_test = 0;
     std::uint64_t nonfinite_different = 0;  // non-finite in one, or in both and different
-    // Finite, with a component outside the range: LDR [0, 1], HDR below 0. These are clamped.
-    std::uint64_t limited_reference = 0, limited_test = 0;
+    // Finite pixels that FLIP cannot see and that differ by more than 1e-3 of the reference's mean
+    // luminance: error 1. Those that differ by less have error 0.
+    std::uint64_t unseen_different = 0;
 };
 
 struct HdrFlipResult : FlipResult {

@@ -3,6 +3,7 @@
 
 #include "shared/scene/image/environment.h"
 #include "shared/scene/load.h"
+#include "shared/scene/motion/pose.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,14 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
     }
     std::ranges::move(notes, std::back_inserter(scene.notes));
     return scene;
+}
+
+void requireTriangles(const Scene& scene, const std::string& where) {
+    if (hasTriangles(scene)) return;
+    const auto why = std::ranges::find_if(
+        scene.notes, [](const std::string& note) { return note.find("left out") != note.npos; });
+    throw std::runtime_error(fmt::format("{}: has nothing to draw{}; --allow-empty compares it all the same",
+                                         oneLine(where), why == scene.notes.end() ? "" : ": " + *why));
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {

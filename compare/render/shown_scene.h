@@ -16,6 +16,9 @@ namespace diptych {
 // `progress`. Throws std::runtime_error, one line, naming the file.
 Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
 
+// Throws std::runtime_error, one line, if nothing in the scene has triangles: two such images always agree.
+void requireTriangles(const Scene& scene, const std::string& where);
+
 // Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
 

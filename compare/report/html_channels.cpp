@@ -283,6 +283,11 @@ private:
              {std::pair{"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p99.9", s.p999}})
             row(name, number(value) + unit);
         if (channel_.certain_p999) row("p99.9 of the excess", number(*channel_.certain_p999));
+        for (const Granted& each : channel_.granted)
+            row(fmt::format("granted to {}, mean and p99.9{}", each.name,
+                            each.setting.empty() ? "" : "; removed by " + each.setting)
+                    .c_str(),
+                fmt::format("{} and {}", percentText(each.mean), percentText(each.p999)));
         if (channel_.flip) row("FLIP, mean", number(*channel_.flip));
         if (hasTolerance())
             row(channel_.encoding_use || channel_.device_use ? "tolerance, at most" : "tolerance",

@@ -28,6 +28,16 @@ Json jsonOf(const Criterion& criterion) {
             {criterion.differing ? "differing_share" : "share_beyond", criterion.share}};
 }
 
+Json jsonOf(const std::vector<Granted>& granted) {
+    Json all = Json::array();
+    for (const Granted& each : granted)
+        all.push_back({{"approximation", each.name},
+                       {"mean", each.mean},
+                       {"p999", each.p999},
+                       {"setting", each.setting.empty() ? Json(nullptr) : Json(each.setting)}});
+    return all;
+}
+
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
     Json json{{"number", channel.mode->number},
               {"name", channel.mode->name},
@@ -53,6 +63,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["different_pixels"] = s.different;
     json["infinite_pixels"] = s.infinite;
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
+    if (!channel.granted.empty()) json["granted"] = jsonOf(channel.granted);
     json["unexplained_pixels"] =
         channel.unexplained_pixels ? Json(*channel.unexplained_pixels) : Json(nullptr);
     if (const auto& f = channel.footprints)

@@ -108,6 +108,7 @@ void Collection::compareAll() {
             loading.wait();
             if (i + 1 < left.size()) next = load(i + 1);
             const Scene scene = loading.get();
+            if (!question_.compare.allow_empty) requireTriangles(scene, item->scene);
             parts_.emplace(item, compareOne(*item, scene, stage));
         });
     }

@@ -249,18 +249,27 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     channel.mode = &mode;
     channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.number),
                                  pair.test.channels.at(mode.number), pair.coverage);
-    const Measurement measurement({mode.metric, mode.kind, false, pair.baseline.channels.at(mode.number),
-                                   pair.test.channels.at(mode.number), &pair.coverage, &channel.stats});
+    if (mode.number == static_cast<int>(gpu::DEBUG_lit)) channel.granted = grantedIn(mode, pair);
+    ChannelPair images{mode.metric,
+                       mode.kind,
+                       false,
+                       pair.baseline.channels.at(mode.number),
+                       pair.test.channels.at(mode.number),
+                       &pair.coverage,
+                       &channel.stats};
+    if (isPathAgainstReference(pair) && mode.number == static_cast<int>(gpu::DEBUG_lit))
+        images.granted = grantedMean(channel.granted);
+    const Measurement measurement(images);
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
     channel.figures = measurement.all();
     const Rule* const rule = ruleFor(rules, mode.name);
-    if (rule)
-        judge(channel, *rule, measurement);
-    else
-        judge(channel, pair, measurement, allowNoise);
-    channel.verdict = !channel.reason.empty()              ? Verdict::fail
-                      : !rule && isInformative(mode, pair) ? Verdict::informative
-                                                           : Verdict::pass;
+    // A rule on what is granted limits the derived tolerance instead of replacing it.
+    const bool derived = !rule || boundsOnly(rule->fail, "granted");
+    if (derived) judge(channel, pair, measurement, allowNoise);
+    if (rule && channel.reason.empty()) judge(channel, *rule, measurement);
+    channel.verdict = !channel.reason.empty()                ? Verdict::fail
+                      : derived && isInformative(mode, pair) ? Verdict::informative
+                                                             : Verdict::pass;
     return channel;
 }
 

@@ -7,6 +7,7 @@
 #include "compare/verdict/criterion.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
+#include "compare/verdict/granted.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/frame/debug_modes.h"
@@ -41,7 +42,8 @@ struct ChannelDiff {
     std::optional<BoundUse> encoding_use;  // surface channel: use of the quantization error bound
     std::optional<BoundUse> device_use;    // one path on two devices: use of their precision bound
     std::optional<double>
-        certain_p999;  // against a sampled reference: the part of p999 beyond its uncertainty
+        certain_p999;              // against a sampled reference: the part of p999 beyond its uncertainty
+    std::vector<Granted> granted;  // lit, against the reference: what approximations are granted
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; else empty
     std::string warning;  // warning of a rule; else empty

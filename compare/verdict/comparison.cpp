@@ -342,11 +342,21 @@ void readEmptiness(const FramePair& pair, double shown, const CompareOptions& op
         else
             comparison.emptiness = emptiness;
     }
-    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) {
+    const auto weaken = [&](const std::string& why) {
         if (options.strict)
-            comparison.failures.push_back(loose + "; --strict does not accept that");
+            comparison.failures.push_back(why + "; --strict does not accept that");
         else
-            comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + loose;
+            comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + why;
+    };
+    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) weaken(loose);
+    for (const ChannelDiff& channel : comparison.channels) {
+        if (channel.granted.empty()) continue;
+        const std::string text = grantedText(*channel.mode, channel.granted);
+        if (grantedMean(channel.granted) > mostGranted && channel.rule.empty() &&
+            channel.verdict == Verdict::pass)
+            weaken(text);
+        else
+            comparison.notes.push_back(text);
     }
 }
 

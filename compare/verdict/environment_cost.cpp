@@ -45,16 +45,19 @@ EnvironmentCost::EnvironmentCost(const FramePair& pair) {
     settings_ = &(first ? pair.test : pair.baseline).settings;
 }
 
-double EnvironmentCost::allowed(const DebugMode& mode, std::size_t pixel) const {
-    if (!costs_) return 0;
+double EnvironmentCost::allowedDiffuse(const DebugMode& mode, std::size_t pixel) const {
+    if (!costs_ || (!isDiffuse(mode) && !isAll(mode))) return 0;
+    return double{costs_->pixel(pixel)[static_cast<std::size_t>(settings_->ibl_diffuse)]};
+}
+
+double EnvironmentCost::allowedSpecular(const DebugMode& mode, std::size_t pixel) const {
+    if (!costs_ || (!isSpecular(mode) && !isAll(mode))) return 0;
     const float* const costs = costs_->pixel(pixel);
     const auto kind = static_cast<std::size_t>(settings_->ibl_diffuse);
     const bool split = settings_->ibl == Ibl::split;
     const double wider{costs[7]}, lobe{costs[8]};
-    const double specular = double{costs[split ? 3 + kind : 6]} + spreadOf(*settings_) * wider +
-                            (split ? filteredShare : sampledPart(*settings_)) * lobe;
-    return (isDiffuse(mode) || isAll(mode) ? double{costs[kind]} : 0) +
-           (isSpecular(mode) || isAll(mode) ? specular : 0);
+    return double{costs[split ? 3 + kind : 6]} + spreadOf(*settings_) * wider +
+           (split ? filteredShare : sampledPart(*settings_)) * lobe;
 }
 
 std::string EnvironmentCost::because(const DebugMode& mode) const {

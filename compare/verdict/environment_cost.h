@@ -26,9 +26,13 @@ public:
 
     // Whether the reference has errors of the approximations, and the other side is a path.
     bool any() const { return costs_ != nullptr; }
-    // Permitted error of a channel at the pixel, in its unit; 0 for channels that the environment does not
+    // Permitted errors of a channel at the pixel, in its unit; 0 for channels that the environment does not
     // light.
-    double allowed(const DebugMode& mode, std::size_t pixel) const;
+    double allowed(const DebugMode& mode, std::size_t pixel) const {
+        return allowedDiffuse(mode, pixel) + allowedSpecular(mode, pixel);
+    }
+    double allowedDiffuse(const DebugMode& mode, std::size_t pixel) const;
+    double allowedSpecular(const DebugMode& mode, std::size_t pixel) const;
     // Reason of the tolerance for this channel.
     std::string because(const DebugMode& mode) const;
 

@@ -77,6 +77,8 @@ const std::array rows{
         plain<&StandardMetrics::ulp_mean>},
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&StandardMetrics::angle_max>},
     Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&StandardMetrics::angle_mean>},
+    Row{{"granted", false, "against the reference: mean relative error of lit granted to approximations"},
+        [](const Measurement& m) { return m.granted(); }},
     Row{{"length_max", false, "largest difference of vector lengths"}, angle<&StandardMetrics::length_max>},
 };
 
@@ -167,6 +169,20 @@ const HdrFlipResult* Measurement::flip() const {
     return flip_.get();
 }
 
+std::uint64_t Measurement::unseenDifferent() const {
+    const auto isLess = [](const PictureRows& picture) {
+        std::vector<float> buffer;
+        for (int y = 0; y < picture.height; ++y) {
+            const float* p = picture.row(y, buffer);
+            if (std::any_of(p, p + picture.width * picture.components, [](float v) { return v < 0; }))
+                return true;
+        }
+        return false;
+    };
+    if (!flip_ && !isLess(pair_.reference) && !isLess(pair_.test)) return 0;
+    return flip() ? flip()->unseen_different : 0;
+}
+
 std::shared_ptr<const Image> Measurement::flipErrors() const {
     return flip() ? std::shared_ptr<const Image>(flip_, &flip_->error) : nullptr;
 }
@@ -214,13 +230,16 @@ Decision decide(const Rule& rule, const Measurement& measurement) {
             decision.reason += shareText(*bound);
         }
     }
-    const std::uint64_t different = measurement.plain().nonfinite_different;
-    if (different == 0 || boundsFigure(rule.fail, FAILING)) return decision;
-    const std::string nonfinite =
-        fmt::format("NaN or infinite values differ at {}", counted(different, "pixel"));
-    decision.reason =
-        decision.level == Level::fail ? fmt::format("{}; {}", nonfinite, decision.reason) : nonfinite;
-    decision.level = Level::fail;
+    if (boundsFigure(rule.fail, FAILING)) return decision;
+    const auto failAt = [&](std::uint64_t pixels, const char* what) {
+        if (pixels == 0) return;
+        const std::string why = fmt::format("{} at {}", what, counted(pixels, "pixel"));
+        decision.reason = decision.level == Level::fail ? fmt::format("{}; {}", why, decision.reason) : why;
+        decision.level = Level::fail;
+    };
+    failAt(measurement.plain().nonfinite_different, "NaN or infinite values differ");
+    if (boundsFigure(rule.fail, "ssim"))
+        failAt(measurement.unseenDifferent(), "values that SSIM cannot see (negative) differ");
     return decision;
 }
 

@@ -26,6 +26,7 @@ struct ChannelPair {
     const Coverage* coverage = nullptr;
     const ChannelStats* stats = nullptr;  // if known already
     HdrFlipOptions flip = {};             // `covered` is set by Measurement
+    std::optional<double> granted = {};   // lit of a path against the reference: grantedMean()
 };
 
 class Measurement {
@@ -45,12 +46,15 @@ public:
 
     double shareOf(std::uint64_t pixels) const;  // fraction of the covered pixels, 0 to 1
 
+    std::optional<double> granted() const { return pair_.granted; }
     bool isVector() const;  // whether it has 3 components
     // The pair's statistics. If computed here, mean and rmse of an absolute error are over components, as
     // in other programs.
     const ChannelStats& stats() const;
     const StandardMetrics& plain() const;
     const HdrFlipResult* flip() const;  // nullptr if undefined
+    // Pixels of light that FLIP and SSIM cannot see and that differ (FlipResult::unseen_different).
+    std::uint64_t unseenDifferent() const;
     // FLIP's error map, which may outlive this object; nullptr if undefined.
     std::shared_ptr<const Image> flipErrors() const;
 
@@ -65,7 +69,8 @@ private:
 
 // Applies the rule to the measurement. Some metrics (a mean, FLIP, SSIM) do not show a NaN or infinity
 // against another value. Such a pixel always fails, unless the rule allows a fraction of failing pixels,
-// where it counts as one. The decision's criterion includes its pixels.
+// where it counts as one. So does a pixel that SSIM cannot see, by a rule on SSIM. The decision's criterion
+// includes its pixels.
 Decision decide(const Rule& rule, const Measurement& measurement);
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/picture_diff.h"
 
+#include "compare/metrics/pixel.h"
 #include "compare/metrics/prefilter.h"
 #include "compare/verdict/one_sided.h"
 #include "shared/image/file_bytes.h"
@@ -14,6 +15,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -95,6 +97,7 @@ double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const Pictu
 
 struct PicturePair {
     PictureFile reference, test;
+    bool same_bytes = false;
 };
 
 // Throws before decoding if this process has too little memory.
@@ -113,6 +116,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
         kept[i] = pictureSize(bytes[i], *names[i], parts[i], EightBits::kept);
         decoded[i] = pictureSize(bytes[i], *names[i], parts[i], EightBits::decoded);
     }
+    const bool same_bytes = files[0] == files[1];
     const auto isEight = [&](int i) { return kept[i].bytes_per_pixel < decoded[i].bytes_per_pixel; };
     const EightBits eight =
         isEight(0) && isEight(1) && options.names.empty() && options.blur == 0 && options.shift == 0
@@ -142,10 +146,14 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     tbb::parallel_invoke([&] { read(0); }, [&] { read(1); });
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
-    return {std::move(pictures[0]), std::move(pictures[1])};
+    // A part that was chosen is read whole.
+    for (const int i : {0, 1})
+        if (!parts[i].empty()) pictures[i].notes.in_part.clear();
+    return {std::move(pictures[0]), std::move(pictures[1]), same_bytes};
 }
 
-void bringTogether(PictureFile& a, PictureFile& b, bool strict, PictureDiff& diff) {
+// `same_bytes`: the files are equal, read or not.
+void bringTogether(PictureFile& a, PictureFile& b, bool same_bytes, bool strict, PictureDiff& diff) {
     if (a.width != b.width || a.height != b.height)
         throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
                                              diff.reference, a.width, a.height, diff.test, b.width,
@@ -164,12 +172,14 @@ void bringTogether(PictureFile& a, PictureFile& b, bool strict, PictureDiff& dif
     for (const PictureFile* file : {&a, &b}) {
         const std::string& name = file == &a ? diff.reference : diff.test;
         const auto& others = (file == &a ? b : a).notes.not_applied;
-        for (const std::string& line : file->notes.lines)
-            diff.notes.push_back(fmt::format("{}: {}", name, line));
+        const auto say = [&](const std::string& line, bool fails) {
+            (fails ? diff.failures : diff.notes).push_back(fmt::format("{}: {}", name, line));
+        };
+        for (const std::string& line : file->notes.lines) say(line, false);
         // A line that both files have makes no difference between them.
         for (const std::string& line : file->notes.not_applied)
-            (strict && std::ranges::count(others, line) == 0 ? diff.failures : diff.notes)
-                .push_back(fmt::format("{}: {}", name, line));
+            say(line, strict && std::ranges::count(others, line) == 0);
+        for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
     }
     diff.width = a.width;
     diff.height = a.height;
@@ -194,31 +204,59 @@ ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
 constexpr const char* commandLine = "command line";
 constexpr const char* byDefault = "default of diff";
 
-// The command line's rule for a channel that no rule names. If its metric is undefined (only colours have
-// FLIP), the largest error decides; with --metric, the channel is not compared.
+// Whether only equal values pass: without a tolerance, or where its metric is undefined.
+bool needsEquality(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
+    return !options.failing &&
+           (!options.tolerance_given || !(*channel.measurement)({options.metric, 0}).has_value());
+}
+
+// The command line's rule for a channel that no rule names.
 Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
     rule.origin =
         options.metric_given || options.tolerance_given || options.failing ? commandLine : byDefault;
     Quantity quantity{options.metric, 0};
-    if (!options.failing && !(*channel.measurement)(quantity)) {
+    const std::optional<double> value = (*channel.measurement)(quantity);
+    const bool defined = options.failing || value;
+    if (!defined) {
         rule.because = fmt::format("{} is not defined for this channel", quantity.figure);
-        if (options.metric_given) return rule;
         quantity.figure = "max";
     }
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
-    rule.fail = bound(options.tolerance);
+    const Figure* figure = findFigure(quantity.figure);
+    double equal = 0;
+    if (figure && figure->more_is_better) equal = figure->name == "ssim" ? 1 : metrics::infinity;
+    rule.fail = bound(needsEquality(options, channel) ? equal : options.tolerance);
     if (options.failing)
         rule.fail = {Condition::Kind::bound, {FAILING, options.tolerance}, *options.failing, {}};
-    if (options.warn) rule.warn = bound(*options.warn);
+    if (options.warn && defined) rule.warn = bound(*options.warn);
     return rule;
+}
+
+// Decides by the values themselves, because metrics round, and some leave pixels out.
+void judgeEquality(PictureChannelDiff& channel, const PictureDiffOptions& options) {
+    const std::uint64_t different = channel.measurement->plain().different;
+    Decision& decision = channel.decision;
+    if (different == 0) {
+        decision.level = Level::pass;
+        decision.reason.clear();
+    } else if (decision.level != Level::fail) {
+        decision.level = Level::fail;
+        decision.reason =
+            fmt::format("{} of {} {}", different, counted(channel.measurement->plain().pixels, "pixel"),
+                        different == 1 ? "differs" : "differ");
+    }
+    if (different > 0 && options.tolerance_given)
+        decision.reason +=
+            "; judge it by a rule, by a --metric defined for it, or leave it out with --channels";
 }
 
 void judge(PictureChannelDiff& channel, const PictureDiffOptions& options) {
     const Rule* rule = ruleFor(options.rules, channel.pair.name);
     channel.rule = rule ? *rule : ruleOf(options, channel);
     channel.decision = decide(channel.rule, *channel.measurement);
+    if (!rule && needsEquality(options, channel)) judgeEquality(channel, options);
 }
 
 // Handles a colour that only fails at pixels with an alpha of 0 in both images.
@@ -252,7 +290,7 @@ void findWorst(const PictureDiff& diff, PictureChannelDiff& channel) {
     channel.worst_y = at / errors.width;
 }
 
-// Notes on what no metric shows: a NaN in both images, an undefined metric.
+// Notes on what no metric shows: a NaN in both images, what FLIP cannot see, an undefined metric.
 void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
     std::vector<std::string> without;
     for (const auto& channel : diff.channels) {
@@ -261,12 +299,18 @@ void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
             diff.notes.push_back(fmt::format("{}: {} of the reference and {} of the test are NaN or infinite",
                                              channel->pair.name, counted(s.nonfinite_baseline, "pixel"),
                                              s.nonfinite_test));
+        const bool by_flip =
+            std::ranges::any_of(std::array{"flip", "flip_median", "flip_max"},
+                                [&](const char* figure) { return boundsFigure(channel->rule.fail, figure); });
+        if (const std::uint64_t unseen = by_flip ? channel->measurement->unseenDifferent() : 0; unseen > 0)
+            diff.notes.push_back(fmt::format(
+                "{}: FLIP cannot see {} that {} (negative, or beyond its exposures): error 1 each",
+                channel->pair.name, counted(unseen, "pixel"), unseen == 1 ? "differs" : "differ"));
         if (!channel->rule.because.empty() && isOwnRule(channel->rule)) without.push_back(channel->pair.name);
     }
     if (!without.empty())
-        diff.notes.push_back(
-            fmt::format("{} is not defined for {}: {}", options.metric, fmt::join(without, ", "),
-                        options.metric_given ? "not judged" : "judged by the largest error"));
+        diff.notes.push_back(fmt::format("{} is not defined for {}: only equal values pass", options.metric,
+                                         fmt::join(without, ", ")));
 }
 
 // `names`: channels of both files. A rule that names no channel by its whole name fails, because its
@@ -377,10 +421,10 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.reference = reference;
     diff.test = test;
     options.progress.at(0, "read");
-    auto [a, b] = readPair(reference, test, options);
+    auto [a, b, same_bytes] = readPair(reference, test, options);
     diff.reference_format = a.format;
     diff.test_format = b.format;
-    bringTogether(a, b, options.strict, diff);
+    bringTogether(a, b, same_bytes, options.strict, diff);
 
     checkNames(a, b, options.names);
     std::vector<PictureChannel> left = channelsOf(std::move(a), options.names),

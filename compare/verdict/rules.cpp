@@ -221,6 +221,14 @@ bool boundsFigure(const Condition& condition, std::string_view figure) {
                                      [&](const auto& part) { return boundsFigure(part, figure); });
 }
 
+bool boundsOnly(const Condition& condition, std::string_view figure) {
+    return condition.kind == Condition::Kind::bound
+               ? condition.quantity.figure == figure
+               : !condition.parts.empty() && std::ranges::all_of(condition.parts, [&](const auto& part) {
+                     return boundsOnly(part, figure);
+                 });
+}
+
 std::optional<double> boundOn(const Condition& condition, std::string_view figure) {
     if (condition.kind == Condition::Kind::bound)
         return condition.quantity.figure == figure ? std::optional(condition.limit) : std::nullopt;

@@ -53,6 +53,8 @@ std::optional<Criterion> decidingBound(const Condition& condition, const Measure
 
 // Whether any part of the condition bounds the metric.
 bool boundsFigure(const Condition& condition, std::string_view figure);
+// Whether all parts of the condition do, and there is one.
+bool boundsOnly(const Condition& condition, std::string_view figure);
 // The smallest upper bound on the metric that always applies; empty if there is none.
 std::optional<double> boundOn(const Condition& condition, std::string_view figure);
 

@@ -333,15 +333,36 @@ double encodingBound(const DebugMode& mode, const FramePair& pair) {
     return hasGBuffer(path.settings.path) ? encodingTolerance(mode, pair, path.settings.gbuffer).max : 0;
 }
 
+struct Allowances::State {
+    explicit State(const FramePair& p) : pair(p), edges(p), environment(p), blended(p) {}
+    const FramePair& pair;
+    ShadowEdges edges;
+    EnvironmentCost environment;
+    BlendedPixels blended;
+};
+
+Allowances::Allowances(const FramePair& pair) : state_(std::make_unique<const State>(pair)) {}
+Allowances::~Allowances() = default;
+
+bool Allowances::any() const {
+    const FramePair& pair = state_->pair;
+    const Settings& path = (isReferenceFrame(pair.baseline) ? pair.test : pair.baseline).settings;
+    return state_->edges.any() || state_->environment.any() || state_->blended.any() ||
+           (path.haze && path.haze_march_steps > 0);
+}
+
+std::array<double, approximations> Allowances::at(const DebugMode& mode, std::size_t pixel) const {
+    const State& s = *state_;
+    return {s.edges.any() ? s.edges.allowed(mode, pixel) : 0, s.environment.allowedDiffuse(mode, pixel),
+            s.environment.allowedSpecular(mode, pixel), s.blended.allowed(mode, pixel),
+            marchAllowed(mode, s.pair, pixel)};
+}
+
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
     if (!(isShaded(mode.number) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    const bool marched = path.settings.haze && path.settings.haze_march_steps > 0;
-    if (reference.uncertainty.empty() && !encodingShownBy(mode, pair) && !ShadowEdges(pair).any() &&
-        !EnvironmentCost(pair).any() && !marched && !BlendedPixels(pair).any())
-        return {};
+    if (reference.uncertainty.empty() && !encodingShownBy(mode, pair) && !Allowances(pair).any()) return {};
     return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
 }
 
@@ -350,18 +371,14 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     const Frame* const encoded = encodingShownBy(mode, pair);
     const bool first = isReferenceFrame(pair.baseline);
-    const ShadowEdges edges(pair);
-    const EnvironmentCost environment(pair);
-    const BlendedPixels blended(pair);
+    const Allowances allowances(pair);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
     std::vector<double> errors;
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
         double open = 0;
-        if (edges.any()) open += edges.allowed(mode, i);
-        open += environment.allowed(mode, i) + blended.allowed(mode, i);
-        open += marchAllowed(mode, pair, i);
+        for (const double allowed : allowances.at(mode, i)) open += allowed;
         if (isLit(mode.number) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)

@@ -7,8 +7,10 @@
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,24 @@ struct Tolerance {
 
 // Tolerance of `mode`, a channel of both Frames.
 Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair);
+
+// Approximations of a path, each of which its tolerance against the reference allows an error of lit.
+enum class Approximation { shadow_filter, ibl_diffuse, ibl_specular, blending, haze_steps };
+inline constexpr std::size_t approximations = 5;
+
+class Allowances {
+public:
+    // `pair`, of a path and the reference, must outlive it.
+    explicit Allowances(const FramePair& pair);
+    ~Allowances();
+    bool any() const;
+    // Allowed errors of a channel at the pixel, in its unit, by Approximation.
+    std::array<double, approximations> at(const DebugMode& mode, std::size_t pixel) const;
+
+private:
+    struct State;
+    std::unique_ptr<const State> state_;
+};
 
 // Error of float32 shading against double precision, relative to the pixel's largest component.
 inline constexpr double shadingRounding = 1e-4;

@@ -238,12 +238,13 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
             header.display.height(), header.display.min_x, header.display.min_y, part.number));
     FileNotes notes;
     if (tiles.levels > 0)
-        notes.lines.push_back(
+        notes.in_part.push_back(
             fmt::format("is {}-mapped; only its largest level is read", tiles.levels == 1 ? "mip" : "rip"));
     part.to_rec709 = meaningOf(attributes, notes);
     const std::string who = part.name.empty() ? "" : fmt::format("part \"{}\": ", oneLine(part.name, 60));
-    for (const auto& [from, to] :
-         {std::pair{&notes.lines, &header.notes.lines}, {&notes.not_applied, &header.notes.not_applied}})
+    for (const auto& [from, to] : {std::pair{&notes.lines, &header.notes.lines},
+                                   {&notes.not_applied, &header.notes.not_applied},
+                                   {&notes.in_part, &header.notes.in_part}})
         for (const std::string& line : *from) to->push_back(who + line);
     for (const auto& [name, value] : attributes.strings) header.attributes.emplace(name, std::string(value));
     header.parts.push_back(std::move(part));

@@ -246,13 +246,15 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
                         std::move(header.attributes),
                         std::move(header.notes)};
     for (const ExrPart& part : header.parts) {
-        if (part.data != header.display)
-            picture.notes.lines.push_back(fmt::format(
+        if (part.data != header.display) {
+            auto& notes = header.display.holds(part.data) ? picture.notes.lines : picture.notes.in_part;
+            notes.push_back(fmt::format(
                 "{}its data window is {}x{} at {},{}, its display window {}x{} at {},{}; missing pixels are "
                 "0",
                 part.name.empty() ? "" : "part \"" + oneLine(part.name, 60) + "\": ", part.data.width(),
                 part.data.height(), part.data.min_x, part.data.min_y, header.display.width(),
                 header.display.height(), header.display.min_x, header.display.min_y));
+        }
         const auto read = [&] { return readPart(in, part, header.display); };
         std::vector<Layer> layers =
             part.name.empty() ? read() : named("part \"" + oneLine(part.name, 60) + "\"", read);

@@ -138,7 +138,8 @@ PictureFile pictureOfPfm(std::span<const std::byte> bytes, const std::string& na
     PfmPicture pfm = readPfm(bytes, name, most);
     PictureFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
-        file.notes.lines.push_back(fmt::format("{} after its pixels: ignored", counted(pfm.behind, "byte")));
+        file.notes.in_part.push_back(
+            fmt::format("{} after its pixels: ignored", counted(pfm.behind, "byte")));
     if (pfm.scale != 1)
         file.notes.lines.push_back(
             fmt::format("its values were multiplied by {}, the scale in its header", pfm.scale));

@@ -79,7 +79,8 @@ Encoding encodingOf(std::span<const std::byte> file) {
         noteProfile(profile, taken_as, encoding.notes);
     else if (code.empty() && !is_srgb && primaries)
         encoding.to_rec709 = matrixToRec709(*primaries, encoding.notes);
-    if (frames > 1) not_applied.push_back(fmt::format("only the first of its {} frames is read", frames));
+    if (frames > 1)
+        encoding.notes.in_part.push_back(fmt::format("only the first of its {} frames is read", frames));
     return encoding;
 }
 

@@ -21,6 +21,7 @@ using Primaries = std::array<double, 8>;
 struct FileNotes {
     std::vector<std::string> lines{};        // such as "its colours were converted from ..."
     std::vector<std::string> not_applied{};  // declarations that the values read do not reflect
+    std::vector<std::string> in_part{};      // contents that are not read: "only its first page is read"
 };
 
 // Converts linear RGB of `primaries` to Rec. 709 (ITU-R BT.709-6). White points are adapted by Bradford's

@@ -278,7 +278,7 @@ void describe(TIFF* tiff, TiffPicture& picture) {
     const auto across = tagOf<float>(tiff, TIFFTAG_XRESOLUTION, 0),
                up = tagOf<float>(tiff, TIFFTAG_YRESOLUTION, 0);
     if (across > 0 && up > 0) noteAspect(double{up} / across, picture.notes);
-    if (TIFFLastDirectory(tiff) == 0) picture.notes.not_applied.emplace_back("only its first page is read");
+    if (TIFFLastDirectory(tiff) == 0) picture.notes.in_part.emplace_back("only its first page is read");
 }
 
 }  // namespace

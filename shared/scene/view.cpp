@@ -4,6 +4,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/indexed_names.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -194,14 +195,26 @@ View explicitView(const DefaultViewOf& defaultView, const Bounds& bounds, double
     return view;
 }
 
+std::vector<std::vector<std::string>> namesOf(const std::vector<Camera>& cameras) {
+    std::vector<std::vector<std::string>> names;
+    for (const Camera& camera : cameras) names.push_back({camera.name, camera.node_name});
+    return names;
+}
+
+std::string listOf(const std::vector<Camera>& cameras) {
+    if (cameras.empty()) return "the scene has no camera";
+    std::string list;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const bool own = cameras[i].node_name.empty() || cameras[i].node_name == cameras[i].name;
+        list += fmt::format("{}{} \"{}\"{}", i ? ", " : "", i, cameras[i].name,
+                            own ? "" : fmt::format(" (node \"{}\")", cameras[i].node_name));
+    }
+    return "the scene has " + list;
+}
+
 const Camera* sceneCamera(const Pose& pose, const std::string& choice) {
-    for (const Camera& camera : pose.cameras)
-        if (camera.name == choice) return &camera;
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error != std::errc() || end != choice.data() + choice.size() || index >= pose.cameras.size())
-        return nullptr;
-    return &pose.cameras[index];
+    const auto index = indexOfNamed(choice, namesOf(pose.cameras), fmt::format("--camera \"{}\"", choice));
+    return index ? &pose.cameras[*index] : nullptr;
 }
 
 // Widens the field of view if the camera's frame is wider than the image: the image then shows the full
@@ -219,14 +232,6 @@ void fitFrame(View& view) {
         view.wider_frame = framed;
     }
     camera.aspect = camera.xmag = 0;
-}
-
-std::string listOf(const std::vector<Camera>& cameras) {
-    if (cameras.empty()) return "the scene has no camera";
-    std::string list;
-    for (std::size_t i = 0; i < cameras.size(); ++i)
-        list += fmt::format("{}{} \"{}\"", i ? ", " : "", i, cameras[i].name);
-    return "the scene has " + list;
 }
 
 }  // namespace
@@ -261,7 +266,7 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
         }
     } else {
         std::vector<std::string> names;
-        for (const Camera& camera : pose.cameras) names.push_back(camera.name);
+        for (const auto& of : namesOf(pose.cameras)) names.insert(names.end(), of.begin(), of.end());
         failCamera(choice, fmt::format("{}{}; it takes {}", listOf(pose.cameras), didYouMean(choice, names),
                                        accepted));
     }

@@ -80,6 +80,27 @@ TEST(Command, WhatHasNoMeaningIsNamedAndExitTwo) {
     EXPECT_TRUE(runTool(folder, "diff a.png b.png").failedOver("a.png: no such file"));
 }
 
+// Two images of nothing always agree.
+TEST(Command, CompareNeedsSomethingToDraw) {
+    const Folder folder;
+    const auto changed = [](const std::string& from, const std::string& to) {
+        std::string text = triangle;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    folder.write("lines.gltf", changed("\"POSITION\": 0 }", "\"POSITION\": 0 }, \"mode\": 1"));
+    folder.write("nan.gltf",
+                 changed("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", std::string(48, '/')));
+    const std::string compare = "compare" + quick + " --channels lit -o report ";
+    EXPECT_TRUE(runTool(folder, compare + "lines.gltf")
+                    .failedOver("lines.gltf: has nothing to draw: mesh 0, primitive 0: points or lines, left "
+                                "out; --allow-empty"));
+    EXPECT_EQ(runTool(folder, compare + "lines.gltf --allow-empty -q").code, 0);
+    EXPECT_TRUE(runTool(folder, compare + "nan.gltf --allow-empty")
+                    .failedOver("nan.gltf: mesh 0, primitive 0: every triangle has a vertex that is not"));
+    EXPECT_EQ(runTool(folder, compare + "lines.gltf builtin:triangle -q").code, 2);
+    EXPECT_TRUE(fs::exists(folder / "report/index.html")) << "the other is compared";
+}
+
 TEST(Command, BadInputIsNamed) {
     const Folder folder;
     folder.write("empty.glb", "");

@@ -70,6 +70,82 @@ TEST(DiffCommand, TheAuthorsPairs) {
     EXPECT_EQ(city["exposures"], 15);
 }
 
+// Means, percentiles, FLIP and SSIM round, or leave pixels out; SSIM sees no colour.
+TEST(DiffCommand, WithoutAToleranceOnlyEqualValuesPass) {
+    const Folder folder;
+    Image8 pixel = grey(128, 64, 64), luma = pixel;
+    pixel.data[999] = 129;
+    for (std::size_t i = 0; i < luma.data.size(); i += 3) {
+        luma.data[i] = 255;
+        luma.data[i + 1] = 65;
+    }
+    writePng(folder / "a.png", grey(128, 64, 64));
+    writePng(folder / "pixel.png", pixel);
+    writePng(folder / "luma.png", luma);
+    const Image image = noise(3);
+    Image ulp = image;
+    ulp.data[40] = std::nextafter(ulp.data[40], 9.0f);
+    writePfm(folder / "a.pfm", image);
+    writePfm(folder / "ulp.pfm", ulp);
+    for (const char* metric : {"flip", "flip_median", "ssim", "p99", "p999", "relative_p99", "psnr", "max",
+                               "rmse", "mean", "angle_max"}) {
+        const std::string of = std::string(" -q --metric ") + metric;
+        const int undefined = metric == std::string("angle_max") ? 2 : 0;  // defined for no channel
+        EXPECT_EQ(runTool(folder, "diff a.png a.png" + of).code, undefined) << metric;
+        EXPECT_EQ(runTool(folder, "diff a.png pixel.png" + of).code, undefined ? 2 : 1) << metric;
+        EXPECT_EQ(runTool(folder, "diff a.png luma.png" + of).code, undefined ? 2 : 1) << metric;
+        EXPECT_EQ(runTool(folder, "diff a.pfm ulp.pfm" + of).code, undefined ? 2 : 1) << metric;
+        EXPECT_EQ(runTool(folder, "diff a.pfm a.pfm" + of).code, undefined) << metric;
+    }
+    EXPECT_NE(runTool(folder, "diff a.png pixel.png --metric p99").out.find("1 of 4096 pixels differs"),
+              std::string::npos);
+}
+
+// FLIP and SSIM take negative values as 0, and see ids and vectors as light.
+TEST(DiffCommand, WhatIsNoLightIsNotJudgedByEyes) {
+    const Folder folder;
+    const Image light = noise(5);
+    const auto write = [&](const char* name, const std::string& layer, const Image& data) {
+        writeExr(folder / name,
+                 {{{"R", "G", "B"}, &light}, {{layer + ".R", layer + ".G", layer + ".B"}, &data}});
+    };
+    Image some(32, 16, 3, 0.25f), turned(32, 16, 3, 0.2501f);
+    for (const char* layer : {"N", "ViewLayer.Normal", "velocity", "CryptoObject00", "P"}) {
+        write("a.exr", layer, some);
+        write("b.exr", layer, turned);
+        const Ran ran = runTool(folder, "diff a.exr b.exr --tolerance 0.5");
+        EXPECT_EQ(ran.code, 1) << layer;
+        EXPECT_NE(ran.out.find(std::string(layer) + ": not light, by its name"), ran.out.npos) << ran.out;
+        EXPECT_NE(ran.out.find("FAIL: " + std::string(layer)), ran.out.npos) << ran.out;
+        EXPECT_EQ(runTool(folder, "diff a.exr a.exr --tolerance 0.5 -q").code, 0) << layer;
+        EXPECT_EQ(runTool(folder, "diff a.exr b.exr --tolerance 0.5 --channels lit -q").code, 0) << layer;
+    }
+    write("a.exr", "diffuse", some);
+    write("b.exr", "diffuse", turned);
+    EXPECT_EQ(runTool(folder, "diff a.exr b.exr --tolerance 0.5 -q").code, 0) << "a colour";
+    // Of this layer a tenth is negative, and then one pixel.
+    for (const std::size_t every : {8u, 512u}) {
+        Image first = some, second = some;
+        for (std::size_t i = 0; i < first.pixels(); i += every) {
+            first.pixel(i)[0] = -3;
+            second.pixel(i)[0] = -1;
+        }
+        write("a.exr", "diffuse", first);
+        write("b.exr", "diffuse", second);
+        const std::string pair = "diff a.exr b.exr --tolerance ", least = every == 8 ? "0.5" : "0.0019";
+        const Ran ran = runTool(folder, pair + least);
+        EXPECT_EQ(ran.code, 1) << every;
+        EXPECT_NE(ran.out.find(every == 8 ? "diffuse: not light, by its negative values"
+                                          : "diffuse: FLIP cannot see 1 pixel that differs"),
+                  ran.out.npos)
+            << ran.out;
+        EXPECT_EQ(runTool(folder, pair + "0.1 --metric ssim -q").code, 1) << every;
+        if (every == 512) {
+            EXPECT_EQ(runTool(folder, pair + "0.002 -q").code, 0) << "1 / 512";
+        }
+    }
+}
+
 // One image in four formats: equal up to the rounding of RGBE and of 8 bits.
 TEST(DiffCommand, FormatsMeet) {
     const Folder folder;

@@ -3,8 +3,8 @@
 
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
-#include "shared/text/counted.h"
 #include "shared/text/fail.h"
+#include "shared/text/indexed_names.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -219,12 +219,11 @@ int chooseScene(const tinygltf::Model& model, const std::string& choice, std::ve
                             index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
         return index;
     }
-    for (int i = 0; i < count; ++i)
-        if (choice == std::to_string(i)) return i;
-    for (int i = 0; i < count; ++i)
-        if (choice == model.scenes[static_cast<std::size_t>(i)].name) return i;
-    fail("scene=" + choice,
-         fmt::format("names none of the file's {}", counted(static_cast<std::uint64_t>(count), "scene")));
+    std::vector<std::string> names;
+    for (const tinygltf::Scene& scene : model.scenes) names.push_back(scene.name);
+    const std::string who = "scene=" + choice;
+    if (const auto index = indexOfNamed(choice, names, who)) return static_cast<int>(*index);
+    fail(who, names.empty() ? "the file has no scene" : "the file's scenes are " + indexedNames(names));
 }
 
 std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, int chosen,
@@ -252,6 +251,7 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
             try {
                 Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
                                            fmt::format("camera {}", file.camera), notes);
+                camera.node_name = file.name;
                 if (camera.name.empty()) camera.name = file.name;
                 camera.node = place[n];
                 camera.source = file.camera;

@@ -55,7 +55,6 @@ public:
         if (result_.indices.empty()) return nothing("has no triangles");
         keepTouched();
         readPositions();
-        if (result_.indices.empty()) return nothing("has no triangles");
         readAttributes();
         const AttributeReader reader = attributes();
         if (use_.joints > 0) readJointSets(reader, use_.joints, touched_, result_);
@@ -181,6 +180,9 @@ private:
         note("{} of {} triangles with a vertex that is not finite or beyond {:g} m: left out",
              (result_.indices.size() - sound.size()) / 3, result_.indices.size() / 3, maxCoordinate);
         result_.indices = std::move(sound);
+        if (result_.indices.empty())
+            fail(who_, fmt::format("every triangle has a vertex that is not finite or beyond {:g} m",
+                                   maxCoordinate));
         keepTouched();
         positions = readVectors<glm::vec3>(model_, accessor, who, which());
     }

@@ -24,9 +24,9 @@ struct PrimitiveUse {
 };
 
 // Reads a primitive of the file as triangles with normals and tangents. Omits vertices that no triangle
-// uses, and triangles whose positions are not finite or exceed `maxCoordinate`. If nothing remains, the
-// result has no indices. `who` names the primitive in messages; `notes` receives deviations from the file.
-// Throws std::runtime_error.
+// uses, and triangles whose positions are not finite or exceed `maxCoordinate`; it is an error if none
+// remains. A primitive without triangles has no indices. `who` names the primitive in messages; `notes`
+// receives deviations from the file. Throws std::runtime_error.
 Primitive readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
                         const PrimitiveUse& use, std::vector<std::string>& notes);
 

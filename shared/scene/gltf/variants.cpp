@@ -60,15 +60,9 @@ int chosenVariant(const std::vector<std::string>& names, const std::string& choi
     if (choice.empty()) return -1;
     const std::string name = oneLine(choice), who = fmt::format("--variant \"{}\"", name);
     if (names.empty()) fail(who, "the file has no material variants");
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (choice == std::to_string(i)) return static_cast<int>(i);
-    const auto first = std::ranges::find(names, name);
-    if (first == names.end()) fail(who, "the file's variants are " + indexedNames(names));
-    const auto second = std::find(first + 1, names.end(), name);
-    if (second != names.end())
-        fail(who, fmt::format("names variants {} and {}; give an index", first - names.begin(),
-                              second - names.begin()));
-    return static_cast<int>(first - names.begin());
+    const auto index = indexOfNamed(name, names, who);
+    if (!index) fail(who, "the file's variants are " + indexedNames(names));
+    return static_cast<int>(*index);
 }
 
 // Reads what primitives map to variants.

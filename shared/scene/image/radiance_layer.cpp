@@ -86,7 +86,7 @@ bool isRadiancePicture(std::span<const std::byte> bytes) {
 Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes) {
     const PictureLayer* layer = layerOf(picture);
     if (!layer) throw std::runtime_error("has no layer with R, G and B");
-    for (const auto* said : {&picture.notes.lines, &picture.notes.not_applied})
+    for (const auto* said : {&picture.notes.lines, &picture.notes.not_applied, &picture.notes.in_part})
         for (const std::string& line : *said) notes.push_back(where + ": " + line);
     if (!layer->name.empty())
         notes.push_back(

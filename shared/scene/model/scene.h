@@ -220,7 +220,8 @@ struct Environment {
 
 // Looks along -Z of its node; +Y is up.
 struct Camera {
-    std::string name;
+    std::string name;       // the camera's; if it has none, the node's
+    std::string node_name;  // as in the file
     bool orthographic = false;
     double yfov = glm::radians(60.0);  // vertical
     double ymag = 1;                   // orthographic: half the height, m

@@ -2,6 +2,7 @@
 #include "shared/scene/motion/animation.h"
 
 #include "shared/scene/model/animated.h"
+#include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
 #include "shared/text/one_line.h"
 
@@ -97,15 +98,12 @@ std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, doubl
 std::span<const Animation> animationsOf(const Scene& scene, const std::string& choice) {
     const std::span<const Animation> all(scene.animations);
     if (choice.empty()) return all;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (choice == std::to_string(i)) return all.subspan(i, 1);
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (choice == all[i].name) return all.subspan(i, 1);
     std::vector<std::string> names;
     for (const Animation& animation : all) names.push_back(animation.name);
-    throw std::runtime_error(fmt::format(
-        "--animation \"{}\": {}", oneLine(choice),
-        all.empty() ? "the scene has no animation" : "the scene's animations are " + indexedNames(names)));
+    const std::string who = fmt::format("--animation \"{}\"", oneLine(choice));
+    if (const auto index = indexOfNamed(choice, names, who)) return all.subspan(*index, 1);
+    fail(who,
+         all.empty() ? "the scene has no animation" : "the scene's animations are " + indexedNames(names));
 }
 
 namespace {

@@ -15,9 +15,8 @@ namespace diptych {
 // w) has unit length; interpolation takes the shorter way.
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds);
 
-// The playing animations: all of the scene's, or the one whose index or name is `choice` (the first of
-// that name). Throws std::runtime_error that names --animation and lists the animations if there is no
-// such one.
+// The playing animations: all of the scene's, or the one whose index or name is `choice`. Throws
+// std::runtime_error that names --animation and lists the animations if there is no such one, or several.
 std::span<const Animation> animationsOf(const Scene& scene, const std::string& choice);
 
 // Node transforms and weights under animationsOf(scene, choice). All play at once; if several target the

@@ -252,6 +252,12 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
     return pose;
 }
 
+bool hasTriangles(const Scene& scene) {
+    return std::ranges::any_of(scene.nodes, [&](const Node& node) {
+        return !copiesOf(scene, node).empty() && !primitivesOf(scene, node).empty();
+    });
+}
+
 void leaveOutWhatIsBeyond(Scene& scene) {
     const std::vector<glm::dmat4> world = worldFromNodeAtRest(scene.nodes);
     std::vector<std::vector<glm::dvec3>> extents;
@@ -292,6 +298,8 @@ void leaveOutWhatIsBeyond(Scene& scene) {
     }
     note(beyond, "drawn node");
     note(copiesBeyond, "instance");
+    if (beyond + copiesBeyond > 0 && !hasTriangles(scene))
+        throw std::runtime_error("nothing is left to draw: " + scene.notes.back());
     note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPlace(light, world); }), "light");
     note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPlace(camera, world); }),
          "camera");

@@ -14,8 +14,11 @@ namespace diptych {
 // cameras whose transform is not finite or exceeds maxCoordinate.
 Pose poseAt(const Scene& scene, double seconds, const std::string& animation = {});
 
+// Whether any node has something to draw.
+bool hasTriangles(const Scene& scene);
+
 // Removes everything beyond maxCoordinate at rest (meshes from their nodes, lights, cameras), each with a
-// note.
+// note. Throws std::runtime_error if that leaves nothing to draw.
 void leaveOutWhatIsBeyond(Scene& scene);
 
 }  // namespace diptych

@@ -58,7 +58,8 @@ TEST(FlipExposures, ExtremeValuesStayNumbers) {
 }
 
 TEST(FlipExposures, ErrorsAreTheLargestOfAllExposures) {
-    const Image a = noise(300, 40, 15, 0, 30), b = noise(300, 40, 16, 0, 30);
+    // Visible at each exposure: what none shows is judged otherwise.
+    const Image a = noise(300, 40, 15, 0.1f, 0.5f), b = noise(300, 40, 16, 0.1f, 0.5f);
     HdrFlipOptions options;
     options.start_exposure = -6;
     options.stop_exposure = 1;

@@ -248,21 +248,29 @@ TEST(Flip, StatisticsAreOfCoveredPixelsAndFiltersOfAll) {
     EXPECT_LT(r.weighted_median, r.weighted_third_quartile);
 }
 
-TEST(Flip, ValuesThatCannotBeShownCountAsTheLimit) {
-    Image low = noise(40, 40, 13), wild = low, limited = low;
-    set(wild, 9, 9, -3.0f);
-    set(limited, 9, 9, 0.0f);
-    set(wild, 20, 9, 7.0f);
-    set(limited, 20, 9, 1.0f);
-    const FlipResult r = ldrFlip(low, wild);
-    EXPECT_EQ(r.limited_reference, 0u);
-    EXPECT_EQ(r.limited_test, 2u);
-    EXPECT_EQ(r.error.data, ldrFlip(low, limited).error.data);
-
-    set(wild, 20, 9, 1.0f);
+// FLIP shows values outside its range as the nearest that it can.
+TEST(Flip, WhatItCannotSeeIsJudgedByTheDifference) {
+    Image low = noise(40, 40, 13), wild = low;
+    set(low, 9, 9, -3.0f);
+    set(wild, 9, 9, -2.0f);
+    set(low, 30, 30, -3.0f);
+    set(wild, 30, 30, -3.0f - 1e-5f);
     const HdrFlipResult h = hdrFlip(low, wild);
-    EXPECT_EQ(h.limited_test, 1u);
-    EXPECT_EQ(h.error.data, hdrFlip(low, limited).error.data);
+    EXPECT_EQ(h.unseen_different, 1u);
+    EXPECT_EQ(h.error.at(9, 9), 1.0f);
+    EXPECT_EQ(h.error.at(30, 30), 0.0f) << "less than 1e-3 of the mean luminance";
+    EXPECT_EQ(h.error.at(20, 20), 0.0f) << "elsewhere the images are equal";
+    EXPECT_NEAR(h.mean, 1.0 / 1600, 1e-9);
+    EXPECT_EQ(HdrFlipAgainst(low, {}).mean(wild).mean, h.mean);
+    EXPECT_EQ(ldrFlip(low, wild).unseen_different, 1u);
+    EXPECT_EQ(hdrFlip(low, low).mean, 0);
+
+    HdrFlipOptions dark;
+    dark.start_exposure = dark.stop_exposure = 20;
+    Image white = grey(4.0f), whiter = grey(4.0f);
+    set(whiter, 9, 9, 5.0f);
+    EXPECT_EQ(hdrFlip(white, whiter, dark).unseen_different, 1u) << "white at every exposure";
+    EXPECT_EQ(hdrFlip(white, whiter).unseen_different, 0u);
 }
 
 TEST(Flip, SaysWhatItCannotDo) {

@@ -150,7 +150,7 @@ TEST(Figures, FlipIsToldItsOptions) {
     one.start_exposure = one.stop_exposure = 0;
     one.exposures = 1;
     EXPECT_NE(mean(defaults, false), mean(near, false));
-    EXPECT_NE(mean(defaults, true), mean(near, true));
+    EXPECT_NE(mean(defaults, true), mean(defaults, false));
     EXPECT_NE(mean(defaults, false), mean(one, false));
 }
 

@@ -116,11 +116,11 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
         tiled.levels = levels;
         const PictureFile file = partsOf(exrOf({colorPart, tiled}));
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
-        EXPECT_EQ(file.notes.lines,
+        EXPECT_EQ(file.notes.in_part,
                   Names{levels == Imf::MIPMAP_LEVELS
                             ? "part \"normals\": is mip-mapped; only its largest level is read"
                             : "part \"normals\": is rip-mapped; only its largest level is read"});
-        EXPECT_EQ(partsOf(exrOf({tiled})).notes.lines,
+        EXPECT_EQ(partsOf(exrOf({tiled})).notes.in_part,
                   Names{levels == Imf::MIPMAP_LEVELS ? "is mip-mapped; only its largest level is read"
                                                      : "is rip-mapped; only its largest level is read"});
     }

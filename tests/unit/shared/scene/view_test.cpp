@@ -248,6 +248,17 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
     }
     EXPECT_NE(viewFault("Second on", scene).find("; did you mean second one?"), std::string::npos);
     EXPECT_EQ(viewFault("third", scene).find("did you mean"), std::string::npos);
+
+    // An integer is an index, whatever has that name; other names are the cameras' or their nodes'.
+    scene.cameras[0].name = "1";
+    scene.cameras[0].node_name = "hero";
+    scene.cameras[1].name = "7";
+    EXPECT_EQ(viewOf(scene, "1").eye(), glm::dvec3(-1, 0, 0));
+    EXPECT_NE(viewFault("7", scene).find("0 \"1\" (node \"hero\"), 1 \"7\""), std::string::npos);
+    EXPECT_EQ(viewOf(scene, "hero").eye(), glm::dvec3(7, 8, 9));
+    scene.cameras[1].name = "hero";
+    EXPECT_EQ(viewFault("hero", scene),
+              "--camera \"hero\": is the name of 0 (1, hero), 1 (hero, ); give an index");
 }
 
 // By hand: for a camera frame of F:1, the frame's corners at depth d are (+-F h, +-h), where h is ymag or

@@ -213,7 +213,8 @@ TEST(GltfLoading, OneOfSeveralScenes) {
         node(file + "?scene=third");
         FAIL();
     } catch (const std::runtime_error& e) {
-        EXPECT_EQ(std::string(e.what()), file + ": scene=third: names none of the file's 3 scenes");
+        EXPECT_EQ(std::string(e.what()),
+                  file + ": scene=third: the file's scenes are 0, 1 \"second\", 2 \"0\"");
     }
     f.json.erase("scene");
     EXPECT_EQ(f.load().nodes.at(0).name, "a") << "the first where none is the default";

@@ -315,8 +315,8 @@ TEST(GltfMeshopt, DamagedStreamsAreSceneOrLine) {
     f.data.clear();
     f.json.erase("bufferViews");
     f.json.erase("accessors");
-    f.primitive()["attributes"]["POSITION"] = accessor(f, attributes(grid.positions, 12), grid.vertices(), 12,
-                                                       "ATTRIBUTES", "EXPONENTIAL", FLOAT, "VEC3");
+    f.primitive()["attributes"]["POSITION"] =
+        accessor(f, attributes(grid.positions, 12), grid.vertices(), 12, "ATTRIBUTES", "NONE", FLOAT, "VEC3");
     f.primitive()["indices"] = accessor(f, triangles(grid.indices, grid.vertices()), grid.indices.size(), 2,
                                         "TRIANGLES", "NONE", USHORT, "SCALAR");
     for (Json& view : f.json["bufferViews"]) view["buffer"] = 0;  // a .glb without a second buffer

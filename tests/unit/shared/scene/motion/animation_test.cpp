@@ -244,6 +244,9 @@ TEST(Animation, OneIsChosenByIndexOrName) {
               "--animation \"walk\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
     EXPECT_EQ(error(scene, "3"), "--animation \"3\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
     EXPECT_EQ(error(GltfFile::triangle().load(), "0"), "--animation \"0\": the scene has no animation");
+    Scene twins = scene;
+    twins.animations[1].name = "run";
+    EXPECT_EQ(error(twins, "run"), "--animation \"run\": is the name of 0 (run), 1 (run); give an index");
 }
 
 // The default camera is placed for the bounds of the playing animation at 0 s.
