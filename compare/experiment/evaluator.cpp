@@ -5,6 +5,8 @@
 #include "compare/reference/key.h"
 #include "shared/contract/debug_mode.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 
@@ -12,8 +14,9 @@ namespace diptych::experiment {
 
 namespace {
 
-// Prepared Settings kept for timing. Each owns its images.
-constexpr std::size_t mostKept = 4;
+// Bytes of prepared Frames kept for timing: four of a scene at 640x360. Frames are timed in an order and its
+// reverse, so even few are found again.
+constexpr std::uint64_t mostKept = std::uint64_t{320} << 20;
 
 // The Settings with each camera of the reference frames.
 std::vector<Settings> fromEachCamera(const Settings& settings, const ReferenceFrames& references) {
@@ -44,7 +47,6 @@ Judged SceneEvaluator::judge(const Settings& settings) {
     ErrorsOfCameras errors;
     Judged judged;
     const std::vector<Settings> seen = fromEachCamera(settings, references_);
-    prepare(seen);
     for (std::size_t camera = 0; camera < cameras(); ++camera) {
         PreparedFrames& frames = drawn(seen[camera]);
         errors.add(errorsOf(camera, frames.lit(0)));
@@ -75,41 +77,21 @@ Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
     return judged;
 }
 
-void SceneEvaluator::prepare(std::span<const Settings> seen) {
-    const auto isThere = [&](const Settings& settings) {
-        return std::ranges::find(drawn_, settings, &Drawn::settings) != drawn_.end();
-    };
-    if (std::ranges::all_of(seen, isThere)) return;
-    std::size_t others = drawn_.size();
-    std::erase_if(drawn_, [&](const Drawn& each) {
-        return std::ranges::count(seen, each.settings) == 0 && others-- > mostKept * cameras();
-    });
-    for (const Settings& settings : seen) {
-        if (isThere(settings)) continue;
-        const std::size_t pipelines = renderer_.pipelines();
-        drawn_.push_back({settings, renderer_.prepare(std::span(&settings, 1)), false});
-        drawn_.back().made_pipelines = renderer_.pipelines() > pipelines;
-    }
-}
-
-SceneEvaluator::Drawn& SceneEvaluator::prepared(const Settings& seen) {
-    return *std::ranges::find(drawn_, seen, &Drawn::settings);
-}
-
 PreparedFrames& SceneEvaluator::drawn(const Settings& seen) {
-    Drawn& each = prepared(seen);
-    if (!each.is_drawn) each.frames.draw(0);
-    each.is_drawn = true;
-    return each.frames;
-}
-
-// The first frame may differ from the next: a driver may compile the pipeline, and a clipmap renders pages
-// that later frames reuse. Renders it in these cases only.
-SceneEvaluator::Drawn& SceneEvaluator::readyForTimes(const Settings& seen) {
-    Drawn& each = prepared(seen);
-    if (each.made_pipelines || seen.shadows == Shadows::clipmap) drawn(seen);
-    each.is_drawn = true;
-    return each;
+    const auto found = std::ranges::find(drawn_, seen, &Drawn::settings);
+    if (found != drawn_.end()) {
+        drawn_.splice(drawn_.end(), drawn_, found);
+        return drawn_.back().frames;
+    }
+    PreparedFrames frames = renderer_.prepare(std::span(&seen, 1));
+    const FrameBytes& bytes = frames.described(0).bytes;
+    drawn_.push_back({seen, std::move(frames), bytes.images + bytes.buffers});
+    std::uint64_t kept = 0;
+    for (const Drawn& each : drawn_) kept += each.bytes;
+    for (; drawn_.size() > 1 && kept > mostKept; drawn_.pop_front()) kept -= drawn_.front().bytes;
+    drawn_.back().frames.draw(0);
+    malloc_trim(0);  // a driver that compiles on the CPU leaves tens of megabytes for each pipeline
+    return drawn_.back().frames;
 }
 
 std::vector<double> SceneEvaluator::time(std::span<const Settings> frames,
@@ -117,9 +99,8 @@ std::vector<double> SceneEvaluator::time(std::span<const Settings> frames,
     std::vector<Settings> seen;
     for (const Settings& settings : frames)
         for (Settings& each : fromEachCamera(settings, references_)) seen.push_back(std::move(each));
-    prepare(seen);
-    for (const Settings& each : seen) readyForTimes(each);
-    prepared(seen.front()).frames.warmUp(std::array{std::size_t{0}});
+    for (const Settings& each : seen) drawn(each);
+    drawn(seen.front()).warmUp(std::array{std::size_t{0}});
     std::vector<double> times;
     for (const std::size_t i : order) {
         double ms = 0;
@@ -132,8 +113,7 @@ std::vector<double> SceneEvaluator::time(std::span<const Settings> frames,
 
 std::vector<PassTime> SceneEvaluator::profile(const Settings& settings) {
     const Settings seen = fromEachCamera(settings, references_).front();
-    prepare(std::span(&seen, 1));
-    PreparedFrames& of = readyForTimes(seen).frames;
+    PreparedFrames& of = drawn(seen);
     of.warmUp(std::array{std::size_t{0}});
     return of.profile(0);
 }

@@ -64,21 +64,17 @@ private:
     struct Drawn {
         Settings settings;
         PreparedFrames frames;
-        bool made_pipelines, is_drawn = false;
+        std::uint64_t bytes;
     };
-    // Allocates frames of these Settings, cameras included, unless they exist. Judged Settings can
-    // then be timed without a new allocation. Keeps the latest mostKept others per camera.
-    void prepare(std::span<const Settings> seen);
-    Drawn& prepared(const Settings& seen);
-    PreparedFrames& drawn(const Settings& seen);  // prepared before, rendered at least once
-    // Prepared before. The next frame, which the caller renders, costs the same as later ones.
-    Drawn& readyForTimes(const Settings& seen);
+    // Frames of these Settings, camera included, rendered at least once: the first frame may differ from the
+    // next. Keeps others for later, the latest up to mostKept bytes.
+    PreparedFrames& drawn(const Settings& seen);
 
     Renderer& renderer_;
     const ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
-    std::list<Drawn> drawn_;
+    std::list<Drawn> drawn_;  // by latest use, the latest last
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
     std::map<std::pair<std::size_t, std::uint64_t>, FrameErrors> judged_;
 };

@@ -12,7 +12,9 @@
 namespace diptych {
 
 namespace {
-constexpr VkDeviceSize blockSize = VkDeviceSize{64} << 20;  // larger requests get their own block
+// The first block of a kind, and the largest that is shared. Each is as large as all before it, and holds
+// four of what it is for. Larger ones would keep much for little.
+constexpr VkDeviceSize firstBlock = VkDeviceSize{1} << 20, largestBlock = VkDeviceSize{16} << 20;
 
 VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
@@ -23,7 +25,7 @@ struct Memory::Block {
     OwnedMemory memory;
     VkDeviceSize size = 0;
     std::uint32_t type = 0;
-    bool image = false;
+    bool image = false, shared = false;  // else of one allocation
     void* mapped = nullptr;
     std::map<VkDeviceSize, VkDeviceSize> free;  // offset -> size, never adjacent
 
@@ -123,7 +125,9 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
                 if (blocks_[i] && blocks_[i]->type == type && blocks_[i]->image == image)
                     if (Allocation found = take(i, needs); found.size() > 0) return found;
             if ((leftOf(type) >= needs.size) != room) continue;
-            const VkDeviceSize whole = leftOf(type) >= blockSize ? blockSize : needs.size;
+            const VkDeviceSize grown = std::clamp(std::max(sharedBytes(type, image), 4 * needs.size),
+                                                  firstBlock, largestBlock),
+                               whole = leftOf(type) >= grown ? grown : needs.size;
             if (const auto block = addBlock(type, std::max(whole, needs.size), needs.size, image))
                 return take(*block, needs);
         }
@@ -160,6 +164,7 @@ std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize mos
         block->size = bytes;
         block->type = type;
         block->image = image;
+        block->shared = bytes > least;
         block->free[0] = bytes;
         if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
             checkResult(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");
@@ -186,10 +191,16 @@ Allocation Memory::take(std::size_t index, const VkMemoryRequirements& needs) {
 void Memory::release(std::size_t index, VkDeviceSize offset, VkDeviceSize size) {
     Block& block = *blocks_[index];
     block.give(offset, size);
-    // Blocks of non-standard size are of little use to other allocations, so they are freed. The indices
-    // of other blocks must not change.
-    if (block.size != blockSize && block.free.size() == 1 && block.free.begin()->second == block.size)
-        blocks_[index].reset();
+    const bool empty = block.free.size() == 1 && block.free.begin()->second == block.size;
+    // The last one waits for the next allocation. The indices of other blocks must not change.
+    if (empty && (!block.shared || sharedBytes(block.type, block.image) > block.size)) blocks_[index].reset();
+}
+
+VkDeviceSize Memory::sharedBytes(std::uint32_t type, bool image) const {
+    VkDeviceSize bytes = 0;
+    for (const auto& block : blocks_)
+        if (block && block->shared && block->type == type && block->image == image) bytes += block->size;
+    return bytes;
 }
 
 VkDeviceSize Memory::allocated() const {

@@ -78,6 +78,7 @@ private:
     struct Block;
     Allocation take(std::size_t block, const VkMemoryRequirements& needs);
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
+    VkDeviceSize sharedBytes(std::uint32_t type, bool image) const;
     // Index of a new block of `most` bytes, or else of `least`; nothing if the type's heap is full.
     std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
                                         bool image);

@@ -119,6 +119,24 @@ TEST(MemoryTypes, ABlockIsAsSmallAsItMustBe) {
     EXPECT_EQ(played.memory().allocated(), 30 * mebibyte);
 }
 
+// Small for little, and what is freed goes back but for one block.
+TEST(MemoryTypes, BlocksGrowAndAreFreed) {
+    PlayedMemory played({1000 * mebibyte, 0, 0});
+    {
+        const Allocation small = played.take(1000);
+        EXPECT_EQ(played.memory().allocated(), mebibyte);
+        const Allocation large = played.take(300 * mebibyte);
+        std::vector<Allocation> many;
+        for (int i = 0; i < 64; ++i) many.push_back(played.take(mebibyte));
+        EXPECT_LE(played.memory().allocated(), (300 + 64 + 16) * mebibyte);
+        EXPECT_LE(played.memory().blocks(), 10u);
+        many.clear();
+        EXPECT_EQ(played.memory().blocks(), 2u) << "those of what is left";
+    }
+    EXPECT_LE(played.memory().allocated(), 16 * mebibyte);
+    EXPECT_EQ(played.memory().blocks(), 1u);
+}
+
 // A heap that reports little memory left is tried last, although it might provide more than it reports.
 TEST(MemoryTypes, HeapsSayWhatTheyHaveLeft) {
     PlayedMemory played({1000 * mebibyte, 1000 * mebibyte, 1000 * mebibyte},

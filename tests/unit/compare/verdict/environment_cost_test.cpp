@@ -3,9 +3,12 @@
 // environment methods.
 #include "compare/verdict/environment_cost.h"
 
+#include "compare/verdict/channel_diff.h"
+#include "compare/verdict/granted.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,6 +87,31 @@ TEST(EnvironmentCost, IsTakenFromThePixelsError) {
         ASSERT_TRUE(errors);
         EXPECT_NEAR(errors->at(0), excess, 1e-6) << value;
     }
+}
+
+TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
+    JudgedPair p;
+    p.reference.environment_costs.data = {1, 0, 0, 3, 0, 0, 0, 0, 0};
+    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
+    p.reference.channels[lit.number] = Image(1, 1, 3, 10.0f);
+    p.path.channels[lit.number] = Image(1, 1, 3, 12.0f);
+    const std::vector<Granted> granted = grantedIn(lit, p.pair());
+    EXPECT_EQ(grantedText(lit, granted),
+              "lit is off by 20 % in the mean, granted to split IBL (p99.9 15 %): --ibl sampled; diffuse IBL "
+              "(p99.9 5 %): --ibl-diffuse map");
+    const auto judged = [&](float value, const char* most) {
+        p.path.channels[lit.number] = Image(1, 1, 3, value);
+        const std::string text =
+            fmt::format(R"({{"rules": [{{"channel": "lit", "granted": {}, "because": "x"}}]}})", most);
+        const std::vector<Rule> rules = rulesFromJson(text, "t.json");
+        return diffChannel(lit, p.pair(), rules, false);
+    };
+    EXPECT_EQ(judged(12, "0.25").verdict, Verdict::pass);
+    EXPECT_EQ(judged(12, "0.15").reason, "granted 0.2 exceeds 0.15; 100 % of the pixels differ");
+    EXPECT_NEAR(grantedMean(judged(20, "1").granted), 0.4, 1e-6) << "what tolerances take of an error of 1";
+    EXPECT_EQ(judged(20, "1").verdict, Verdict::fail) << "the rest of it";
+    p.reference.environment_costs = {};
+    EXPECT_TRUE(grantedIn(lit, p.pair()).empty());
 }
 
 }  // namespace
