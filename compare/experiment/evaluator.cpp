@@ -14,9 +14,11 @@ namespace diptych::experiment {
 
 namespace {
 
-// Bytes of prepared Frames kept for timing: four of a scene at 640x360. Frames are timed in an order and its
-// reverse, so even few are found again.
-constexpr std::uint64_t mostKept = std::uint64_t{320} << 20;
+// Bytes of prepared Frames kept for timing: some four at 640x360. The others are prepared again; as Frames
+// are timed in an order and its reverse, most are found.
+constexpr std::uint64_t mostKept = std::uint64_t{352} << 20;
+// Bytes of freed host memory that are kept for the next pipelines (compare/render/MEASURED.md).
+constexpr std::size_t mostFreed = std::size_t{128} << 20;
 
 // The Settings with each camera of the reference frames.
 std::vector<Settings> fromEachCamera(const Settings& settings, const ReferenceFrames& references) {
@@ -83,30 +85,34 @@ PreparedFrames& SceneEvaluator::drawn(const Settings& seen) {
         drawn_.splice(drawn_.end(), drawn_, found);
         return drawn_.back().frames;
     }
+    // Expects it to be as large as the one before.
+    keep(mostKept - std::min(mostKept, drawn_.empty() ? 0 : drawn_.back().bytes));
     PreparedFrames frames = renderer_.prepare(std::span(&seen, 1));
     const FrameBytes& bytes = frames.described(0).bytes;
     drawn_.push_back({seen, std::move(frames), bytes.images + bytes.buffers});
-    std::uint64_t kept = 0;
-    for (const Drawn& each : drawn_) kept += each.bytes;
-    for (; drawn_.size() > 1 && kept > mostKept; drawn_.pop_front()) kept -= drawn_.front().bytes;
+    keep(mostKept);
     drawn_.back().frames.draw(0);
-    malloc_trim(0);  // a driver that compiles on the CPU leaves tens of megabytes for each pipeline
+    if (mallinfo2().fordblks > mostFreed) malloc_trim(0);
     return drawn_.back().frames;
 }
 
+void SceneEvaluator::keep(std::uint64_t most) {
+    std::uint64_t kept = 0;
+    for (const Drawn& each : drawn_) kept += each.bytes;
+    for (; drawn_.size() > 1 && kept > most; drawn_.pop_front()) kept -= drawn_.front().bytes;
+}
+
+// One camera after the other, because their Frames may not fit together.
 std::vector<double> SceneEvaluator::time(std::span<const Settings> frames,
                                          std::span<const std::size_t> order) {
-    std::vector<Settings> seen;
-    for (const Settings& settings : frames)
-        for (Settings& each : fromEachCamera(settings, references_)) seen.push_back(std::move(each));
-    for (const Settings& each : seen) drawn(each);
-    drawn(seen.front()).warmUp(std::array{std::size_t{0}});
-    std::vector<double> times;
-    for (const std::size_t i : order) {
-        double ms = 0;
-        for (std::size_t camera = 0; camera < cameras(); ++camera)
-            ms += drawn(seen[i * cameras() + camera]).draw(0);
-        times.push_back(ms / static_cast<double>(cameras()));
+    std::vector<double> times(order.size());
+    for (const Frame& reference : references_.frames) {
+        std::vector<Settings> seen;
+        for (const Settings& settings : frames) seen.push_back(seenFrom(reference, settings));
+        for (const Settings& each : seen) drawn(each);
+        drawn(seen.front()).warmUp(std::array{std::size_t{0}});
+        for (std::size_t i = 0; i < order.size(); ++i)
+            times[i] += drawn(seen[order[i]]).draw(0) / static_cast<double>(cameras());
     }
     return times;
 }

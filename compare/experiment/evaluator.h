@@ -69,6 +69,7 @@ private:
     // Frames of these Settings, camera included, rendered at least once: the first frame may differ from the
     // next. Keeps others for later, the latest up to mostKept bytes.
     PreparedFrames& drawn(const Settings& seen);
+    void keep(std::uint64_t most);  // the latest up to that many bytes, at least one
 
     Renderer& renderer_;
     const ReferenceFrames& references_;
