@@ -267,7 +267,7 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
         const Descriptor handle(handleOf(supervisor));
         const int failed = handle.number() >= 0 ? 0 : errno;
         ended.timed_out = failed == 0 && !waitFor(handle.number(), output, error, seconds, ended);
-        if (ended.timed_out || failed != 0) endSupervised(lifeline.ours->number());
+        if (ended.timed_out || failed != 0) endSupervised(lifeline.ours->number(), supervisor);
         while (::waitpid(supervisor, nullptr, 0) < 0 && errno == EINTR) {
         }
         check(failed, "pidfd_open");

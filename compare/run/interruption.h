@@ -27,7 +27,8 @@ public:
 private:
     const int supervisor_;
 };
-void endSupervised(int lifeline);
+// Ends them now. Kills the supervisor and all processes under it if it has not ended after a second.
+void endSupervised(int lifeline, int supervisor);
 
 // Ends the program by `signal` with its default action.
 [[noreturn]] void dieOf(int signal);

@@ -256,13 +256,15 @@ pid_t processIn(const fs::path& file) {
 }
 
 TEST(External, ATimeoutEndsAllThatItStarted) {
-    const Folder folder;
-    writeRenderer(folder, "fake", {"flee", (folder / "pid").string()}, {{"timeout", 1.5}});
-    const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
-    EXPECT_TRUE(ran.failedOver("was killed after its timeout of 1.5 s"));
-    const pid_t child = processIn(folder / "pid");
-    ASSERT_GT(child, 0);
-    EXPECT_FALSE(isRunning(child)) << "nor has it fled into a session of its own";
+    for (const char* mode : {"flee", "stop"}) {
+        const Folder folder;
+        writeRenderer(folder, "fake", {mode, (folder / "pid").string()}, {{"timeout", 1.5}});
+        const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
+        EXPECT_TRUE(ran.failedOver("was killed after its timeout of 1.5 s"));
+        const pid_t child = processIn(folder / "pid");
+        ASSERT_GT(child, 0);
+        EXPECT_TRUE(soon([&] { return !isRunning(child); })) << mode;
+    }
 }
 
 // A renderer that exits normally leaves no process behind either.
@@ -290,12 +292,16 @@ std::vector<std::string> jobsIn(const fs::path& folder) {
 // However this program ends; after SIGKILL the next run, with another renderer, removes the job.
 TEST(External, AnyEndEndsAllThatItStarted) {
     const Folder folder;
-    writeRenderer(folder, "flee", {"flee", (folder / "pid").string()});
     writeRenderer(folder, "fails", {"exit"});
     fs::create_directory(folder / "tmp");
     const EnvironmentVariables there({{"TMPDIR", (folder / "tmp").string()}});
     const mode_t before = ::umask(0);
-    for (const int signal : {SIGTERM, SIGQUIT, SIGKILL}) {
+    for (const auto& [mode, signal] : {std::pair{"flee", SIGTERM},
+                                       {"flee", SIGQUIT},
+                                       {"stop", SIGTERM},
+                                       {"stop", SIGKILL},
+                                       {"flee", SIGKILL}}) {
+        writeRenderer(folder, "flee", {mode, (folder / "pid").string()});
         fs::remove(folder / "pid");
         Running tool(folder, {"compare", "builtin:points", "--size", "32x18", "--runs", "0", "-q",
                               "--channels", "lit", "--renderer", "fake=flee.json"});
@@ -310,6 +316,8 @@ TEST(External, AnyEndEndsAllThatItStarted) {
         EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
         EXPECT_TRUE(soon([&] { return !isRunning(child); })) << signal;
         EXPECT_EQ(jobsIn(folder / "tmp").size(), signal == SIGKILL ? 1u : 0u) << signal;
+        for (const std::string& job : jobsIn(folder / "tmp"))
+            if (mode == std::string("stop")) fs::remove_all(folder / "tmp" / job);
     }
     ::umask(before);
     EXPECT_TRUE(runTool(folder, compare_points + "--renderer other=fails.json").failedOver("no licence"));

@@ -12,8 +12,8 @@
 namespace diptych {
 
 // Modes: picture (all pixels 0.25, 0.5, 0.75), wide, nan, none, exit, crash, hang FILE (a child writes its
-// process id there), flee FILE (hang, but the child has a session of its own), link EXR, old EXR, chatter,
-// keep FOLDER (stores its inputs), copy EXR.
+// process id there), flee FILE (hang, but the child has a session of its own), stop FILE (hang, but stops its
+// parent), link EXR, old EXR, chatter, keep FOLDER (stores its inputs), copy EXR.
 inline const std::string fake_renderer = R"py(
 import json, os, shutil, signal, struct, subprocess, sys, time
 
@@ -49,7 +49,9 @@ if mode == 'exit':
     sys.exit(3)
 if mode == 'crash':
     os.kill(os.getpid(), signal.SIGSEGV)
-if mode in ('hang', 'flee'):
+if mode == 'stop':
+    os.kill(os.getppid(), signal.SIGSTOP)
+if mode in ('hang', 'flee', 'stop'):
     script = 'echo $$ > "$1.part"; mv "$1.part" "$1"; exec sleep 600'
     subprocess.Popen((['setsid', '-f'] if mode == 'flee' else []) + ['sh', '-c', script, 'sh', sys.argv[2]])
     time.sleep(600)
