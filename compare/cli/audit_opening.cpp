@@ -3,6 +3,7 @@
 
 #include "compare/cli/commands.h"
 #include "compare/render/host_memory.h"
+#include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 
 #include <cstdio>
@@ -34,7 +35,7 @@ void AuditOpening::print(const std::string& words) {
     if (options_.json || options_.quiet || std::ferror(stdout)) return;
     progress_.wipe();
     printColored(options_, words);
-    std::fflush(stdout);
+    flushText();
 }
 
 }  // namespace diptych::cli

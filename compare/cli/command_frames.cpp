@@ -142,7 +142,7 @@ private:
         if (number == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)
             if (said_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);
-        std::fflush(stdout);
+        flushText();
     }
 
     const Options& options_;

@@ -151,7 +151,7 @@ void printLive(const Options& options, Progress& progress, const std::string& te
     if (options.json || options.quiet || std::ferror(stdout)) return;
     progress.wipe();
     printText(text);
-    std::fflush(stdout);
+    flushText();
 }
 
 std::shared_ptr<const Trends> sinceOf(const Options& options, const Report& report,

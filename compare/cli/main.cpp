@@ -8,14 +8,11 @@
 
 #include <fcntl.h>
 #include <malloc.h>
-#include <poll.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <new>
@@ -32,7 +29,7 @@ int fail(const std::string& what, bool json) {
     if (json) {
         const nlohmann::ordered_json object{{"schema", 1}, {"error", diptych::messageLine(what)}};
         diptych::printOut("{}\n", diptych::jsonText(object));
-        std::fflush(stdout);
+        diptych::flushText();
     }
     return 2;
 }
@@ -77,13 +74,8 @@ int main(int argc, char** argv) {
         std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit (ulimit -f) becomes a write error
         diptych::watchInterruption();
         const int code = run(diptych::cli::parseCommandLine({argv + std::min(argc, 1), argv + argc}));
-        errno = 0;
-        if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-            // errno is lost if an earlier write failed: test the pipe.
-            pollfd reader{STDOUT_FILENO, POLLOUT, 0};
-            if (errno == 0 && poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0) endOfPipe();
-            throw std::system_error(errno, std::generic_category(), "stdout: cannot write");
-        }
+        if (const int error = diptych::flushText(); error != 0)
+            throw std::system_error(error, std::generic_category(), "stdout: cannot write");
         return code;
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::broken_pipe) endOfPipe();

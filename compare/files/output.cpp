@@ -3,15 +3,18 @@
 
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
-#include "shared/image/temporary.h"
+#include "shared/image/atomic_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 
 namespace diptych {
 namespace {
@@ -24,6 +27,33 @@ bool isEmpty(const fs::path& folder) {
     return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
         return isTemporaryOf(name, entry.path().filename().string());
     });
+}
+
+[[noreturn]] void fail(const fs::path& out, const std::string& why) {
+    throw std::runtime_error(fmt::format("-o {}: {}", out.string(), why));
+}
+
+[[noreturn]] void failLinks(const fs::path& out, const std::error_code& error) {
+    fail(out, error.value() == ELOOP ? "its links lead in a circle; give another name" : error.message());
+}
+
+// Throws if it is certain that nothing can be written there, also with --force.
+void checkWritable(const Output& output) {
+    std::error_code error;
+    const fs::file_status there = fs::status(output.path, error);
+    if (there.type() == fs::file_type::none) failLinks(output.path, error);
+    const bool folder = output.kind == OutputKind::folder;
+    if (fs::is_other(there))
+        fail(output.path, "is a device, pipe or socket; give the name of a file or folder");
+    if (folder && fs::is_regular_file(there))
+        fail(output.path, "is a file, but a folder is written there; give another name");
+    fs::path above = fs::absolute(output.path, error);
+    if (!folder || !fs::is_directory(there)) above = above.parent_path();
+    while (!fs::exists(above, error) && above.has_relative_path()) above = above.parent_path();
+    const int why = !fs::is_directory(above, error)                                      ? ENOTDIR
+                    : ::faccessat(AT_FDCWD, above.c_str(), W_OK | X_OK, AT_EACCESS) != 0 ? errno
+                                                                                         : 0;
+    if (why != 0) throw std::runtime_error(writingFailed(output.path, why));
 }
 
 }  // namespace
@@ -44,8 +74,11 @@ Output outputOf(const fs::path& out, bool folders_alone) {
 }
 
 fs::path linkedFile(const fs::path& out) {
-    std::error_code ignored;
-    return fs::is_symlink(fs::symlink_status(out, ignored)) ? fs::weakly_canonical(out, ignored) : out;
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(out, error))) return out;
+    fs::path target = fs::weakly_canonical(out, error);
+    if (error) failLinks(out, error);
+    return target;
 }
 
 fs::path besideOutput(const fs::path& out, const std::string& what) {
@@ -56,6 +89,7 @@ fs::path besideOutput(const fs::path& out, const std::string& what) {
 }
 
 void checkReplaceable(const Output& output, const std::string& manifest, bool force) {
+    checkWritable(output);
     std::error_code error;
     if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishOutput(output.path);
     const fs::file_status there = fs::status(output.path, error);
@@ -64,9 +98,7 @@ void checkReplaceable(const Output& output, const std::string& manifest, bool fo
         output.kind == OutputKind::folder
             ? fs::is_directory(there) && (isEmpty(output.path) || isOurManifest(output.path / manifest))
             : fs::is_regular_file(there) && isOurPicture(output.path);
-    if (!ours)
-        throw std::runtime_error(fmt::format(
-            "-o {}: exists and was not written by diptych; --force replaces it", output.path.string()));
+    if (!ours) fail(output.path, "exists and was not written by diptych; --force replaces it");
 }
 
 }  // namespace diptych

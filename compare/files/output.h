@@ -21,15 +21,15 @@ struct Output {
 Output outputOf(const std::filesystem::path& out, bool folders_alone = false);
 
 // The target if `out` is a link, else `out`. A link that the user names is kept; links inside a folder are
-// replaced (AtomicFile).
+// replaced (AtomicFile). Throws std::runtime_error naming -o if links lead in a circle.
 std::filesystem::path linkedFile(const std::filesystem::path& out);
 
 // ".NAME.what" beside an output, for finished parts of an unfinished output.
 std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
 
-// Throws std::runtime_error naming -o if the output exists and must not be replaced. Without `force` only
-// these may be: an EXR or PNG of ours, an empty folder, and a folder with our `manifest`. Foreign files in
-// such a folder stay. First finishes moves of a killed program.
+// Throws std::runtime_error naming the output if it cannot be written, or exists and must not be replaced.
+// Without `force` only these may be: an EXR or PNG of ours, an empty folder, and a folder with our
+// `manifest`. Foreign files in such a folder stay. First finishes moves of a killed program.
 void checkReplaceable(const Output& output, const std::string& manifest, bool force);
 
 }  // namespace diptych

@@ -5,6 +5,8 @@
 #include "shared/text/one_line.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -12,10 +14,26 @@
 
 namespace diptych {
 
+namespace {
+
+std::atomic<int> failed{0};  // errno of the first write on stdout that failed
+
+void noteFailure() {
+    int none = 0;
+    failed.compare_exchange_strong(none, errno != 0 ? errno : EIO);
+}
+
+}  // namespace
+
 void printText(std::string_view text, ColorChoice color) {
     const std::string shown = shownText(text);
     const std::string out = hasColor(color, stdout) ? colored(shown) : shown;
-    std::fwrite(out.data(), 1, out.size(), stdout);
+    if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size()) noteFailure();
+}
+
+int flushText() {
+    if (std::fflush(stdout) != 0) noteFailure();
+    return failed;
 }
 
 void printFile(InputFile& file) {

@@ -17,6 +17,9 @@ class InputFile;
 // Prints on stdout; adds no newline.
 void printText(std::string_view text, ColorChoice color = ColorChoice::off);
 
+// Flushes stdout. Returns 0, or the errno of the first write that failed; later ones need not fail.
+int flushText();
+
 // Prints a whole file, in pieces of about 64 KiB.
 void printFile(InputFile& file);
 

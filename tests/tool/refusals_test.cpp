@@ -3,6 +3,7 @@
 // exposure.
 #include "tests/tool/run.h"
 
+#include <sys/stat.h>
 #include <nlohmann/json.hpp>
 
 namespace diptych {
@@ -43,6 +44,39 @@ TEST(Refusals, AnErrorIsJsonWhereJsonIsAskedFor) {
         EXPECT_EQ(ran.code, 2);
         const Json json = Json::parse(ran.out);
         EXPECT_EQ("diptych: " + json["error"].get<std::string>() + "\n", ran.err);
+    }
+}
+
+TEST(Refusals, AnOutputThatCannotBeWrittenIsSaidBeforeRendering) {
+    const Folder folder;
+    folder.write("file", "");
+    fs::create_symlink("loop", folder / "loop");
+    fs::create_symlink("loop.exr", folder / "loop.exr");
+    ASSERT_EQ(::mkfifo((folder / "pipe.png").c_str(), 0600), 0);
+    // Before rendering: a missing scene would be an error, too.
+    for (const auto& [out, why] :
+         {std::pair{"/dev/stdout | cat", "-o /dev/stdout: is a device, pipe or socket"},
+          {"/dev/stdout > file", "-o /dev/stdout: is a file, but a folder is written there"},
+          {"loop", "-o loop: its links lead in a circle"},
+          {"loop/inside", "loop/inside: "},
+          {"loop.exr", "-o loop.exr: its links lead in a circle"},
+          {"pipe.png", "-o pipe.png: is a device, pipe or socket"},
+          {"file/inside.png", "file/inside.png: Not a directory"}})
+        for (const char* force : {"", "--force "})
+            EXPECT_NE(runTool(folder, std::string("render none.gltf ") + force + "-o " + out)
+                          .err.find(std::string("diptych: ") + why),
+                      std::string::npos)
+                << out;
+}
+
+TEST(Refusals, WhyStdoutCannotBeWrittenIsSaid) {
+    const Folder folder;
+    // The manual is written in several pieces: errno of the first failure counts.
+    for (const char* command : {"devices", "--manual"}) {
+        const Ran ran = runTool(folder, std::string(command) + " >/dev/full");
+        EXPECT_EQ(ran.code, 2) << command;
+        EXPECT_NE(ran.err.find("stdout: cannot write: No space left on device"), std::string::npos)
+            << command << ran.err;
     }
 }
 
