@@ -7,9 +7,9 @@
 #include "compare/audit/words.h"
 #include "compare/audit/write.h"
 #include "compare/experiment/kept.h"
+#include "shared/image/temporary.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -18,27 +18,6 @@
 #include <system_error>
 
 namespace diptych::audit {
-
-namespace {
-
-// Temporary folder, removed by the destructor.
-struct TrialFolder {
-    std::filesystem::path path;
-
-    TrialFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "diptych-audit-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), name);
-        path = name;
-    }
-    ~TrialFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    TrialFolder(const TrialFolder&) = delete;
-    TrialFolder& operator=(const TrialFolder&) = delete;
-};
-
-}  // namespace
 
 Auditor::Auditor(const AuditQuestion& question, Audited audited, const Subject& subject, Device& device,
                  std::function<void(const std::string&)> onStep)
@@ -112,9 +91,11 @@ Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, d
 }
 
 void Auditor::reduceFailures() {
-    const TrialFolder folder;
-    const Trial trial{folder.path, question_.words, [&](const std::vector<std::string>& words) {
-                          return question_.fails(words, folder.path);
+    const std::filesystem::path root = std::filesystem::absolute(std::filesystem::temp_directory_path());
+    Temporary folder(root, root / "diptych-audit");
+    if (!folder.createFolder(true)) throw std::system_error(errno, std::generic_category(), root);
+    const Trial trial{folder.path(), question_.words, [&](const std::vector<std::string>& words) {
+                          return question_.fails(words, folder.path());
                       }};
     addFailures(audit_.quantities.back(), subject_, measurer_, trial, question_.folder, audit_.scenes);
 }

@@ -6,11 +6,11 @@
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "compare/run/command_text.h"
+#include "shared/image/atomic_file.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <span>
 #include <utility>
 
@@ -89,8 +89,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
                                 counted(reduced->triangles, "triangle"), counted(reduced->lights, "light"),
                                 small.size.width, small.size.height, page::number(reduced->shown.error));
     const Settings asked = series.applied(small);
-    for (const std::string& file : {failure.scene, lights})
-        std::ofstream(trial.folder / file, std::ios::binary) << scenes[file];
+    for (const std::string& file : {failure.scene, lights}) writeFile(trial.folder / file, scenes[file]);
     for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
         if (failure.command.empty() &&
             trial.fails(comparisonWords(failure, lights, asked, mode, trial.words, trial.folder)))

@@ -17,9 +17,11 @@
 #include "shared/text/json.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
+#include "shared/text/open_folder.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -50,6 +52,14 @@ void showMany(const Options& options, const fs::path& folder, const shards::Mani
         printOut("{}: {}\n", counted(done.size(), "scene"), (folder / "index.html").string());
 }
 
+// Scenes' outputs are written below it without following links.
+OpenFolder heldOutput(const fs::path& folder) {
+    OpenFolder open = OpenFolder::at(folder);
+    if (!open.isOpen()) throw std::runtime_error(writingFailed(folder, errno));
+    open.hold();
+    return open;
+}
+
 int finish(const Options& options, const fs::path& folder, const shards::Manifest& manifest,
            const std::vector<const shards::Item*>& done) {
     showMany(options, folder, manifest, done);
@@ -66,6 +76,7 @@ int tradeoffMany(const Options& options, const fs::path& folder,
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
     if (!isOurManifest(folder / tradeoff::tradeoffsManifest)) writePage(options, folder, manifest, {});
+    const OpenFolder scenes = heldOutput(folder);
     for (const shards::Item* item : items.mine) {
         const std::string name = shards::partOf(*item);
         if (kept.find(name) == shards::stampOf(item->scene) &&
@@ -103,6 +114,7 @@ int mergeTradeoffs(const Options& options) {
         shards::choose({options.scenes.begin(), options.scenes.end()}, tradeoff::tradeoffsManifest);
     std::vector<const shards::Item*> done;
     writePage(options, folder, chosen.manifest, {});
+    const OpenFolder scenes = heldOutput(folder);
     for (const shards::Item& item : chosen.manifest.items) {
         if (const std::optional<SceneError> error = chosen.errorOf(item)) {
             chosen.manifest.errors.push_back(*error);

@@ -155,12 +155,12 @@ Frame readPicture(const fs::path& file, const fs::path& after, const InputCorrec
 
 Attempt drawExternally(const Renderer& renderer, const Scene& scene, const SceneView& view,
                        const Settings& settings) {
-    const fs::path root = fs::temp_directory_path();
+    const fs::path root = fs::absolute(fs::temp_directory_path());
     Temporary folder(root, root / "diptych-job");
     if (!folder.createFolder(true))
         throw std::runtime_error(fmt::format("{}: {}; set TMPDIR to another folder", oneLine(root.string()),
                                              std::strerror(errno)));
-    const Job job = writeJob(fs::absolute(folder.path()), scene, view, settings, renderer);
+    const Job job = writeJob(folder.path(), scene, view, settings, renderer);
     Attempt attempt;
     Ended ended;
     try {

@@ -8,7 +8,6 @@
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -26,36 +25,27 @@ std::string pageOfJson(const Json& json) {
     return jsonText(json) + "\n";
 }
 
-Json readJson(const fs::path& file) {
-    try {
-        Json json = orderedJsonIn(file);
-        return json.is_object() ? json : Json();
-    } catch (const std::runtime_error&) {  // missing or incomplete
-        return {};
-    }
-}
-
-OpenFolder made(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);  // also through a link, which OpenFolder rejects
-    if (error) throw std::runtime_error(writingFailed(folder, error.value()));
-    return OpenFolder(folder);
+bool isOurs(const Json& key) {
+    return key.is_object() && key.contains("software") && key["software"] == softwareName &&
+           key.contains("schema") && key["schema"] == 1;
 }
 
 }  // namespace
 
 CheckpointFolder::CheckpointFolder(const fs::path& out, const std::string& what, const Json& key)
-    : folder_(made(besideOutput(out, what))) {
+    : folder_(OpenFolder::own(besideOutput(out, what))) {
     if (!folder_.lock())
         throw std::runtime_error(fmt::format(
             "{}: another diptych writes to the same -o; wait for it, or choose another -o", path().string()));
-    folder_.removeLinks();  // planted links cannot redirect reads and writes
-    const Json there = readJson(path() / keyFile);
-    if (there == key) return;
+    // Nothing is changed before the folder is known to be ours.
+    const Json there = partIn(keyFile);
     const bool holdsOthers = std::ranges::any_of(
         folder_.names(), [](const std::string& name) { return !isTemporaryOf(keyFile, name); });
-    if (holdsOthers && !isOurManifest(path() / keyFile))
+    if (holdsOthers && !isOurs(there))
         throw std::runtime_error(path().string() + ": exists and was not written by diptych; move it away");
+    folder_.hold();
+    folder_.removeLinks();  // planted links must not lose results
+    if (there == key) return;
     renewed_ = holdsOthers;
     clear();
     writeFile(path() / keyFile, pageOfJson(key));
@@ -68,8 +58,17 @@ void CheckpointFolder::clear() {
     folder_.removeFile(keyFile);
 }
 
+Json CheckpointFolder::partIn(const std::string& file) const {
+    try {
+        Json json = parseOrderedJson(folder_.read(file, json_bytes));
+        return json.is_object() ? json : Json();
+    } catch (const std::runtime_error&) {  // missing or incomplete
+        return {};
+    }
+}
+
 Json CheckpointFolder::find(const std::string& name) const {
-    return readJson(path() / (name + ".json"));
+    return partIn(name + ".json");
 }
 
 void CheckpointFolder::keep(const std::string& name, const Json& part) const {
@@ -78,7 +77,8 @@ void CheckpointFolder::keep(const std::string& name, const Json& part) const {
 
 void CheckpointFolder::remove() {
     clear();
-    ::rmdir(path().c_str());
+    // Another program that was given the name has files in it.
+    OpenFolder::at(path().parent_path()).removeFolder(path().filename());
 }
 
 Json fileStamp(const fs::path& file) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/files/open_folder.h"
+#include "shared/text/open_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,11 +11,12 @@
 namespace diptych {
 
 // Checkpoint of a long command: finished parts in ".NAME.what" beside its output NAME. The next run can
-// resume however this one ends. Only one program at a time can open it.
+// resume however this one ends. Only one program at a time can open it. All paths below it are held
+// (OpenFolder::hold).
 class CheckpointFolder {
 public:
     // `key`: all inputs of the parts. Removes parts of another key. Throws std::runtime_error naming the
-    // folder if it cannot be created, is a link, is not ours, or is in use.
+    // folder, and changes nothing in it, if it cannot be created, is a link, is not ours alone, or is in use.
     CheckpointFolder(const std::filesystem::path& out, const std::string& what,
                      const nlohmann::ordered_json& key);
 
@@ -30,6 +31,7 @@ public:
 
 private:
     void clear();
+    nlohmann::ordered_json partIn(const std::string& file) const;
 
     OpenFolder folder_;
     bool renewed_ = false;

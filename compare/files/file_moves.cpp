@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/file_moves.h"
 
-#include "compare/files/open_folder.h"
 #include "compare/files/our_files.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
+#include "shared/text/open_folder.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -136,13 +137,14 @@ void removeBegun(const OpenFolder& place, const OpenFolder& begun) {
 void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) {
     writeFile(made.path() / listName,
               nlohmann::json{{"files", moves.files}, {"earlier", moves.earlier}}.dump());
-    const OpenFolder place(folder), begun(made.path());
+    const OpenFolder place = OpenFolder::at(folder);
+    const OpenFolder& begun = made.contents();
     const std::string temporary = made.path().filename();
     if (const int error = begun.makeFolder(oldName); error != 0)
         throw std::runtime_error(writingFailed(folder, error));
     const OpenFolder old = begun.in(oldName);
-    if (const int error = place.move(temporary, place, begunName); error != 0)
-        throw std::runtime_error(writingFailed(folder, error));
+    // From now on the list decides.
+    if (!made.rename(begunName)) throw std::runtime_error(writingFailed(folder, errno));
     UndoableMoves done;
     try {
         for (const std::string& name : moves.files) {
@@ -155,7 +157,10 @@ void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) 
             if (place.hasFile(name)) done.make(place, old, name);
     } catch (...) {
         // If undo fails too, the list remains, and the next program finishes the moves.
-        if (done.undo()) place.move(begunName, place, temporary);
+        if (done.undo() && place.move(begunName, place, temporary) == 0) {
+            begun.removeContents();
+            place.removeFolder(temporary);
+        }
         throw;
     }
     removeEmptied(place, moves);
@@ -168,9 +173,11 @@ bool isMoveBegun(const fs::path& folder) {
 
 void finishMoves(const fs::path& folder) {
     if (!isMoveBegun(folder)) return;
-    const OpenFolder place(folder);
+    const OpenFolder place = OpenFolder::at(folder), begun = place.in(begunName);
+    // Another user's list would remove files.
+    if (const std::string fault = begun.fault(); !fault.empty())
+        throw std::runtime_error(fmt::format("{}: {}", begun.path().string(), fault));
     if (place.removeFolder(begunName) == 0) return;
-    const OpenFolder begun = place.in(begunName);
     const FileMoves moves = readMoves(begun);
     UndoableMoves done;
     for (const std::string& name : moves.files)

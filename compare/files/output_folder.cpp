@@ -3,12 +3,13 @@
 
 #include "compare/files/file_moves.h"
 #include "compare/files/folder_lock.h"
-#include "compare/files/open_folder.h"
 #include "compare/files/our_files.h"
+#include "compare/files/output.h"
 
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"
 #include "shared/text/named.h"
+#include "shared/text/open_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -30,20 +31,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Absolute name: "out/" and "out/." become "out", a symbolic link its target.
+// Absolute name: "out/" and "out/." become "out". A symbolic link that the user named becomes its target.
 fs::path nameOf(const fs::path& folder) {
     fs::path path = fs::absolute(folder).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
-    return fs::is_symlink(fs::symlink_status(path)) ? fs::weakly_canonical(path) : path;
+    return OpenFolder::isBelowHeld(path) ? path : linkedFile(path);
 }
 
-void copy(InputFile& from, const fs::path& to) {
-    const int file = ::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0) throw std::runtime_error(writingFailed(finalName(to), errno));
+void copy(InputFile& from, const OpenFolder& folder, const fs::path& to) {
+    std::FILE* const file = folder.create(to.filename());
+    if (!file) throw std::runtime_error(writingFailed(finalName(to), errno));
     std::uint64_t left = from.size();
     // Shares blocks if the file system supports it.
     for (ssize_t copied = 0; left > 0; left -= static_cast<std::uint64_t>(copied))
-        if (copied = ::copy_file_range(from.descriptor(), nullptr, file, nullptr, left, 0); copied <= 0)
+        if (copied = ::copy_file_range(from.descriptor(), nullptr, ::fileno(file), nullptr, left, 0);
+            copied <= 0)
             break;
     std::vector<std::byte> piece(std::min<std::uint64_t>(left, std::uint64_t(1) << 20));
     int error = 0;
@@ -52,49 +54,47 @@ void copy(InputFile& from, const fs::path& to) {
         try {
             from.read(bytes);
         } catch (...) {  // the file became shorter
-            ::close(file);
+            std::fclose(file);
             throw;
         }
         left -= bytes.size();
-        for (std::size_t at = 0; at < bytes.size() && error == 0;) {
-            const ssize_t put = ::write(file, bytes.data() + at, bytes.size() - at);
-            if (put > 0) at += static_cast<std::size_t>(put);
-            if (put < 0 && errno != EINTR) error = errno;
-        }
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) error = errno;
     }
-    if (::close(file) != 0 && error == 0) error = errno;
+    if (std::fclose(file) != 0 && error == 0) error = errno;
     if (error != 0) throw std::runtime_error(writingFailed(finalName(to), error));
 }
 
-// Whether the folder contains only the regular files `ours`, their folders, and `aside`.
-bool holdsOnly(const fs::path& folder, const std::vector<std::string>& ours, const fs::path& aside) {
-    const std::set<std::string> names(ours.begin(), ours.end());
-    std::set<std::string> folders;
-    for (const std::string& name : ours)
-        for (const fs::path& inner : foldersOf(name)) folders.insert(inner.string());
-    std::error_code error;
-    fs::recursive_directory_iterator entry(folder, error);
-    for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-        const fs::file_status status = entry->symlink_status(error);
-        if (entry->path() == aside) {
-            entry.disable_recursion_pending();
-            continue;
-        }
-        const std::string name = entry->path().lexically_relative(folder).string();
-        if (!(fs::is_directory(status)      ? folders
-              : fs::is_regular_file(status) ? names
-                                            : std::set<std::string>())
-                 .contains(name))
-            return false;
-    }
-    return !error;
+OpenFolder folderOf(const fs::path& file) {
+    OpenFolder folder = OpenFolder::at(file.parent_path());
+    if (!folder.isOpen()) throw std::runtime_error(writingFailed(finalName(file), errno));
+    return folder;
+}
+
+// Whether the folder can be listed and changed.
+bool isWritable(const OpenFolder& folder) {
+    return ::faccessat(folder.descriptor(), ".", R_OK | W_OK, AT_EACCESS) == 0;
+}
+
+// Whether the folder can be replaced: it contains only the regular files `ours`, their folders, and `aside`.
+// `below`: empty, or the names' beginning.
+bool holdsOnly(const OpenFolder& folder, const std::set<std::string>& ours, const std::string& below,
+               const std::string& aside) {
+    return isWritable(folder) && std::ranges::all_of(folder.names(), [&](const std::string& name) {
+               const mode_t mode = folder.status(name).st_mode;
+               if (below + name == aside || (S_ISREG(mode) && ours.contains(below + name))) return true;
+               const std::string inside = below + name + "/";
+               const auto first = ours.lower_bound(inside);
+               const OpenFolder inner = folder.find(name);
+               return inner.isOpen() && first != ours.end() && first->starts_with(inside) &&
+                      holdsOnly(inner, ours, inside, aside);
+           });
 }
 
 // Whether the folder has extended attributes, such as access lists, that a new folder would lack. Ignores
 // those that SELinux sets on every folder.
-bool hasAttributes(const fs::path& folder) {
+bool hasAttributes(const OpenFolder& folder) {
     char names[4096];
-    const ssize_t size = ::llistxattr(folder.c_str(), names, sizeof names);
+    const ssize_t size = ::flistxattr(folder.descriptor(), names, sizeof names);
     if (size < 0) return errno != ENOTSUP;
     for (std::string_view rest(names, static_cast<std::size_t>(size)); !rest.empty();) {
         const std::string_view name = rest.substr(0, rest.find('\0'));
@@ -104,20 +104,15 @@ bool hasAttributes(const fs::path& folder) {
     return false;
 }
 
-// Gives the new folder the mode of the old one. False if owner or group differ, or if the old one is a
-// link or our working directory.
-bool likeNew(const fs::path& folder, const fs::path& fresh) {
+// Whether a new folder may take the place of the old one: same owner and group, and not our working
+// directory.
+bool isReplaceable(const OpenFolder& folder, const OpenFolder& fresh) {
     struct stat old {
-    }, made{};
-    std::error_code error;
-    if (::lstat(folder.c_str(), &old) != 0 || ::lstat(fresh.c_str(), &made) != 0) return false;
-    return S_ISDIR(old.st_mode) && old.st_uid == made.st_uid && old.st_gid == made.st_gid &&
-           !hasAttributes(folder) && !fs::equivalent(folder, fs::current_path(error), error) && !error &&
-           ::chmod(fresh.c_str(), old.st_mode & 07777) == 0;
-}
-
-bool isReadOnly(const fs::path& folder) {
-    return ::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0;
+    }, made{}, working{};
+    if (::fstat(folder.descriptor(), &old) != 0 || ::fstat(fresh.descriptor(), &made) != 0) return false;
+    const bool here =
+        ::stat(".", &working) == 0 && working.st_dev == old.st_dev && working.st_ino == old.st_ino;
+    return old.st_uid == made.st_uid && old.st_gid == made.st_gid && !hasAttributes(folder) && !here;
 }
 
 // Moves files that other programs created in the old folder during the exchange.
@@ -130,54 +125,63 @@ void rescue(const OpenFolder& from, const OpenFolder& to, const std::vector<std:
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder) : folder_(nameOf(folder)) {
-    std::error_code error;
-    fs::create_directories(folder_.parent_path(), error);
-    if (error) throw std::runtime_error(writingFailed(folder, error.value()));
+OutputFolder::OutputFolder(const fs::path& folder)
+    : folder_(nameOf(folder)), beside_(OpenFolder::made(folder_.parent_path())) {
+    if (!beside_.isOpen()) throw std::runtime_error(writingFailed(folder, errno));
     const FolderLock lock(folder_);
     // Each Temporary removes leftovers of killed programs: first beside the folder, then inside it.
-    temporary_ = std::make_unique<Temporary>(folder_.parent_path(), folder_);
-    if (fs::exists(folder_)) temporary_ = std::make_unique<Temporary>(folder_, folder_);
+    temporary_ = std::make_unique<Temporary>(beside_.copy(), folder_);
+    if (isThere()) temporary_ = std::make_unique<Temporary>(place_.copy(), folder_);
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
+}
+
+// Opens the folder once it exists, and holds it.
+bool OutputFolder::isThere() {
+    const std::string name = folder_.filename();
+    if (!place_.isOpen() && beside_.has(name)) {
+        place_ = beside_.in(name);
+        place_.hold();
+    }
+    struct stat opened {};
+    if (place_.isOpen() && (::fstat(place_.descriptor(), &opened) != 0 || !beside_.has(name, opened)))
+        throw std::runtime_error(writingFailed(folder_, ESTALE));  // another one has its name by now
+    return place_.isOpen();
 }
 
 // Blocks interruptions, which would remove the temporary folder meanwhile.
 void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
     const auto held = holdTemporaries();
     for (const std::string& name : files) {
-        const fs::path inner = path() / fs::path(name).parent_path();
-        std::error_code error;
-        fs::create_directories(inner, error);
-        if (error) throw std::runtime_error(writingFailed(finalName(inner), error.value()));
+        const fs::path inner = (path() / name).parent_path();
+        if (!OpenFolder::made(inner).isOpen())
+            throw std::runtime_error(writingFailed(finalName(inner), errno));
     }
 }
 
 // Replaces the folder in one step. Changes nothing and returns false if that is impossible.
 bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
-    if (isReadOnly(folder_) || !holdsOnly(folder_, earlier, temporary_->path()) ||
-        !likeNew(folder_, temporary_->path()))
+    if (!holdsOnly(place_, {earlier.begin(), earlier.end()}, {}, temporary_->path().filename()) ||
+        !isReplaceable(place_, temporary_->contents()))
         return false;
-    const fs::path home = temporary_->path().parent_path(), beside = folder_.parent_path();
-    if (home != beside && !temporary_->moveTo(beside)) return false;
-    if (::renameat2(AT_FDCWD, temporary_->path().c_str(), AT_FDCWD, folder_.c_str(), RENAME_EXCHANGE) == 0) {
-        rescue(OpenFolder(temporary_->path()), OpenFolder(folder_), earlier);
-        return true;
-    }
-    return false;
+    const bool beside = temporary_->path().parent_path() == folder_.parent_path();
+    if ((!beside && !temporary_->moveTo(beside_)) || !temporary_->exchange(place_)) return false;
+    rescue(temporary_->contents(), place_, earlier);
+    return true;
 }
 
 void OutputFolder::put(const std::vector<std::string>& files,
                        const std::function<std::vector<std::string>()>& earlier) {
     const FolderLock lock(folder_);
     const auto held = holdTemporaries();
+    const bool there = isThere();
     finishMoves(folder_);
     const std::vector<std::string> old = earlier();
-    if (!fs::exists(fs::symlink_status(folder_))) {
-        if (!temporary_->become(folder_)) throw std::runtime_error(writingFailed(folder_, errno));
+    if (!there) {
+        if (!temporary_->become()) throw std::runtime_error(writingFailed(folder_, errno));
         return;
     }
     if (exchange(old)) return;
-    if (temporary_->path().parent_path() != folder_ && !temporary_->moveTo(folder_))
+    if (temporary_->path().parent_path() != folder_ && !temporary_->moveTo(place_))
         throw std::runtime_error(writingFailed(folder_, errno));
     moveFiles(folder_, *temporary_, {files, old});
 }
@@ -186,9 +190,12 @@ void linkOrCopy(const fs::path& root, const std::string& name, const fs::path& t
     named((root / name).string(), [&] {
         const auto held = holdTemporaries();  // an interruption must not remove the folder meanwhile
         InputFile from(root, name);
+        const OpenFolder folder = folderOf(to);
         // By file descriptor: the file cannot be swapped meanwhile.
         const std::string opened = fmt::format("/proc/self/fd/{}", from.descriptor());
-        if (::linkat(AT_FDCWD, opened.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) != 0) copy(from, to);
+        if (::linkat(AT_FDCWD, opened.c_str(), folder.descriptor(), to.filename().c_str(),
+                     AT_SYMLINK_FOLLOW) != 0)
+            copy(from, folder, to);
     });
 }
 
@@ -196,7 +203,7 @@ void copyBelow(const fs::path& root, const std::string& name, const fs::path& to
     named((root / name).string(), [&] {
         const auto held = holdTemporaries();
         InputFile from(root, name);
-        copy(from, to);
+        copy(from, folderOf(to), to);
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/image/temporary.h"
+#include "shared/text/open_folder.h"
 
 #include <filesystem>
 #include <functional>
@@ -33,9 +34,11 @@ public:
     void put(const std::vector<std::string>& files, const std::function<std::vector<std::string>()>& earlier);
 
 private:
+    bool isThere();
     bool exchange(const std::vector<std::string>& earlier);
 
     std::filesystem::path folder_;
+    OpenFolder beside_, place_;  // its parent; the folder itself, once it exists
     std::unique_ptr<Temporary> temporary_;
 };
 

@@ -16,7 +16,6 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace diptych::reference {
@@ -47,34 +46,33 @@ fs::path fileOf(const fs::path& stem, std::uint64_t key) {
 }
 
 // Files in the folder of `stem` named by the stem, a dash, and then only hexadecimal digits and dashes.
-std::vector<fs::path> filesOf(const fs::path& stem) {
+std::vector<fs::path> filesOf(const OpenFolder& folder, const fs::path& stem) {
     const std::string prefix = stem.filename().string() + "-";
     std::vector<fs::path> files;
-    std::error_code ignored;
-    const fs::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
-    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-         entry.increment(ignored)) {
-        const std::string name = entry->path().filename().string();
-        std::error_code none;
+    for (const std::string& name : folder.names())
         if (name.starts_with(prefix) && name.size() > prefix.size() &&
-            name.find_first_not_of("0123456789abcdef-", prefix.size()) == name.npos &&
-            entry->is_regular_file(none))
+            name.find_first_not_of("0123456789abcdef-", prefix.size()) == name.npos && folder.hasFile(name))
             files.push_back(stem.parent_path() / name);
-    }
     std::ranges::sort(files);
     return files;
 }
 
-// Opens for reading and writing, because some file systems only lock such files. Null for links and
-// anything else but regular files.
-std::FILE* opened(const fs::path& file, int how) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | how, 0666);
+// Opens for reading and writing, because some file systems only lock such files. Null, with errno EEXIST,
+// for anything but a regular file that only this user may write; a file that is created here is one.
+std::FILE* opened(const OpenFolder& folder, const fs::path& file, bool create) {
+    constexpr int how = O_RDWR | O_NONBLOCK;
+    const fs::path name = file.filename();
+    int descriptor = create ? folder.open(name, how | O_CREAT | O_EXCL, 0644) : -1;
+    const bool fresh = descriptor >= 0;
+    if (!create || (!fresh && errno == EEXIST)) descriptor = folder.open(name, how);
     if (descriptor < 0) return nullptr;
     struct stat status {};
-    const bool regular = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-    std::FILE* stream = regular ? ::fdopen(descriptor, "r+b") : nullptr;
+    const bool ours =
+        ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+        (fresh || (status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0));
+    std::FILE* stream = ours ? ::fdopen(descriptor, "r+b") : nullptr;
     if (!stream) ::close(descriptor);
-    if (!regular) errno = EEXIST;
+    if (!ours) errno = EEXIST;
     return stream;
 }
 
@@ -86,11 +84,9 @@ bool lock(std::FILE* stream) {
 }
 
 // Whether the open file still exists under its name.
-bool isAt(std::FILE* stream, const fs::path& file) {
+bool isAt(std::FILE* stream, const OpenFolder& folder, const fs::path& file) {
     struct stat open {};
-    struct stat there {};
-    return ::fstat(::fileno(stream), &open) == 0 && ::lstat(file.c_str(), &there) == 0 &&
-           open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+    return ::fstat(::fileno(stream), &open) == 0 && folder.has(file.filename(), open);
 }
 
 enum class Holds { nothing, this_picture, something_else };
@@ -119,7 +115,8 @@ long readRecords(std::FILE* stream, std::size_t floats, std::vector<Checkpoint::
 
 }  // namespace
 
-Checkpoint::Checkpoint(const fs::path& stem, std::uint64_t key, std::size_t floats) : floats_(floats) {
+Checkpoint::Checkpoint(const fs::path& stem, std::uint64_t key, std::size_t floats)
+    : folder_(OpenFolder::at(stem.parent_path())), floats_(floats) {
     const Head head{magic, key, floats};
     file_ = fileOf(stem, key);
     for (int i = 2; !open(head); ++i) file_ = fmt::format("{}-{}", fileOf(stem, key).string(), i);
@@ -139,13 +136,14 @@ Checkpoint::~Checkpoint() {
 bool Checkpoint::open(const Head& head) {
     do {
         if (stream_) std::fclose(stream_);
-        stream_ = opened(file_, O_CREAT);
+        stream_ = opened(folder_, file_, true);
+        if (!stream_ && errno == EEXIST) return false;
         if (!stream_) failWriting(file_);
         if (!lock(stream_)) {
             std::fclose(std::exchange(stream_, nullptr));
             return false;
         }
-    } while (!isAt(stream_, file_));
+    } while (!isAt(stream_, folder_, file_));
     const Holds holds = headOf(stream_, head);
     if (holds == Holds::something_else) {
         std::fclose(std::exchange(stream_, nullptr));
@@ -168,11 +166,11 @@ bool Checkpoint::open(const Head& head) {
 void Checkpoint::merge(const fs::path& stem, const Head& head) {
     std::set<std::uint64_t> have;
     for (const Record& record : earlier_) have.insert(record.number);
-    for (const fs::path& other : filesOf(stem)) {
+    for (const fs::path& other : filesOf(folder_, stem)) {
         if (other == file_ || !other.native().starts_with(fileOf(stem, head.key).native())) continue;
-        std::FILE* stream = opened(other, 0);
+        std::FILE* stream = opened(folder_, other, false);
         if (!stream) continue;
-        const bool ended = lock(stream) && isAt(stream, other);
+        const bool ended = lock(stream) && isAt(stream, folder_, other);
         const Holds holds = headOf(stream, head);
         std::vector<Record> records;
         if (holds == Holds::this_picture) readRecords(stream, floats_, records);
@@ -186,9 +184,8 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
             std::fclose(stream);
             throw;
         }
-        std::error_code ignored;
         // Includes a file that a program had just created when it was killed.
-        if (holds != Holds::something_else && ended) fs::remove(other, ignored);
+        if (holds != Holds::something_else && ended) folder_.removeFile(other.filename());
         std::fclose(stream);
     }
 }
@@ -209,15 +206,15 @@ void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
 void Checkpoint::remove() {
     const std::lock_guard lock(mutex_);
     if (!stream_) return;
-    std::error_code ignored;
-    fs::remove(file_, ignored);
+    folder_.removeFile(file_.filename());
     std::fclose(std::exchange(stream_, nullptr));
 }
 
 std::vector<fs::path> abandonedCheckpoints(const fs::path& stem) {
-    std::vector<fs::path> files = filesOf(stem);
-    std::erase_if(files, [](const fs::path& file) {
-        std::FILE* stream = opened(file, 0);
+    const OpenFolder folder = OpenFolder::at(stem.parent_path());
+    std::vector<fs::path> files = filesOf(folder, stem);
+    std::erase_if(files, [&](const fs::path& file) {
+        std::FILE* stream = opened(folder, file, false);
         if (!stream) return false;
         const bool ended = lock(stream);
         std::fclose(stream);

@@ -2,6 +2,8 @@
 // Saves finished parts of a long rendering to a file, so that an interrupted program can resume.
 #pragma once
 
+#include "shared/image/temporary.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -22,11 +24,11 @@ public:
 
     // The file's name is STEM-HASH; HASH is the first half of `key` in hexadecimal digits, so each image
     // has its own file. The file is locked while the Checkpoint lives. If another program holds the lock,
-    // or the file belongs to another image, it is left unchanged and the name becomes STEM-HASH-2, then
-    // -3. Records in other files of the same image are used too. Files whose programs have ended are
-    // merged into this one and removed.
-    // `floats`: number of floats in a record. Throws std::runtime_error naming the file if it cannot be
-    // written. On a file system without locks, two programs may share a file.
+    // others may write the file, or it belongs to another image, it is left unchanged and the name becomes
+    // STEM-HASH-2, then -3. Records in other files of the same image are used too. Files whose programs have
+    // ended are merged into this one and removed. `floats`: number of floats in a record. Throws
+    // std::runtime_error naming the file if it cannot be written. On a file system without locks, two
+    // programs may share a file.
     Checkpoint(const std::filesystem::path& stem, std::uint64_t key, std::size_t floats);
     ~Checkpoint();  // the file remains
     Checkpoint(const Checkpoint&) = delete;
@@ -48,7 +50,8 @@ private:
     bool open(const Head& head);
     void merge(const std::filesystem::path& stem, const Head& head);
 
-    std::filesystem::path file_;
+    OpenFolder folder_;
+    std::filesystem::path file_;  // in it
     std::size_t floats_;
     std::FILE* stream_ = nullptr;
     std::mutex mutex_;

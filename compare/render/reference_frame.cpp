@@ -13,6 +13,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/text/open_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +24,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <system_error>
 
 namespace diptych {
 namespace {
@@ -229,8 +229,7 @@ KeptReferences::KeptReferences(const fs::path& output, bool isFolder)
     : stem_(besideOutput(output, "reference")), is_folder_(isFolder) {}
 
 reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t floats) {
-    std::error_code ignored;  // whoever writes there reports the failure
-    if (is_folder_ && stem_.has_parent_path()) fs::create_directories(stem_.parent_path(), ignored);
+    if (is_folder_) OpenFolder::made(stem_.parent_path());  // Checkpoint reports a failure
     checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
     sayWhenInterrupted(
         fmt::format("the finished part of the reference is kept in {}: the same command resumes there",

@@ -17,11 +17,13 @@
 #include "shared/text/json_text.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
+#include "shared/text/open_folder.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <iterator>
 #include <set>
@@ -217,10 +219,8 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
 
 void makeFolders(const fs::path& root, const std::vector<std::string>& files) {
     for (const std::string& name : files) {
-        std::error_code error;
         const fs::path folder = (root / name).parent_path();
-        fs::create_directories(folder, error);
-        if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
+        if (!OpenFolder::made(folder).isOpen()) throw std::runtime_error(writingFailed(folder, errno));
     }
 }
 

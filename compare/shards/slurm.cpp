@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/slurm.h"
 
-#include "compare/files/open_folder.h"
 #include "compare/run/command_text.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/one_line.h"
+#include "shared/text/open_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -150,10 +150,8 @@ std::string mergeScript(const SlurmJob& job) {
 
 Submitted submit(const SlurmJob& job) {
     const fs::path folder = slurmFolder(job.out);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw std::runtime_error(fmt::format("{}: {}", folder.string(), error.message()));
-    const OpenFolder unlinked(folder);  // throws for a link, which would redirect the scripts
+    OpenFolder own = OpenFolder::own(folder);  // nobody else may change the scripts
+    own.hold();
     const fs::path array = folder / "array.sh", merge = folder / "merge.sh";
     writeFile(array, arrayScript(job));
     writeFile(merge, mergeScript(job));

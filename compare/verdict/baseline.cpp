@@ -2,6 +2,7 @@
 #include "compare/verdict/baseline.h"
 
 #include "compare/files/frame_exr.h"
+#include "compare/files/output_folder.h"
 
 #include "compare/render/reference_frame.h"
 #include "compare/run/version.h"
@@ -15,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cerrno>
-#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -111,17 +111,16 @@ std::string updateBaseline(const fs::path& file, const Frame& frame, const Repor
     // takes the first, so one always exists.
     Temporary aside(file.parent_path(), file);
     if (!aside.createFolder()) failed(file, errno);
-    const fs::path made = aside.path() / file.filename(), kept = aside.path() / old.filename();
-    writeFrameExr(made, frame, device);
+    const fs::path name = file.filename(), kept = old.filename();
+    writeFrameExr(aside.path() / name, frame, device);
     const auto held = holdTemporaries();
     if (!fresh) {
-        std::error_code error;
-        fs::create_hard_link(file, kept, error);
-        if (error) fs::copy_file(file, kept, error);
-        if (!error) fs::rename(kept, old, error);
-        if (error) failed(old, error.value());
+        if (aside.folder().link(name, aside.contents(), kept) != 0)
+            copyBelow(file.parent_path(), name, aside.path() / kept);
+        if (const int error = aside.contents().move(kept, aside.folder(), kept); error != 0)
+            failed(old, error);
     }
-    if (std::rename(made.c_str(), file.c_str()) != 0) failed(file, errno);
+    if (const int error = aside.contents().move(name, aside.folder(), name); error != 0) failed(file, error);
     return fresh ? fmt::format("baseline {} written from {}", file.string(), frame.name)
                  : fmt::format("baseline {} replaced from {}; the old one is now {}", file.string(),
                                frame.name, old.string());

@@ -10,12 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <span>
 #include <stdexcept>
-#include <system_error>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -151,7 +152,9 @@ std::optional<EnvironmentMaps> readMaps(const fs::path& file, std::uint64_t key,
 
 bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& maps) {
     try {
-        makeCacheFolder(file.parent_path());
+        OpenFolder folder = makeCacheFolder(file.parent_path());
+        if (!folder.isOpen()) return false;
+        folder.hold();
         const std::vector<float> floats = flattened(maps);
         MapFileHead head;
         head.key = key;
@@ -172,35 +175,29 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
     }
 }
 
-void limitMapCache(const fs::path& folder, std::uintmax_t most) {
-    struct Kept {
-        fs::path file;
-        fs::file_time_type time;
-        std::uintmax_t bytes;
-    };
-    std::vector<Kept> files;
-    std::error_code failed;
+void limitMapCache(const fs::path& path, std::uintmax_t most) {
+    const OpenFolder folder = makeCacheFolder(path);
+    std::vector<std::pair<std::string, struct stat>> files;
     std::uintmax_t sum = 0;
-    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    for (const std::string& name : folder.names()) {
         // A killed writer leaves a temporary file, whose name begins with a dot.
-        const std::string name = at->path().filename().string();
         const bool temporary = name.starts_with(".environment-");
         if (!temporary && !name.starts_with("environment-")) continue;
-        std::error_code gone;  // another process may clean the same folder
-        const fs::file_time_type time = fs::last_write_time(at->path(), gone);
-        if (temporary && !gone && fs::file_time_type::clock::now() - time > std::chrono::hours(1)) {
-            fs::remove(at->path(), gone);
+        const struct stat there = folder.status(name);  // another process may clean the same folder
+        if (!S_ISREG(there.st_mode)) continue;
+        if (temporary && ::time(nullptr) - there.st_mtime > 3600) {
+            folder.removeFile(name);
             continue;
         }
-        const std::uintmax_t bytes = gone ? 0 : fs::file_size(at->path(), gone);
-        if (gone) continue;
-        files.push_back({at->path(), time, bytes});
-        sum += bytes;
+        files.emplace_back(name, there);
+        sum += static_cast<std::uintmax_t>(there.st_size);
     }
-    std::ranges::sort(files, {}, &Kept::time);
-    for (const Kept& kept : files) {
+    std::ranges::sort(files, {}, [](const auto& file) {
+        return std::pair(file.second.st_mtim.tv_sec, file.second.st_mtim.tv_nsec);
+    });
+    for (const auto& [name, there] : files) {
         if (sum <= most) return;
-        if (fs::remove(kept.file, failed)) sum -= kept.bytes;
+        if (folder.removeFile(name) == 0) sum -= static_cast<std::uintmax_t>(there.st_size);
     }
 }
 

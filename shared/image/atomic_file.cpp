@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -43,7 +42,7 @@ void AtomicFile::commit() {
     if (failed) std::fputc(0, stream_);
     if (std::fflush(stream_) != 0 || failed) fail(errno != 0 ? errno : EIO);
     if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail(errno);
-    if (!temporary_.become(file_)) fail(errno);
+    if (!temporary_.become()) fail(errno);
 }
 
 void AtomicFile::fail(int error) {
@@ -54,34 +53,6 @@ void writeFile(const fs::path& file, std::string_view contents) {
     AtomicFile out(file);
     std::fwrite(contents.data(), 1, contents.size(), out.stream());
     out.commit();
-}
-
-std::string writingFailed(const fs::path& file, int error) {
-    const char* helps = "";
-    switch (error) {
-        case ENOSPC:
-        case EDQUOT:
-            helps = "; make room, or write to another place with -o";
-            break;
-        case EROFS:
-        case EACCES:
-        case EPERM:
-            helps = "; write to another place with -o";
-            break;
-        case EFBIG:
-            helps = "; raise the limit on a file's size (ulimit -f), or write to another place with -o";
-            break;
-        case EMFILE:
-        case ENFILE:
-            helps = "; raise the limit on open files (ulimit -n)";
-            break;
-        case EIO:
-            helps = "; check the disk, or write to another place with -o";
-            break;
-        default:
-            helps = "; -o chooses another place";
-    }
-    return fmt::format("{}: {}{}", file.string(), std::strerror(error), helps);
 }
 
 }  // namespace diptych

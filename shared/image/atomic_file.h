@@ -36,7 +36,4 @@ private:
 // Writes a whole file atomically.
 void writeFile(const std::filesystem::path& file, std::string_view contents);
 
-// "FILE: the system's message; a remedy", for the errno of a failed write.
-std::string writingFailed(const std::filesystem::path& file, int error);
-
 }  // namespace diptych

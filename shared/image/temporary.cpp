@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <map>
 #include <string_view>
@@ -25,13 +26,16 @@ namespace fs = std::filesystem;
 // Never destroyed, because a signal may interrupt the program while it exits.
 struct Registry {
     std::recursive_mutex mutex;
-    std::map<fs::path, fs::path> targets;  // by temporary name
+    std::map<fs::path, Temporary*> all;  // by temporary name
 };
 
 Registry& registry() {
     static auto* const all = new Registry;
     return *all;
 }
+
+// The sticky bit has no effect here: it marks the temporary folder of an output.
+constexpr mode_t temporary_mode = S_IRWXU | S_ISVTX;
 
 // At most 200 bytes of the target's name (file names have up to 255), so that process and number fit.
 std::string prefixOf(const fs::path& target) {
@@ -50,64 +54,91 @@ pid_t processOf(std::string_view rest) {
     return second.ec == std::errc{} && second.ptr == end ? process : 0;
 }
 
-// Whether no such process is visible and nobody holds the lock. The lock is needed for processes in other
-// containers, which are not visible.
-bool isAbandoned(const fs::path& path, pid_t process) {
-    if (::kill(process, 0) == 0 || errno != ESRCH) return false;
-    const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return false;
-    const bool free = ::flock(file, LOCK_EX | LOCK_NB) == 0;
-    ::close(file);
+// Whether only this user and root can rename things in the folder.
+bool isSafe(const OpenFolder& folder) {
+    struct stat there {};
+    return ::fstat(folder.descriptor(), &there) == 0 && (there.st_uid == ::geteuid() || there.st_uid == 0) &&
+           ((there.st_mode & (S_IWGRP | S_IWOTH)) == 0 || (there.st_mode & S_ISVTX) != 0);
+}
+
+// Whether nobody holds the lock. Processes in other containers, which are not visible, hold it.
+bool isUnlocked(const OpenFolder& folder, const std::string& file) {
+    const int opened = folder.open(file, O_RDONLY | O_NONBLOCK);
+    const bool free = opened >= 0 && ::flock(opened, LOCK_EX | LOCK_NB) == 0;
+    if (opened >= 0) ::close(opened);
     return free;
 }
 
-void sweep(const fs::path& folder, const fs::path& target) {
-    const std::string prefix = prefixOf(target);
-    std::vector<fs::path> left;
-    std::error_code ignored;
-    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-         entry.increment(ignored)) {
-        const std::string name = entry->path().filename().string();
+// Removes what this user made if no such process is visible and nobody holds the lock. Where others can
+// rename things, they may give this user's folders such a name: only the mode shows a temporary one.
+void sweep(const OpenFolder& folder, const fs::path& target) {
+    for (const std::string& name : folder.names()) {
         if (!isTemporaryOf(target, name)) continue;
-        const pid_t process = processOf(std::string_view(name).substr(prefix.size()));
-        if (isAbandoned(entry->path(), process)) left.push_back(entry->path());
+        const pid_t process = processOf(std::string_view(name).substr(prefixOf(target).size()));
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        const OpenFolder inner = folder.find(name);
+        struct stat there = folder.status(name);
+        if (inner.isOpen() && ::fstat(inner.descriptor(), &there) != 0) continue;
+        if (there.st_uid != ::geteuid()) continue;
+        if (!inner.isOpen()) {
+            if (isUnlocked(folder, name)) folder.removeFile(name);
+        } else if ((isSafe(folder) || (there.st_mode & S_ISVTX) != 0) && inner.lock()) {
+            inner.removeContents();
+            folder.removeFolder(name);
+        }
     }
-    for (const fs::path& path : left) fs::remove_all(path, ignored);
+}
+
+// An errno as a result.
+bool succeeded(int error) {
+    if (error != 0) errno = error;
+    return error == 0;
 }
 
 bool isTemporary(const fs::path& folder) {
     const std::lock_guard lock(registry().mutex);
-    return registry().targets.contains(folder);
+    return registry().all.contains(folder);
 }
 
 }  // namespace
 
-Temporary::Temporary(const fs::path& folder, fs::path target) : target_(std::move(target)) {
+Temporary::Temporary(OpenFolder folder, fs::path target)
+    : folder_(std::move(folder)), target_(std::move(target)) {
     static std::atomic<unsigned> serial{0};
-    path_ = folder / fmt::format("{}{}-{}.tmp", prefixOf(target_), ::getpid(), serial.fetch_add(1));
-    if (!isTemporary(folder)) sweep(folder.empty() ? "." : folder, target_);
+    path_ = folder_.path() / fmt::format("{}{}-{}.tmp", prefixOf(target_), ::getpid(), serial.fetch_add(1));
+    if (!isTemporary(folder_.path())) sweep(folder_, target_);
 }
 
 Temporary::~Temporary() {
     const std::lock_guard lock(registry().mutex);
-    std::error_code ignored;
-    if (const auto entry = registry().targets.find(path_); entry != registry().targets.end()) {
-        fs::remove_all(path_, ignored);
-        registry().targets.erase(entry);
+    if (registry().all.erase(path_) > 0) remove();
+}
+
+// Empties a folder by its descriptor: its name may have been given to another, which is not empty and stays.
+void Temporary::remove() {
+    if (!contents_.isOpen()) {
+        folder_.removeFile(name());
+    } else {
+        contents_.removeContents();
+        folder_.removeFolder(name());
     }
-    if (lock_ >= 0) ::close(lock_);
+}
+
+bool Temporary::isThere() const {
+    return succeeded(folder_.has(name(), seen_) ? 0 : ESTALE);
 }
 
 std::FILE* Temporary::createFile() {
     const std::lock_guard lock(registry().mutex);
-    const auto entry = registry().targets.emplace(path_, target_).first;
-    std::FILE* const file = std::fopen(path_.c_str(), "wbxe");
+    registry().all.emplace(path_, this);
+    std::FILE* const file = folder_.create(name());
     if (!file) {
         const int error = errno;
-        registry().targets.erase(entry);
+        registry().all.erase(path_);
         errno = error;
         return nullptr;
     }
+    ::fstat(::fileno(file), &seen_);
     // If locks are not supported, only the process id decides.
     ::flock(::fileno(file), LOCK_EX | LOCK_NB);
     return file;
@@ -115,39 +146,59 @@ std::FILE* Temporary::createFile() {
 
 bool Temporary::createFolder(bool isPrivate) {
     const std::lock_guard lock(registry().mutex);
-    const auto entry = registry().targets.emplace(path_, target_).first;
-    constexpr mode_t ours = 0700;
-    if (::mkdir(path_.c_str(), isPrivate ? ours : 0777) != 0) {
-        const int error = errno;
-        registry().targets.erase(entry);
-        errno = error;
-        return false;
-    }
-    if (isPrivate) ::chmod(path_.c_str(), ours);
-    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
+    if (!succeeded(folder_.makeFolder(name()))) return false;
+    contents_ = folder_.find(name());
+    // Another program may have given the name to a folder of its own.
+    if (!contents_.isOpen() || !contents_.names().empty()) return succeeded(EEXIST);
+    registry().all.emplace(path_, this);
+    contents_.hold();
+    ::fstat(contents_.descriptor(), &seen_);
+    ::fchmod(contents_.descriptor(), isPrivate ? S_IRWXU : temporary_mode | (seen_.st_mode & S_ISGID));
+    contents_.lock();
     return true;
 }
 
-bool Temporary::moveTo(const fs::path& folder) {
+bool Temporary::moveTo(const OpenFolder& folder) {
     const std::lock_guard lock(registry().mutex);
-    fs::path path = folder / path_.filename();
-    registry().targets.emplace(path, target_);
-    if (std::rename(path_.c_str(), path.c_str()) != 0) {
-        const int error = errno;
-        registry().targets.erase(path);
-        errno = error;
-        return false;
-    }
-    registry().targets.erase(path_);
-    path_ = std::move(path);
+    if (!isThere() || !succeeded(folder_.move(name(), folder, name()))) return false;
+    registry().all.erase(path_);
+    folder_ = folder.copy();
+    path_ = folder_.path() / name();
+    registry().all.emplace(path_, this);
+    contents_.holdAs(path_);
     return true;
 }
 
-bool Temporary::become(const fs::path& file) {
+bool Temporary::rename(const std::string& name) {
     const std::lock_guard lock(registry().mutex);
-    if (std::rename(path_.c_str(), file.c_str()) != 0) return false;
-    registry().targets.erase(path_);
+    if (!isThere() || !succeeded(folder_.move(this->name(), folder_, name))) return false;
+    registry().all.erase(path_);
+    return true;
+}
+
+bool Temporary::become() {
+    if (contents_.isOpen()) ::fchmod(contents_.descriptor(), seen_.st_mode & 07777);
+    return rename(target_.filename());
+}
+
+bool Temporary::exchange(OpenFolder& old) {
+    const auto swapped = [&] {
+        return folder_.move(name(), folder_, target_.filename(), RENAME_EXCHANGE) == 0;
+    };
+    const std::lock_guard lock(registry().mutex);
+    struct stat theirs {};
+    if (::fstat(old.descriptor(), &theirs) != 0 || !isThere()) return false;
+    ::fchmod(contents_.descriptor(), theirs.st_mode & 07777);
+    if (const bool done = swapped();
+        !done || !folder_.has(name(), theirs) || !folder_.has(target_.filename(), seen_)) {
+        if (done) swapped();
+        ::fchmod(contents_.descriptor(), temporary_mode | (seen_.st_mode & S_ISGID));
+        return false;
+    }
+    std::swap(contents_, old);
+    contents_.holdAs(path_);
+    old.holdAs(target_);
+    seen_ = theirs;
     return true;
 }
 
@@ -157,9 +208,8 @@ std::unique_lock<std::recursive_mutex> holdTemporaries() {
 
 void abandonTemporaries() noexcept {
     registry().mutex.lock();  // never released
-    std::error_code ignored;
-    for (const auto& [path, target] : registry().targets) try {
-            fs::remove_all(path, ignored);
+    for (const auto& [path, temporary] : registry().all) try {
+            temporary->remove();
         } catch (const std::exception&) {  // out of memory: the next program's sweep removes it
         }
 }
@@ -172,8 +222,8 @@ bool isTemporaryOf(const fs::path& target, const std::string& name) {
 fs::path finalName(const fs::path& path) {
     const std::lock_guard lock(registry().mutex);
     for (fs::path folder = path.parent_path(); folder.has_filename(); folder = folder.parent_path())
-        if (const auto entry = registry().targets.find(folder); entry != registry().targets.end())
-            return entry->second / path.lexically_relative(folder);
+        if (const auto entry = registry().all.find(folder); entry != registry().all.end())
+            return entry->second->target() / path.lexically_relative(folder);
     return path;
 }
 

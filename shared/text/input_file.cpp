@@ -2,6 +2,7 @@
 #include "shared/text/input_file.h"
 
 #include "shared/text/fail.h"
+#include "shared/text/open_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -28,7 +29,8 @@ constexpr int reading = O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY;
 
 // Opens each folder on the way without following links.
 int openBelow(const fs::path& root, const std::string& name) {
-    int folder = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const OpenFolder top = OpenFolder::at(root);
+    int folder = top.isOpen() ? ::fcntl(top.descriptor(), F_DUPFD_CLOEXEC, 0) : -1;
     if (folder < 0) failToOpen(errno);
     const auto step = [&](const std::string& part, int flags) {
         const int next = part.empty() || part == ".." ? (errno = ELOOP, -1)

@@ -85,23 +85,21 @@ std::vector<std::byte> readPipelineCache(const fs::path& file, const PipelineCac
 }
 
 bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::span<const std::byte> data) {
-    makeCacheFolder(file.parent_path());
-    const fs::path beside = fmt::format("{}.{}.tmp", file.string(), ::getpid());
+    const OpenFolder folder = makeCacheFolder(file.parent_path());
+    const std::string name = file.filename(), beside = fmt::format("{}.{}.tmp", name, ::getpid());
     CacheFileHead head;
     head.key = key;
     head.bytes = data.size();
     head.hash = hashOf(data);
-    std::error_code failed;
-    fs::remove(beside, failed);  // left by a process with the same id
-    std::FILE* const stream = std::fopen(beside.c_str(), "wbxe");
+    folder.removeFile(beside);  // left by a process with the same id
+    std::FILE* const stream = folder.create(beside);
     if (!stream) return false;
     keepForUser(stream);
     const bool written = std::fwrite(&head, sizeof head, 1, stream) == 1 &&
                          std::fwrite(data.data(), 1, data.size(), stream) == data.size();
     const bool closed = std::fclose(stream) == 0;
-    if (written && closed) fs::rename(beside, file, failed);
-    if (written && closed && !failed) return true;
-    fs::remove(beside, failed);
+    if (written && closed && folder.move(beside, folder, name) == 0) return true;
+    folder.removeFile(beside);
     return false;
 }
 

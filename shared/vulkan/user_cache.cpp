@@ -36,15 +36,15 @@ fs::path folderOfVariables() {
 }  // namespace
 
 std::string cacheFault(const fs::path& folder) {
-    struct stat named {
-    }, there{};
+    constexpr const char* remedy = "set XDG_CACHE_HOME to another folder";
+    struct stat named {};
+    const OpenFolder there = OpenFolder::at(folder);
+    if (!there.isOpen() || ::lstat(folder.c_str(), &named) != 0) return {};
     // A link must belong to this user, too: others' links may lead anywhere.
-    if (::lstat(folder.c_str(), &named) != 0 || ::stat(folder.c_str(), &there) != 0) return {};
-    const char* const why = named.st_uid != ::geteuid() || there.st_uid != ::geteuid()
-                                ? "it belongs to another user; set XDG_CACHE_HOME to another folder"
-                            : !isOnlyOurs(there) ? "other users may write to it; run chmod go-w on it"
-                                                 : nullptr;
-    return why ? fmt::format("{}: not used as a cache: {}", folder.string(), why) : std::string();
+    const std::string why = named.st_uid == ::geteuid()
+                                ? there.fault(remedy)
+                                : fmt::format("it belongs to another user; {}", remedy);
+    return why.empty() ? why : fmt::format("{}: not used as a cache: {}", folder.string(), why);
 }
 
 fs::path userCacheFolder() {
@@ -71,10 +71,11 @@ CacheFile openCacheFile(const fs::path& file) {
     return opened;
 }
 
-void makeCacheFolder(const fs::path& folder) {
-    std::error_code failed;  // the writer will notice a failure
-    fs::create_directories(folder.parent_path(), failed);
-    ::mkdir(folder.c_str(), 0700);
+OpenFolder makeCacheFolder(const fs::path& folder) {
+    const OpenFolder parent = OpenFolder::made(folder.parent_path());
+    if (parent.isOpen()) parent.makeFolder(folder.filename(), 0700);
+    OpenFolder there = OpenFolder::at(folder);
+    return there.fault().empty() ? std::move(there) : OpenFolder();
 }
 
 void keepForUser(std::FILE* file) {

@@ -3,6 +3,8 @@
 // written are not used.
 #pragma once
 
+#include "shared/text/open_folder.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -26,8 +28,8 @@ struct CacheFile {
 // Opens a regular file, not a link, that belongs to this user and that nobody else may write to.
 CacheFile openCacheFile(const std::filesystem::path& file);
 
-// Creates the folder for this user alone if it is missing.
-void makeCacheFolder(const std::filesystem::path& folder);
+// Creates the folder for this user alone if it is missing. Not open if cacheFault() reports a problem.
+OpenFolder makeCacheFolder(const std::filesystem::path& folder);
 // Restricts access to this user regardless of the umask; otherwise openCacheFile() would reject the file.
 void keepForUser(std::FILE* file);
 

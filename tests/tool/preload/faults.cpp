@@ -21,6 +21,7 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -73,9 +74,7 @@ bool isUnder(const char* path) {
            std::strncmp(path, setting("FAULT_UNDER"), std::strlen(setting("FAULT_UNDER"))) == 0;
 }
 
-// Whether the file is in the folder to be tested, and not e.g. the program's own stdout.
-bool isUnder(int file) {
-    if (file <= STDERR_FILENO || (::fcntl(file, F_GETFL) & O_ACCMODE) == O_RDONLY) return false;
+bool isOpenUnder(int file) {
     char link[64], path[PATH_MAX];
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     const ssize_t size = ::readlink(link, path, sizeof path - 1);
@@ -84,12 +83,21 @@ bool isUnder(int file) {
     return path[0] == '/' && isUnder(path);
 }
 
+// Whether the file is in the folder to be tested, and not e.g. the program's own stdout.
+bool isUnder(int file) {
+    return file > STDERR_FILENO && (::fcntl(file, F_GETFL) & O_ACCMODE) != O_RDONLY && isOpenUnder(file);
+}
+
 bool fails(const char* kind, const char* path) {
     if (const int error = isUnder(path) ? faultIn(kind, path) : 0) {
         errno = error;
         return true;
     }
     return false;
+}
+
+bool fails(const char* kind, int folder, const char* path) {
+    return (path[0] == '/' || folder == AT_FDCWD || isOpenUnder(folder)) && fails(kind, path);
 }
 
 bool fails(const char* kind, std::FILE* stream) {
@@ -135,10 +143,18 @@ int link(const char* from, const char* to) noexcept {
     return fails("create", to) ? -1 : NEXT(link)(from, to);
 }
 int mkdirat(int folder, const char* path, mode_t mode) noexcept {
-    return fails("create", path) ? -1 : NEXT(mkdirat)(folder, path, mode);
+    return fails("create", folder, path) ? -1 : NEXT(mkdirat)(folder, path, mode);
 }
 int linkat(int fromFolder, const char* from, int toFolder, const char* to, int flags) noexcept {
-    return fails("create", to) ? -1 : NEXT(linkat)(fromFolder, from, toFolder, to, flags);
+    return fails("create", toFolder, to) ? -1 : NEXT(linkat)(fromFolder, from, toFolder, to, flags);
+}
+int openat(int folder, const char* path, int flags, ...) {
+    va_list more;
+    va_start(more, flags);
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    return (flags & O_CREAT) != 0 && fails("create", folder, path) ? -1
+                                                                   : NEXT(openat)(folder, path, flags, mode);
 }
 std::size_t fwrite(const void* data, std::size_t size, std::size_t count, std::FILE* stream) {
     return fails("write", stream) ? 0 : NEXT(fwrite)(data, size, count, stream);
@@ -157,7 +173,7 @@ int rename(const char* from, const char* to) noexcept {
     return fails("move", to) ? -1 : NEXT(rename)(from, to);
 }
 int renameat2(int fromFolder, const char* from, int toFolder, const char* to, unsigned flags) noexcept {
-    return fails("move", to) ? -1 : NEXT(renameat2)(fromFolder, from, toFolder, to, flags);
+    return fails("move", toFolder, to) ? -1 : NEXT(renameat2)(fromFolder, from, toFolder, to, flags);
 }
 int remove(const char* path) noexcept {
     return fails("remove", path) ? -1 : NEXT(remove)(path);
@@ -166,7 +182,7 @@ int rmdir(const char* path) noexcept {
     return fails("remove", path) ? -1 : NEXT(rmdir)(path);
 }
 int unlinkat(int folder, const char* path, int flags) noexcept {
-    return fails("remove", path) ? -1 : NEXT(unlinkat)(folder, path, flags);
+    return fails("remove", folder, path) ? -1 : NEXT(unlinkat)(folder, path, flags);
 }
 int flock(int file, int operation) noexcept {
     if (const int error = faultIn("lock")) {

@@ -4,6 +4,7 @@
 #include "tests/support/files.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <stdexcept>
@@ -113,6 +114,16 @@ TEST(ReferenceCheckpoint, WhatHasItsNameByChanceIsLeftAlone) {
     }
     EXPECT_EQ(numbersAt(stem, other_key), (Numbers{10}));
     EXPECT_EQ(contentsOf(stem.parent_path() / other_name), text);
+}
+
+// Its records would be taken for ours.
+TEST(ReferenceCheckpoint, AFileThatOthersMayWriteIsLeftAlone) {
+    const Path stem = twoRecords(), file = stem.parent_path() / keptName;
+    ASSERT_EQ(::chmod(file.c_str(), 0666), 0);
+    EXPECT_TRUE(numbersAt(stem).empty());
+    EXPECT_EQ(namesIn(stem.parent_path()), (Names{keptName, std::string(keptName) + "-2"}));
+    ASSERT_EQ(::chmod(file.c_str(), 0644), 0);
+    EXPECT_EQ(numbersAt(stem), (Numbers{10, 11})) << "ours alone";
 }
 
 TEST(ReferenceCheckpoint, WhatOthersLeftIsNamed) {
