@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
@@ -45,6 +46,7 @@ void checkWritable(const Output& output) {
     const bool folder = output.kind == OutputKind::folder;
     if (fs::is_other(there))
         fail(output.path, "is a device, pipe or socket; give the name of a file or folder");
+    linkedFile(output.path);  // throws for another user's link
     if (folder && fs::is_regular_file(there))
         fail(output.path, "is a file, but a folder is written there; give another name");
     fs::path above = fs::absolute(output.path, error);
@@ -74,8 +76,12 @@ Output outputOf(const fs::path& out, bool folders_alone) {
 }
 
 fs::path linkedFile(const fs::path& out) {
+    struct stat link {};
+    if (::lstat(out.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return out;
+    // Another user may have put it there during the run.
+    if (link.st_uid != ::geteuid() && link.st_uid != 0)
+        fail(out, "is another user's link, which may lead anywhere; name its target");
     std::error_code error;
-    if (!fs::is_symlink(fs::symlink_status(out, error))) return out;
     fs::path target = fs::weakly_canonical(out, error);
     if (error) failLinks(out, error);
     return target;

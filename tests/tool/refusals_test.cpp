@@ -58,7 +58,7 @@ TEST(Refusals, AnOutputThatCannotBeWrittenIsSaidBeforeRendering) {
          {std::pair{"/dev/stdout | cat", "-o /dev/stdout: is a device, pipe or socket"},
           {"/dev/stdout > file", "-o /dev/stdout: is a file, but a folder is written there"},
           {"loop", "-o loop: its links lead in a circle"},
-          {"loop/inside", "loop/inside: "},
+          {"loop/inside", "-o loop/inside: its links lead in a circle"},
           {"loop.exr", "-o loop.exr: its links lead in a circle"},
           {"pipe.png", "-o pipe.png: is a device, pipe or socket"},
           {"file/inside.png", "file/inside.png: Not a directory"}})
