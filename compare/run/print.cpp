@@ -23,6 +23,13 @@ void noteFailure() {
     failed.compare_exchange_strong(none, errno != 0 ? errno : EIO);
 }
 
+// Bytes before the last character if that may continue after the text, otherwise all bytes.
+std::size_t endOfWhole(std::string_view text) {
+    for (std::size_t i = 1; i <= std::min<std::size_t>(text.size(), 3); ++i)
+        if (static_cast<unsigned char>(text[text.size() - i]) >= 0xc0) return text.size() - i;
+    return text.size();
+}
+
 }  // namespace
 
 void printText(std::string_view text, ColorChoice color) {
@@ -37,16 +44,16 @@ int flushText() {
 }
 
 void printFile(InputFile& file) {
-    std::string piece(1 << 16, '\0'), lines;
+    std::string piece(1 << 16, '\0'), begun;  // begun: the first bytes of a character
     for (std::uint64_t left = file.size(); left > 0; left -= piece.size()) {
         piece.resize(std::min<std::uint64_t>(left, piece.size()));
         file.read(std::as_writable_bytes(std::span(piece)));
-        lines += piece;
-        const std::size_t end = lines.rfind('\n') + 1;  // whole lines: no character is split
-        printText(lines.substr(0, end));
-        lines.erase(0, end);
+        const std::string text = begun + piece;
+        const std::size_t end = endOfWhole(text);
+        printText(text.substr(0, end));
+        begun = text.substr(end);
     }
-    printText(lines);
+    printText(begun);
 }
 
 void printMessage(std::string_view message) {

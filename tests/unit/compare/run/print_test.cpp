@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 namespace diptych {
@@ -37,6 +39,18 @@ TEST(PrintFile, NoCharacterIsCutBetweenTwoPieces) {
     }
     for (const std::size_t size : {std::size_t{0}, piece, 2 * piece})
         EXPECT_TRUE(printedOf(std::string(size, '\n')).size() == size) << size;
+}
+
+// Output of a file with one long line begins before the file is read to its end.
+TEST(PrintFile, ALongLineIsPrintedAsItIsRead) {
+    constexpr std::uintmax_t piece = std::uintmax_t{1} << 16;
+    const std::filesystem::path file = folder() / "long.json";
+    std::ofstream(file, std::ios::binary) << std::string(3 * piece, 'a');
+    InputFile opened(file);
+    std::filesystem::resize_file(file, 2 * piece);
+    testing::internal::CaptureStdout();
+    EXPECT_THROW(printFile(opened), std::runtime_error);
+    EXPECT_EQ(testing::internal::GetCapturedStdout().size(), 2 * piece);
 }
 
 }  // namespace
