@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -57,6 +58,14 @@ std::string wholeOf(InputFile& file) {
     return text;
 }
 
+// A checkout without Git LFS leaves such a text in place of the file. Leaves the offset for reading.
+bool isLfsPointer(int descriptor) {
+    constexpr std::string_view start = "version https://git-lfs";
+    char text[start.size()];
+    return ::pread(descriptor, text, sizeof text, 0) == ssize_t{sizeof text} &&
+           std::string_view(text, sizeof text) == start;
+}
+
 }  // namespace
 
 InputFile::InputFile(const fs::path& file, std::uint64_t most_bytes)
@@ -79,11 +88,13 @@ void InputFile::check(std::uint64_t most_bytes) {
     const bool known = ::fstat(descriptor_, &status) == 0;
     const int error = errno;
     size_ = known ? static_cast<std::uint64_t>(status.st_size) : 0;
-    if (known && S_ISREG(status.st_mode) && size_ <= most_bytes) return;
+    const bool pointer = known && S_ISREG(status.st_mode) && isLfsPointer(descriptor_);
+    if (known && S_ISREG(status.st_mode) && size_ <= most_bytes && !pointer) return;
     ::close(std::exchange(descriptor_, -1));  // the destructor does not run if the constructor throws
     if (!known) failToOpen(error);
     if (S_ISDIR(status.st_mode)) fail("is a folder");
     if (!S_ISREG(status.st_mode)) fail("is not a regular file");
+    if (pointer) fail("is a Git LFS pointer, not the file; fetch it by git lfs pull");
     fail(fmt::format("has {} bytes; the limit is {}", size_, most_bytes));
 }
 

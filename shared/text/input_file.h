@@ -12,7 +12,8 @@
 namespace diptych {
 
 // An open regular file. All functions throw std::runtime_error without the file's name: "no such file",
-// "is a folder", "is not a regular file", "is 5000000000 bytes: at most 4294967296 are read".
+// "is a folder", "is not a regular file", "is 5000000000 bytes: at most 4294967296 are read". A Git LFS
+// pointer is an error, too.
 class InputFile {
 public:
     // Follows links, because users may name a file by one.

@@ -28,6 +28,14 @@ TEST(InputFile, ReadsARegularFileAndALinkToOne) {
     EXPECT_EQ(faultOf([&] { textIn(root / "none.txt", 3); }), "no such file");
 }
 
+TEST(InputFile, APointerOfGitLfsIsNamed) {
+    const fs::path root = folder();
+    std::ofstream(root / "a.png") << "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+    const std::string said = "is a Git LFS pointer, not the file; fetch it by git lfs pull";
+    EXPECT_EQ(faultOf([&] { textIn(root / "a.png", 100); }), said);
+    EXPECT_EQ(faultOf([&] { textBelow(root, "a.png", 100); }), said);
+}
+
 // None of them blocks; otherwise the test would hang.
 TEST(InputFile, WhatIsNoFileIsSaidAtOnce) {
     const fs::path root = folder();
