@@ -113,7 +113,9 @@ void addFiles(CLI::App& app, Options& options, const std::string& defaults) {
 
 void addSelection(CLI::App& app, SelectionOptions& selection, ParsedOptions& parsed) {
     app.option_defaults()->group(selection_group);
-    app.add_option("--mask", selection.mask, "compare only pixels where this picture is at least half white")
+    app.add_option("--mask", selection.mask,
+                   "compare only pixels that are white in this picture: a colour component is at least half "
+                   "(128 of 255, or 0.5), whatever the alpha")
         ->type_name("FILE");
     app.add_option("--ids", selection.ids, "compare only pixels with these material ids in the reference")
         ->type_name("ID,...")

@@ -43,7 +43,37 @@ std::vector<std::string> picturesIn(const fs::path& folder) {
     return names;
 }
 
+// The name with each letter beyond ASCII, composed or with combining marks, as '?'. Without Unicode's
+// tables two letters with marks are not told apart. Jamo and kana marks count, too.
+std::string withoutForm(std::string_view name) {
+    std::string out;
+    while (!name.empty()) {
+        const auto [code, size] = characterAt(name);
+        const bool mark = (code >= 0x300 && code <= 0x36f) || (code >= 0x1160 && code <= 0x11ff) ||
+                          code == 0x3099 || code == 0x309a;
+        if (mark && !out.empty())
+            out.back() = '?';
+        else
+            out += size == 1 ? name.front() : '?';
+        name.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return out;
+}
+
 }  // namespace
+
+std::string otherForm(std::string_view name, const std::vector<std::string>& names) {
+    const std::string mine = withoutForm(name);
+    if (mine == name) return {};
+    const auto found = std::ranges::find_if(names, [&](const std::string& other) {
+        // A form has as many characters as another only if it is the same.
+        const auto starts = [](std::string_view text) {
+            return std::ranges::count_if(text, [](unsigned char c) { return (c & 0xc0u) != 0x80u; });
+        };
+        return starts(other) != starts(name) && withoutForm(other) == mine;
+    });
+    return found == names.end() ? std::string() : *found;
+}
 
 PictureFolders pictureFolders(const fs::path& reference, const fs::path& test) {
     const std::vector<std::string> left = picturesIn(reference), right = picturesIn(test);
@@ -51,9 +81,14 @@ PictureFolders pictureFolders(const fs::path& reference, const fs::path& test) {
     std::ranges::set_intersection(left, right, std::back_inserter(result.both));
     std::ranges::set_difference(left, right, std::back_inserter(result.reference_alone));
     std::ranges::set_difference(right, left, std::back_inserter(result.test_alone));
-    if (result.both.empty())
-        throw std::runtime_error(fmt::format("{} and {} share no picture name ({} and {} pictures)",
-                                             reference.string(), test.string(), left.size(), right.size()));
+    if (result.both.empty()) {
+        const bool form = std::ranges::any_of(
+            left, [&](const std::string& name) { return !otherForm(name, right).empty(); });
+        throw std::runtime_error(fmt::format(
+            "{} and {} share no picture name ({} and {} pictures){}", reference.string(), test.string(),
+            left.size(), right.size(),
+            form ? "; some seem to differ in Unicode form only (composed or decomposed); rename them" : ""));
+    }
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych {
@@ -15,5 +16,9 @@ struct PictureFolders {
 // Searches both folders recursively. Skips hidden files and other file types. Throws std::runtime_error,
 // one line, if a folder is unreadable or there is no common name.
 PictureFolders pictureFolders(const std::filesystem::path& reference, const std::filesystem::path& test);
+
+// The first of `names` that seems to be this name in another Unicode form (composed or decomposed); "" if
+// none is.
+std::string otherForm(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 #include "compare/report/picture_diff_text.h"
 
 #include "compare/files/our_files.h"
+#include "compare/files/picture_folders.h"
 #include "compare/output/writers.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
@@ -188,9 +189,17 @@ bool FolderDiff::passed() const {
 
 std::vector<SceneError> FolderDiff::failures() const {
     std::vector<SceneError> all;
-    for (const auto& [names, folder] :
-         {std::pair{&reference_alone, &reference}, std::pair{&test_alone, &test}})
-        for (const std::string& name : *names) all.push_back({name, fmt::format("is in {} only", *folder)});
+    const auto add = [&](const std::vector<std::string>& names, const std::string& folder,
+                         const std::vector<std::string>& others) {
+        for (const std::string& name : names)
+            all.push_back({name, fmt::format("is in {} only{}", folder,
+                                             otherForm(name, others).empty()
+                                                 ? ""
+                                                 : "; the other folder seems to have it in another Unicode "
+                                                   "form (composed or decomposed); rename one")});
+    };
+    add(reference_alone, reference, test_alone);
+    add(test_alone, test, reference_alone);
     return all;
 }
 

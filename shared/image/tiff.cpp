@@ -167,23 +167,26 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
     return layout;
 }
 
-float valueOf(const TiffLayout& layout, const unsigned char* sample) {
+// `inverted`: 0 is white. Integers are inverted before the division, so that the result is rounded once.
+float valueOf(const TiffLayout& layout, const unsigned char* sample, bool inverted) {
+    const std::uint32_t flipped = inverted ? 0xffffffffu : 0;
     const auto as = [&]<class T>(T value) {
         std::memcpy(&value, sample, sizeof value);
         return value;
     };
     switch (layout.bits) {
         case 8:
-            return static_cast<float>(*sample) / 255.0f;
+            return static_cast<float>(static_cast<std::uint8_t>(*sample ^ flipped)) / 255.0f;
         case 16: {
-            const auto code = as(std::uint16_t{});
+            const auto code = static_cast<std::uint16_t>(as(std::uint16_t{}) ^ flipped);
             if (!isFloat(layout)) return static_cast<float>(code) / 65535.0f;
             Imath::half half;
             half.setBits(code);
             return half;
         }
         default:
-            return isFloat(layout) ? as(0.0f) : static_cast<float>(as(std::uint32_t{}) / 4294967295.0);
+            return isFloat(layout) ? as(0.0f)
+                                   : static_cast<float>((as(std::uint32_t{}) ^ flipped) / 4294967295.0);
     }
 }
 
@@ -230,9 +233,8 @@ private:
                 for (std::uint32_t s = 0; s < samples_; ++s) {
                     const std::size_t pixel = std::size_t{y - y0} * width_ + (x - x0);
                     const int component = layout_.planes ? plane : static_cast<int>(s);
-                    const float value = valueOf(layout_, from + (pixel * samples_ + s) * step);
                     image_.at(static_cast<int>(x), static_cast<int>(y), component) =
-                        inverted && component == 0 ? 1 - value : value;
+                        valueOf(layout_, from + (pixel * samples_ + s) * step, inverted && component == 0);
                 }
     }
 

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,18 +53,36 @@ struct GltfFile {
 
     nlohmann::json& primitive() { return json["meshes"][0]["primitives"][0]; }
 
+    // The file's JSON, with the extensions of all objects in extensionsUsed unless the test wrote it.
+    nlohmann::json declared() const {
+        if (json.contains("extensionsUsed")) return json;
+        std::set<std::string> names;
+        const auto collect = [&](const auto& self, const nlohmann::json& value) -> void {
+            for (const auto& [key, member] : value.items()) {
+                if (value.is_object() && key == "extras") continue;
+                if (value.is_object() && key == "extensions" && member.is_object())
+                    for (const auto& extension : member.items()) names.insert(extension.key());
+                if (member.is_structured()) self(self, member);
+            }
+        };
+        collect(collect, json);
+        nlohmann::json result = json;
+        if (!names.empty()) result["extensionsUsed"] = names;
+        return result;
+    }
+
     std::string written(const std::string& name = "scene.gltf") {
         if (!data.empty()) {
             json["buffers"] = {{{"byteLength", data.size()}, {"uri", "a%20buffer.bin"}}};
             std::ofstream(testFolder() / "a buffer.bin", std::ios::binary) << data;
         }
-        std::ofstream(testFolder() / name) << json.dump();
+        std::ofstream(testFolder() / name) << declared().dump();
         return (testFolder() / name).string();
     }
 
     std::string binary() {
         json["buffers"] = {{{"byteLength", data.size()}}};
-        std::string text = json.dump(), bytes = data;
+        std::string text = declared().dump(), bytes = data;
         text.resize((text.size() + 3) / 4 * 4, ' ');
         bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
         const auto word = [](std::size_t v) {

@@ -132,6 +132,8 @@ void checkVersion(const Json& document) {
     const auto asset = document.find("asset");
     const auto text = [&](const char* key) {
         const Json value = asset != document.end() && asset->is_object() ? asset->value(key, Json()) : Json();
+        if (!value.is_null() && !value.is_string())
+            fail(fmt::format("asset: {} is {}, not a string; write \"2.0\"", key, oneLine(value.dump())));
         return value.is_string() ? value.get<std::string>() : std::string();
     };
     const std::string version = text("version"), least = text("minVersion");
@@ -305,6 +307,14 @@ tinygltf::Model parseModel(const std::string& text) {
     return model;
 }
 
+// Readers may ignore an extension that extensionsUsed does not list (glTF 2.0, 3.12).
+void noteUndeclared(const Schema& found, std::vector<std::string>& notes) {
+    NoteList list("extensions");
+    for (const std::string& name : found.extensions)
+        if (!found.declared.contains(name)) list.add(name + ": is used but missing from extensionsUsed");
+    list.moveTo(notes);
+}
+
 // Parses the document and checks its version and required extensions.
 Json documentOf(const Bytes& bytes, const Container& container) {
     Json document =
@@ -340,7 +350,11 @@ Document open(Bytes bytes, const std::filesystem::path& folder, const std::strin
                 result.notes.push_back(fmt::format("{}: {} is not supported there: left out",
                                                    where.empty() ? "the document" : where, name));
         result.broken_meshes = std::move(found.broken_meshes);
+        if (!result.variants.names.empty()) found.extensions.insert("KHR_materials_variants");
+        if (!result.image_lights.scenes.empty()) found.extensions.insert("EXT_lights_image_based");
+        noteUndeclared(found, result.notes);
         result.left_out = std::move(found.extensions);
+        result.left_out.merge(found.declared);
         std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
         buffers = taken(document, "buffers");
         images = taken(document, "images");

@@ -290,10 +290,9 @@ Schema applySchema(nlohmann::json& document) {
     walk.object(document, schema::document, {});
     checkStrides(document, walk.references, walk.notes);
     std::map<std::size_t, std::string> meshes = leaveOutUnusable(document, walk.references, walk.notes);
+    Schema found{std::move(walk.met_extensions), {}, std::move(walk.misplaced), std::move(meshes), {}};
     if (const auto used = document.find("extensionsUsed"); used != document.end())
-        for (const Json& name : *used)
-            walk.met_extensions.insert(oneLine(name.get_ref<const std::string&>()));
-    Schema found{std::move(walk.met_extensions), std::move(walk.misplaced), std::move(meshes), {}};
+        for (const Json& name : *used) found.declared.insert(oneLine(name.get_ref<const std::string&>()));
     walk.notes.moveTo(found.notes);
     return found;
 }

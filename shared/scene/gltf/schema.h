@@ -18,7 +18,8 @@ namespace diptych::gltf {
 // not a whole number". Source: Khronos, glTF 2.0 Specification, 2021, section 5 and the extensions'
 // specifications.
 struct Schema {
-    std::set<std::string> extensions;  // used by objects, or listed in extensionsUsed
+    std::set<std::string> extensions;  // used by objects
+    std::set<std::string> declared;    // listed in extensionsUsed
     // Extension -> an object that has it but does not support it.
     std::map<std::string, std::string> misplaced;
     std::map<std::size_t, std::string> broken_meshes;  // why each was omitted; nodes may still refer to it

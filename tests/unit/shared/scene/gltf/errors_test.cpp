@@ -156,6 +156,8 @@ TEST(GltfErrors, Documents) {
         "of input; expected '}'");
     EXPECT_EQ(linesFor("{}"), "asset: has no version");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"1.0\"}}"), "asset: version 1.0, not 2.0");
+    EXPECT_EQ(linesFor("{\"asset\": {\"version\": 2.0}}"),
+              "asset: version is 2.0, not a string; write \"2.0\"");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0}"), "scene 0, but the file has 0");
     EXPECT_EQ(linesFor("glTF\x02"), "is cut short: 5 of 12 header bytes");
     EXPECT_EQ(linesFor("{\"asset\": {\"version\": \"2.0\", \"extras\": 1e999}}"),

@@ -341,6 +341,20 @@ TEST(GltfRepair, ExtensionsAreNotedWhereverTheyStand) {
     EXPECT_EQ(f.load().notes, expected);
 }
 
+TEST(GltfRepair, ExtensionsMissingFromExtensionsUsedAreNoted) {
+    GltfFile f = GltfFile::triangle();
+    f.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    f.primitive()["material"] = 0;
+    f.primitive()["extensions"]["KHR_materials_variants"]["mappings"] = {
+        {{"material", 0}, {"variants", {0}}}};
+    f.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "a"}}};
+    f.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    EXPECT_EQ(f.load().notes, (Lines{"KHR_materials_unlit: is used but missing from extensionsUsed",
+                                     "KHR_materials_variants: is used but missing from extensionsUsed"}));
+    f.json.erase("extensionsUsed");  // the builder lists all
+    EXPECT_EQ(f.load().notes, Lines());
+}
+
 TEST(GltfRepair, NewerVersionsAreRefusedByName) {
     GltfFile f = GltfFile::triangle();
     f.json["asset"]["version"] = "2.7";
