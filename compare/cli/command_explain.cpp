@@ -10,6 +10,7 @@
 #include "compare/explain/write.h"
 #include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
+#include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
 #include "shared/image/picture_file.h"
@@ -188,6 +189,8 @@ Frame readPicture(const Options& options, const std::string& file) {
     if (frame.scene.empty()) {
         frame.settings = options.settings;
         frame.settings.camera = options.cameras.front();
+    } else {
+        checkAsked(file, options.scene_file.empty() ? frame.scene : "", frame.settings.lights);
     }
     if (isReferenceFrame(frame))
         throw std::runtime_error(

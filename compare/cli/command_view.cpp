@@ -3,6 +3,7 @@
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
+#include "compare/render/shown_scene.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/picture_file.h"
@@ -111,6 +112,7 @@ Options reported(const Options& given) {
     const ReportedView of = readReport(given);
     Options options =
         named("--report " + given.view.report.string(), [&] { return parseReported(of.command); });
+    checkAsked("--report " + given.view.report.string(), options.scenes.front(), options.settings.lights);
     options.shown = findDebugMode(of.channel)->number;
     options.pixel = given.pixel ? given.pixel : of.pixel;
     options.size_given = true;

@@ -2,6 +2,7 @@
 #include "compare/render/shown_scene.h"
 
 #include "shared/scene/image/environment.h"
+#include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/text/one_line.h"
@@ -43,6 +44,18 @@ void requireTriangles(const Scene& scene, const std::string& where) {
         scene.notes, [](const std::string& note) { return note.find("left out") != note.npos; });
     throw std::runtime_error(fmt::format("{}: has nothing to draw{}; --allow-empty compares it all the same",
                                          oneLine(where), why == scene.notes.end() ? "" : ": " + *why));
+}
+
+void checkAsked(const std::string& file, const std::string& where, const std::string& lights) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 30;
+    const auto check = [&](const std::string& what, std::uint64_t bytes) {
+        if (bytes > most)
+            throw std::runtime_error(fmt::format(
+                "{}: asks for {}, about {:.1f} GB; a file may ask for 1 GiB, a command line for more", file,
+                oneLine(what), static_cast<double>(bytes) / 1e9));
+    };
+    check(where, askedBytes(where));
+    check("--lights " + lights, rigBytes(lights));
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {

@@ -65,6 +65,10 @@ Scene loadScene(const std::string& where, const LoadProgress& progress, const st
     return scene;
 }
 
+std::uint64_t askedBytes(const std::string& where) {
+    return where.starts_with(builtinPrefix) ? builtinBytes(where.substr(builtinPrefix.size())) : 0;
+}
+
 void checkScene(const std::string& where, const std::string& variant) {
     if (where.starts_with(builtinPrefix))
         builtinOf(where, variant);

@@ -5,6 +5,7 @@
 #include "shared/scene/model/load_progress.h"
 #include "shared/scene/model/scene.h"
 
+#include <cstdint>
 #include <string>
 
 namespace diptych {
@@ -17,5 +18,8 @@ Scene loadScene(const std::string& where, const LoadProgress& progress = {}, con
 // Checks quickly whether `where` is a scene with the variant, without reading its data: the file exists, and
 // its container lengths, JSON, version and required extensions are valid. Throws as loadScene().
 void checkScene(const std::string& where, const std::string& variant = "");
+
+// Estimated memory that the parameters of a built-in scene ask for; 0 for files.
+std::uint64_t askedBytes(const std::string& where);
 
 }  // namespace diptych

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/builtin/builtin.h"
 
+#include "shared/image/free_memory.h"
 #include "shared/scene/builtin/scenes.h"
+#include "shared/scene/lights/rig.h"
 #include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
@@ -32,6 +34,7 @@ struct Row {
     Scene (*make)();
     Scene (*makeWith)(Numbers) = nullptr;
     std::span<const Parameter> parameters = {};
+    double (*bytes)(Numbers) = nullptr;  // estimated memory (rig.h: lightBytes)
 };
 
 constexpr std::array sphereParameters{Parameter{"lights", 256, 0x7fffffffu}};
@@ -44,12 +47,22 @@ constexpr std::array coveredParameters{Parameter{"coated", 0, 100}, Parameter{"w
                                        Parameter{"brushed", 0, 100}, Parameter{"glass", 0, 100},
                                        Parameter{"lights", 64, 0x7fffffffu}};
 
+// Measured on lavapipe (scene/MEASURED.md): the scene, its views and its copy on a CPU device.
+double arrayBytes(Numbers n) {
+    constexpr double object = 3000, mesh = 5000, triangle = 230, material = 3800, texels = 2.6 * (1 << 20);
+    const double objects = std::max(n[0], 1u), materials = std::max(n[3], 1u),
+                 meshes = std::min(std::max<double>(n[2], materials), objects);
+    return objects * object + meshes * (mesh + n[1] / objects * triangle) + materials * material +
+           n[4] * texels;
+}
+
 constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
     Row{"gallery", "sculpture hall in the evening: every kind of material, about 70 lights (the default)",
         PICTURE, builtin::gallery},
     Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", PICTURE, nullptr,
-        [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters},
+        [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters,
+        [](Numbers n) { return lightBytes * n[0]; }},
     Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", PICTURE,
         builtin::furnace},
     Row{"normals", "normals of every direction under sharp highlights: seams of normal encodings", TEST,
@@ -116,13 +129,13 @@ constexpr std::array ROWS{
         [](Numbers n) {
             return builtin::array({n[0], n[1], n[2], n[3], n[4]});
         },
-        arrayParameters},
+        arrayParameters, arrayBytes},
     Row{"covered", "a wall of tiles, N % of them coated, woven, brushed or glass: cost of layers", TEST,
         nullptr,
         [](Numbers n) {
             return builtin::covered({n[0], n[1], n[2], n[3]}, n[4]);
         },
-        coveredParameters},
+        coveredParameters, [](Numbers n) { return lightBytes * n[4]; }},
 };
 
 std::vector<std::string> knownNames() {
@@ -165,6 +178,24 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
     return numbers;
 }
 
+const Row& rowOf(const std::string& name) {
+    const std::string_view base = std::string_view(name).substr(0, name.find('?'));
+    const auto row = std::ranges::find(ROWS, base, &Row::name);
+    if (row != ROWS.end()) return *row;
+    const std::vector<std::string> names = knownNames();
+    throw std::runtime_error(fmt::format("builtin:{}: no such scene{}; there are {}", name,
+                                         didYouMean(base, names), fmt::join(names, ", ")));
+}
+
+// The parameters of "array?objects=5", or the defaults; none if the scene has none.
+std::vector<std::uint32_t> numbersOf(const std::string& name, const Row& row) {
+    const bool given = row.name.size() < name.size();
+    if (given && row.name.size() + 1 == name.size())
+        throw std::runtime_error(fmt::format("builtin:{}: a parameter is missing after the ?", name));
+    if (!given && row.makeWith == nullptr) return {};
+    return numbersFrom(name, row, std::string_view(name).substr(given ? row.name.size() + 1 : name.size()));
+}
+
 }  // namespace
 
 std::vector<BuiltinName> builtinNames() {
@@ -179,22 +210,18 @@ std::vector<BuiltinName> builtinNames() {
     return names;
 }
 
+std::uint64_t builtinBytes(const std::string& name) {
+    const Row& row = rowOf(name);
+    return row.bytes ? static_cast<std::uint64_t>(row.bytes(numbersOf(name, row))) : 0;
+}
+
 Scene makeBuiltin(const std::string& name) {
-    const std::string_view base = std::string_view(name).substr(0, name.find('?'));
-    for (const Row& row : ROWS) {
-        if (row.name != base) continue;
-        const bool given = base.size() < name.size();
-        if (given && base.size() + 1 == name.size())
-            throw std::runtime_error(fmt::format("builtin:{}: a parameter is missing after the ?", name));
-        const auto query = std::string_view(name).substr(given ? base.size() + 1 : name.size());
-        const bool takes = given || row.makeWith != nullptr;
-        Scene scene = takes ? row.makeWith(numbersFrom(name, row, query)) : row.make();
-        scene.name = "builtin:" + name;
-        return scene;
-    }
-    const std::vector<std::string> names = knownNames();
-    throw std::runtime_error(fmt::format("builtin:{}: no such scene{}; there are {}", name,
-                                         didYouMean(base, names), fmt::join(names, ", ")));
+    const Row& row = rowOf(name);
+    const std::vector<std::uint32_t> numbers = numbersOf(name, row);
+    if (row.bytes) checkMemory("builtin:" + name, builtinBytes(name), "smaller numbers need less");
+    Scene scene = row.makeWith ? row.makeWith(numbers) : row.make();
+    scene.name = "builtin:" + name;
+    return scene;
 }
 
 }  // namespace diptych

@@ -4,6 +4,7 @@
 
 #include "shared/scene/model/scene.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,11 @@ struct BuiltinName {
 std::vector<BuiltinName> builtinNames();
 
 // `name` follows "builtin:", such as "gallery" or "spheres?lights=64". The scene's name includes the
-// prefix. Throws std::runtime_error: one line with the unknown name or parameter and the valid ones.
+// prefix. Throws std::runtime_error: one line with the unknown name or parameter and the valid ones, or if
+// builtinBytes() are not free.
 Scene makeBuiltin(const std::string& name);
+
+// Estimated memory that the parameters ask for; 0 if the scene has none.
+std::uint64_t builtinBytes(const std::string& name);
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/lights/rig.h"
 
+#include "shared/image/free_memory.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/scene/model/luminance.h"
 #include "shared/scene/motion/bounds.h"
@@ -72,6 +73,17 @@ std::vector<Order> parseOrders(const std::string& lights) {
         begin = end + 1;
     }
     return orders;
+}
+
+std::uint64_t countOf(const std::vector<Order>& orders) {
+    std::uint64_t total = 0;
+    for (const Order& order : orders) total += order.count;
+    return total;
+}
+
+bool isFile(const std::string& lights) {
+    std::error_code ignored;
+    return lights.ends_with(".json") || std::filesystem::exists(lights, ignored);
 }
 
 Box boxIn(const Bounds& bounds) {
@@ -176,20 +188,20 @@ double u01(std::uint32_t i) {
     return pcg(i) / 4294967296.0;
 }
 
+std::uint64_t rigBytes(const std::string& lights) {
+    if (lights.empty() || isFile(lights)) return 0;
+    return static_cast<std::uint64_t>(lightBytes * static_cast<double>(countOf(parseOrders(lights))));
+}
+
 std::vector<Light> makeLights(const std::string& lights, std::uint32_t seed, const Bounds& bounds) {
     if (lights.empty()) return {};
-    std::error_code ignored;
-    if (lights.ends_with(".json") || std::filesystem::exists(lights, ignored)) return readLights(lights);
+    if (isFile(lights)) return readLights(lights);
 
     const std::vector<Order> orders = parseOrders(lights);
-    std::uint64_t total = 0;
-    for (const Order& order : orders) total += order.count;
+    const std::uint64_t total = countOf(orders);
+    checkMemory("--lights " + lights, rigBytes(lights), "fewer lights need less");
     std::vector<Light> made;
-    try {
-        made.reserve(total);
-    } catch (const std::exception&) {
-        failLights(lights, fmt::format("{} lights do not fit in memory", total));
-    }
+    made.reserve(total);
 
     const Box box = boxIn(bounds);
     const double volume = box.size.x * box.size.y * box.size.z;

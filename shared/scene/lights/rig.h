@@ -17,6 +17,9 @@ namespace diptych {
 std::uint32_t pcg(std::uint32_t i);
 double u01(std::uint32_t i);
 
+// Estimated memory of one light with its copies on a CPU device, measured (scene/MEASURED.md).
+inline constexpr double lightBytes = 500;
+
 // World-space lights from `lights`, the value of Settings::lights. This is a JSON file { "lights": [...] }
 // (it ends in .json or exists), or "KIND:N[,KIND:N...]": N lights of KIND (point, spot or area) scattered
 // in `bounds`. If a kind is repeated, its numbering continues. Position, colour and direction of light i
@@ -42,8 +45,11 @@ double u01(std::uint32_t i);
 //            candela divided by the area seen from the front, so that distant area lights match the others
 //
 // Throws std::runtime_error: one line with --lights or the file, the fault and the accepted values. N is
-// limited by memory and, over all kinds together, by 2^31.
+// limited by memory (rigBytes() must be free) and, over all kinds together, by 2^31.
 std::vector<Light> makeLights(const std::string& lights, std::uint32_t seed, const Bounds& bounds);
+
+// Estimated memory of the lights; 0 for a file.
+std::uint64_t rigBytes(const std::string& lights);
 
 // A sun of 3 lux for scenes without lights and environment: a white Lambertian surface that faces it has
 // radiance 0.95. It is behind the viewer, higher and to the left, so that shapes do not look flat. The

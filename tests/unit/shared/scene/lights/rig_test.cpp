@@ -163,6 +163,8 @@ TEST(Rig, WrongOrdersNameTheOptionAndTheFault) {
     }
     EXPECT_NE(rigFault("areas:4").find("area"), std::string::npos);
     EXPECT_NE(rigFault("point:2147483649").find("2^31"), std::string::npos);
+    EXPECT_NE(rigFault("point:1147483648,spot:1000000000").find("needs about"), std::string::npos)
+        << "more memory than any machine has is refused before it is taken";
     EXPECT_NE(rigFault("point:1", {{0, 0, 0}, {INFINITY, 1, 1}}).find("not finite"), std::string::npos);
     EXPECT_TRUE(makeLights("", 0, ROOM).empty());
     EXPECT_TRUE(makeLights("point:0", 0, ROOM).empty());
