@@ -15,7 +15,6 @@
 #include "shared/text/counted.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
-#include "shared/text/named.h"
 #include "shared/text/one_line.h"
 #include "shared/text/open_folder.h"
 
@@ -125,9 +124,7 @@ int mergeTradeoffs(const Options& options) {
         std::vector<std::string> names = listedIn(from / manifest);
         std::erase(names, tradeoff::tradeoffManifest);
         try {
-            tradeoff::checkSwept(from, {item.scene, item.folder});
-            for (const std::string& name : names)
-                named((from / item.folder / name).string(), [&] { InputFile(from, item.folder + name); });
+            tradeoff::checkSwept(from, {item.scene, item.folder}, names);
         } catch (const std::runtime_error& problem) {
             chosen.problems.push_back(
                 fmt::format("{}: the tradeoff is incomplete: {}", from.string(), problem.what()));

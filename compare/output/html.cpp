@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/output/writers.h"
 
+#include "compare/page/emitted.h"
 #include "compare/page/page.h"
 #include "compare/page/text.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 
@@ -90,6 +92,17 @@ std::string rowOf(const Table& table, const Row& row) {
     return out + "</tr>\n";
 }
 
+// What surrounds the title and the body of every page.
+constexpr const char* beforeTitle =
+    "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+    "content=\"width=device-width, initial-scale=1\"><title>Diptych: ";
+std::string afterTitle(std::string_view style) {
+    return fmt::format("</title>\n<style>{}{}</style></head>\n<body>\n", page::style, style);
+}
+std::string afterBody(std::string_view script) {
+    return fmt::format("<script>{}{}</script>\n</body></html>\n", page::tables, script);
+}
+
 // The markup of each kind of block.
 struct Markup {
     std::string operator()(const Heading& h) const {
@@ -161,20 +174,27 @@ std::string inHtml(const Document& document) {
     std::string files;
     for (const std::string& file : document.files)
         files += fmt::format("<a href=\"{0}\">{0}</a> ", markup(file));
-    return fmt::format(
-               "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-               "content=\"width=device-width, initial-scale=1\"><title>Diptych: "
-               "{}</title>\n<style>{}{}</style>"
-               "</head>\n<body>\n{}<header><p class=\"brand\">Diptych</p><h1>{}</h1><p "
-               "class=\"soft\">{}</p></header>\n",
-               markup(document.title), page::style, document.style,
+    return beforeTitle + markup(document.title) + afterTitle(document.style) +
+           fmt::format(
+               "{}<header><p class=\"brand\">Diptych</p><h1>{}</h1><p class=\"soft\">{}</p></header>\n",
                document.skip.empty()
                    ? ""
                    : fmt::format("<a class=\"skip\" href=\"#{}\">Skip to the table</a>", document.skip),
                inHtml(document.heading), inHtml(document.about)) +
-           inHtml(document.blocks) +
-           fmt::format("<footer><p>{}</p></footer><script>{}{}</script>\n</body></html>\n", files,
-                       page::tables, document.script);
+           inHtml(document.blocks) + fmt::format("<footer><p>{}</p></footer>", files) +
+           afterBody(document.script);
+}
+
+void checkPage(std::string_view text, std::string_view style, std::string_view script) {
+    const std::string head = afterTitle(style), end = afterBody(script);
+    const std::size_t title = text.find(head);
+    if (!text.starts_with(beforeTitle) || title == text.npos || !text.ends_with(end) ||
+        text.size() < title + head.size() + end.size())
+        fail("is not a page of this version of Diptych");
+    text.remove_suffix(end.size());
+    const std::size_t name = std::string_view(beforeTitle).size();
+    page::checkMarkup(fmt::format("<p>{}</p>", text.substr(name, title - name)));
+    page::checkMarkup(text.substr(title + head.size()));
 }
 
 }  // namespace diptych::output

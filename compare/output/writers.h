@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace diptych::output {
 
@@ -21,5 +22,9 @@ std::string inHtml(const Block& block);
 std::string inHtml(const std::vector<Block>& blocks);
 // A page without external resources, readable from file://.
 std::string inHtml(const Document& document);
+
+// For a page of another machine: throws std::runtime_error unless it is what inHtml() may write for a
+// document with this style and script (compare/page/emitted.h).
+void checkPage(std::string_view page, std::string_view style, std::string_view script);
 
 }  // namespace diptych::output

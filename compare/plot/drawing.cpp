@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/plot/drawing.h"
 
+#include "compare/page/emitted.h"
 #include "compare/page/text.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,12 @@ std::string plotElement(double width, double height, const std::string& title, P
             "<title>{}</title><style>{}</style><rect class=\"paper\" width=\"100%\" height=\"100%\"/>",
             markup(title), plotStyle);
     return out + inside + "</svg>\n";
+}
+
+void checkPlot(std::string svg) {
+    const std::string style = fmt::format("<style>{}</style>", plotStyle);
+    if (const std::size_t at = svg.find(style); at != svg.npos) svg.erase(at, style.size());
+    page::checkMarkup(svg);
 }
 
 }  // namespace diptych

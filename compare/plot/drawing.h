@@ -47,4 +47,8 @@ std::string svgNumber(double length);
 std::string plotElement(double width, double height, const std::string& title, PlotPlace place,
                         const std::string& markup);
 
+// For a plot's file of another machine: throws std::runtime_error unless plotElement() may write it
+// (compare/page/emitted.h).
+void checkPlot(std::string svg);
+
 }  // namespace diptych

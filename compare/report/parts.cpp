@@ -2,6 +2,7 @@
 #include "compare/report/parts.h"
 
 #include "compare/files/our_files.h"
+#include "compare/page/emitted.h"
 #include "compare/report/encoder.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/html.h"
@@ -153,15 +154,17 @@ Json jsonOf(const ReportPart& part) {
             {"junit", {part.junit.tests, part.junit.failures, part.junit.seconds}}};
 }
 
-// Checks file names of the part: unique, in one of our own formats, and in the scene's folder.
+// Checks file names of the part: unique, in the scene's folder, and of one of the kinds.
 std::vector<std::string> namesFrom(const Place& json, const std::string& scene_folder,
-                                   std::set<std::string>& taken) {
+                                   std::set<std::string>& taken, std::initializer_list<const char*> endings) {
     for (const Place& place : json.each()) {
         const std::string& name = place.text();
         if (!isOurName(name) || !name.starts_with(scene_folder))
             place.fail(
                 fmt::format("\"{}\" is not a file in the report folder \"{}\"", oneLine(name), scene_folder));
         if (!taken.insert(name).second) place.fail(fmt::format("\"{}\" is listed twice", name));
+        if (std::ranges::none_of(endings, [&](const char* ending) { return name.ends_with(ending); }))
+            place.fail(fmt::format("\"{}\" is of a kind that a report does not list here", name));
     }
     return json.texts();
 }
@@ -202,8 +205,8 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     }
     const std::vector<std::string> texts = part.texts();
     std::set<std::string> taken(texts.begin(), texts.end());
-    part.sections = namesFrom(json.at("sections"), scene_folder, taken);
-    part.files = namesFrom(json.at("files"), scene_folder, taken);
+    part.sections = namesFrom(json.at("sections"), scene_folder, taken, {".section.js"});
+    part.files = namesFrom(json.at("files"), scene_folder, taken, {".png", ".exr", ".values.js"});
     part.junit.tests = json.at("junit")[0].whole<std::size_t>(0, most_counted);
     part.junit.failures = json.at("junit")[1].whole<std::size_t>(0, most_counted);
     part.junit.seconds = json.at("junit")[2].number();
@@ -234,11 +237,21 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
                     fail("is a script that contains more than data");
                 return InputFile(root, name).size();
             });
-    for (const std::string& name : part.sections) sectionIn(root, name);
+    for (const std::string& name : part.sections) {
+        const std::string html = sectionIn(root, name);
+        named((root / name).string(), [&] { page::checkMarkup(html); });
+    }
+    for (const std::string& box : part.closer_boxes)
+        named((root / part.texts().front()).string() + ": closer_boxes", [&] { page::checkMarkup(box); });
     for (std::size_t i = 0; i < std::size(partTexts); ++i) {
         const std::string name = part.scene_folder + partTexts[i];
         const std::string inner = readPartText(root, part, static_cast<PartText>(i));
-        if (name.ends_with(".json")) named((root / name).string(), [&] { checkJson("[" + inner + "]"); });
+        named((root / name).string(), [&] {
+            if (name.ends_with(".json"))
+                checkJson("[" + inner + "]");
+            else
+                page::checkSuites(inner);
+        });
     }
 }
 
@@ -329,7 +342,7 @@ std::string sectionIn(const fs::path& root, const std::string& script) {
         const std::size_t open = text.find('('), close = text.rfind(')');
         if (open >= close || close == text.npos) fail("is not a report section");
         const nlohmann::json words = parseJson("[" + text.substr(open + 1, close - open - 1) + "]");
-        if (words.size() != 2 || !words[1].is_string()) fail("is not a report section");
+        if (words.size() != 2 || words[0] != script || !words[1].is_string()) fail("is not a report section");
         return words[1];
     });
 }

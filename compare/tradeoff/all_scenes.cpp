@@ -5,6 +5,8 @@
 #include "compare/files/our_files.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
+#include "compare/plot/drawing.h"
+#include "compare/tradeoff/html.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"
@@ -107,8 +109,20 @@ std::string pageOf(const std::vector<Swept>& all, const std::vector<std::string>
 
 }  // namespace
 
-void checkSwept(const fs::path& root, const SweptScene& scene) {
+void checkSwept(const fs::path& root, const SweptScene& scene, const std::vector<std::string>& files) {
     sweptIn(root, scene);
+    for (const std::string& name : files)
+        named((root / scene.folder / name).string(), [&] {
+            const std::string file = scene.folder + name;
+            if (name == "index.html")
+                checkTradeoffHtml(textBelow(root, file, json_bytes));
+            else if (name.ends_with(".svg"))
+                checkPlot(textBelow(root, file, json_bytes));
+            else if (name.ends_with(".png") || name.ends_with(".csv"))
+                InputFile(root, file);
+            else
+                fail("is of a kind that tradeoff does not write");
+        });
 }
 
 std::string writeAllScenes(const fs::path& folder, nlohmann::ordered_json manifest,

@@ -17,8 +17,10 @@ struct SweptScene {
     std::string scene, folder;
 };
 
-// Throws std::runtime_error naming the file if a scene's folder below `root` holds no tradeoff.
-void checkSwept(const std::filesystem::path& root, const SweptScene& scene);
+// Throws std::runtime_error naming the file if a scene's folder below `root` holds no tradeoff, or one of
+// the files in it is of another kind than a tradeoff's or holds other markup.
+void checkSwept(const std::filesystem::path& root, const SweptScene& scene,
+                const std::vector<std::string>& files);
 
 // Writes index.html and `manifest` with a list of the scenes; returns the manifest. `failures`: a line for
 // each other scene.

@@ -139,7 +139,15 @@ output::List how(const Tradeoff& tradeoff) {
     return list;
 }
 
+std::string pageStyle() {
+    return std::string(plotStyle) + tradeoffStyle;
+}
+
 }  // namespace
+
+void checkTradeoffHtml(std::string_view page) {
+    output::checkPage(page, pageStyle(), tradeoffScript);
+}
 
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
     const Size& size = tradeoff.given.size;
@@ -156,7 +164,7 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         .blocks = {output::Drawing{switches() + plots(tradeoff)},
                    output::Box{"", {Heading{2, "Every row"}, sweepTable(tradeoff)}, "rows"}},
         .files = {"tradeoff.json", "tradeoff.csv"},
-        .style = std::string(plotStyle) + tradeoffStyle,
+        .style = pageStyle(),
         .script = tradeoffScript,
         .skip = "rows"};
     for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include <functional>
+#include <tuple>
 
 namespace diptych {
 namespace {
@@ -124,6 +125,44 @@ TEST(HostileParts, ABadTextIsNamedBeforeAnythingIsWritten) {
     std::ofstream(shards.shard / section) << "alert(1, 2, 3)";
     EXPECT_NE(shards.merged().find(section + ": is a script that contains more than data"),
               std::string::npos);
+}
+
+// Markup of one shard neither changes the page around it nor takes another's test cases.
+TEST(HostileParts, MarkupThatDiptychDoesNotWriteLeavesTheSceneOut) {
+    const Shards shards(2);
+    const std::vector<fs::path> both{shards.shard, shards.root / "shard-2"};
+    const Json json = Json::parse(contentsOf(shards.part()));
+    const std::string section = json["sections"][0], sound = contentsOf(shards.shard / section);
+    const auto write = [&](const std::string& file, const std::string& text) {
+        fs::remove(shards.shard / file);  // it may be a hard link
+        std::ofstream(shards.shard / file) << text;
+    };
+    for (const char* markup : {"<meta http-equiv='refresh' content='0;url=https://evil.example'>",
+                               "<style>tr{display:none}</style>", "<link rel='stylesheet' href='x.css'>",
+                               "<b>", "</section>", "<p onclick='x'>a</p>", "<!-- a"}) {
+        std::string html = "<section>" + std::string(markup) + "</section>";
+        write(section, fmt::format("diptychSection({},{});\n", Json(section).dump(), Json(html).dump()));
+        const std::string problem = shards.merged(both);
+        EXPECT_NE(problem.find("box-1"), problem.npos) << markup << "\n" << problem;
+        EXPECT_EQ(contentsOf(shards.root / "out/index.html").find(markup), std::string::npos);
+        const Json report = Json::parse(contentsOf(shards.root / "out/report.json"));
+        EXPECT_EQ(report["comparisons"].size(), 1u);
+        EXPECT_EQ(report["errors"][0]["scene"], "scene-1");
+    }
+    write(section, fmt::format("diptychSection({},{});\n", Json("box-2/lit.section.js").dump(),
+                               Json("<p></p>").dump()));
+    EXPECT_NE(shards.merged(both).find("is not a report section"), std::string::npos);
+    write(section, sound);
+    ASSERT_EQ(shards.merged(both), "");
+    const std::string suites = contentsOf(shards.shard / "box-1/part-junit.xml");
+    for (const char* xml : {"<testsuite name=\"a\"><system-out>", "<testsuite name=\"a\"><![CDATA[", "<!-- ",
+                            "</testsuites>", "<testcase name=\"a\"/>"}) {
+        write("box-1/part-junit.xml", suites + xml);
+        EXPECT_NE(shards.merged(both).find("box-1/part-junit.xml: "), std::string::npos) << xml;
+    }
+    write("box-1/part-junit.xml", suites);
+    shards.change(shards.part(), [](Json& part) { part["files"].push_back("box-1/page.svg"); });
+    EXPECT_NE(shards.merged(both).find("\"box-1/page.svg\" is of a kind"), std::string::npos);
 }
 
 TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
@@ -241,15 +280,23 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
                         {"fronts", Json::array({{{"error", "flip"}, {"path", nullptr}, {"rows", {0}}}})},
                         {"files", {"row-001.png", "../secret.png"}}};
     Json plan{{"asked", Json::object()}};
-    shards::Manifest manifest{
-        "build", "tradeoff", plan, {1, 1}, {{"a", "a/", 1}, {"b", "b/", 1}, {"c", "c/", 1}}, {}};
-    for (const char* scene : {"a", "b", "c"}) {
+    shards::Manifest manifest{"build", "tradeoff", plan, {1, 1}, {}, {}};
+    for (const char* scene : {"a", "b", "c", "d", "e", "f"}) {
+        manifest.items.push_back({scene, std::string(scene) + "/", 1});
         fs::create_directories(root / "shard" / scene);
         std::ofstream(root / "shard" / scene / "tradeoff.json") << tradeoff.dump();
         std::ofstream(root / "shard" / scene / "row-001.png") << "picture";
     }
     std::ofstream(root / "secret.png") << "secret";
     std::ofstream(root / "shard/b/tradeoff.json") << R"({"software": "diptych", "device": {}, "rows": [1]})";
+    for (const auto& [scene, file, text] : {std::tuple{"d", "index.html", "<meta http-equiv='refresh'>"},
+                                            {"e", "a.svg", "<svg><script>x</script></svg>"},
+                                            {"f", "a.values.js", "x"}}) {
+        Json other = tradeoff;
+        other["files"] = {file};
+        std::ofstream(root / "shard" / scene / "tradeoff.json") << other.dump();
+        std::ofstream(root / "shard" / scene / file) << text;
+    }
     fs::remove(root / "shard/c/row-001.png");
     fs::create_symlink("../../secret.png", root / "shard/c/row-001.png");
     std::ofstream(root / "shard/tradeoffs.json") << textOf(manifest);
@@ -265,7 +312,7 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     EXPECT_NE(line.find("b/tradeoff.json"), std::string::npos) << line;
     const Json joined = Json::parse(contentsOf(root / "out/tradeoffs.json"));
     EXPECT_EQ(joined["scenes"].size(), 1u);
-    EXPECT_EQ(joined["errors"].size(), 2u) << joined["errors"].dump();
+    EXPECT_EQ(joined["errors"].size(), 5u) << joined["errors"].dump();
     EXPECT_EQ(filesIn(root / "out/a"), (std::vector<std::string>{"row-001.png", "tradeoff.json"}));
 
     Json text = Json::parse(textOf(manifest));
