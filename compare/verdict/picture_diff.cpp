@@ -98,6 +98,7 @@ double bytesPerPixel(const PictureSize (&sizes)[2], EightBits eight, const Pictu
 struct PicturePair {
     PictureFile reference, test;
     bool same_bytes = false;
+    Claim compared;  // of what comparing needs beside the decoded images
 };
 
 // Throws before decoding if this process has too little memory.
@@ -129,9 +130,15 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     const auto pixels = static_cast<double>(larger.width * larger.height);
     // SSIM has 252 rows of floats per thread, everything else some 20.
     const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
-    checkMemory(fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height),
-                static_cast<std::uint64_t>(pixels * bytesPerPixel(sizes, eight, options) + rows),
-                "compare smaller images, or parts of them");
+    const double needed = pixels * bytesPerPixel(sizes, eight, options);
+    const std::string what =
+        fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height);
+    checkMemory(what, static_cast<std::uint64_t>(needed + rows), "compare smaller images, or parts of them");
+    double beside = needed;  // readPicture() claims the images themselves
+    for (const PictureSize& size : sizes)
+        beside -= static_cast<double>(size.width * size.height * size.bytes_per_pixel);
+    Claim compared = claimMemory(static_cast<std::uint64_t>(std::max(beside, 0.0)),
+                                 files[0].size() + files[1].size(), what);
     // If neither file can be read, the error names the reference, whichever thread was faster.
     PictureFile pictures[2];
     std::exception_ptr failures[2];
@@ -149,7 +156,7 @@ PicturePair readPair(const std::string& reference, const std::string& test,
     // A part that was chosen is read whole.
     for (const int i : {0, 1})
         if (!parts[i].empty()) pictures[i].notes.in_part.clear();
-    return {std::move(pictures[0]), std::move(pictures[1]), same_bytes};
+    return {std::move(pictures[0]), std::move(pictures[1]), same_bytes, std::move(compared)};
 }
 
 // `same_bytes`: the files are equal, read or not.
@@ -421,7 +428,8 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     diff.reference = reference;
     diff.test = test;
     options.progress.at(0, "read");
-    auto [a, b, same_bytes] = readPair(reference, test, options);
+    auto [a, b, same_bytes, compared] = readPair(reference, test, options);
+    const Claim claims[] = {a.claim, b.claim};  // of images that are moved below
     diff.reference_format = a.format;
     diff.test_format = b.format;
     bringTogether(a, b, same_bytes, options.strict, diff);

@@ -193,9 +193,13 @@ void Reader::readPart(const Attributes& attributes, int number) {
     if (claims.tables > file.size()) failToHold(window.width(), window.height(), file.size());
     std::vector<ExrChannel> channels = channelsOf(attributes, wanted);
     if (!wanted) return;
-    const auto stored = static_cast<std::uint64_t>(window.width() * window.height() * storedBytes(channels));
+    const std::int64_t pixel = storedBytes(channels), chunk = tiles.width > 0
+                                                                  ? tiles.width * tiles.height
+                                                                  : window.width() * compressor.lines;
     take(attributes,
-         {number, several() && asked.empty() ? std::string(name) : "", window, std::move(channels), stored},
+         {number, several() && asked.empty() ? std::string(name) : "", window, std::move(channels),
+          static_cast<std::uint64_t>(window.width() * window.height() * pixel),
+          static_cast<std::uint64_t>(chunk * pixel)},
          tiles, compressor);
 }
 

@@ -42,6 +42,7 @@ struct ExrPart {
     ExrWindow data;
     std::vector<ExrChannel> channels;  // in the file's order
     std::uint64_t stored_bytes = 0;    // all pixels, uncompressed
+    std::uint64_t chunk_bytes = 0;     // one tile or block of lines, uncompressed
     std::optional<glm::dmat3> to_rec709{};
 };
 

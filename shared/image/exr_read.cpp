@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "shared/image/claims.h"
 #include "shared/image/exr.h"
 #include "shared/image/exr_header.h"
 #include "shared/image/exr_threads.h"
@@ -234,10 +235,16 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
     ExrHeader header = readExrHeader(file, most, asked);
     MemoryStream stream(header.bytes, file);
     // One thread per MiB: small images are read before another thread has started.
-    std::uint64_t useful = 0;
-    for (const ExrPart& part : header.parts) useful = std::max(useful, part.stored_bytes >> 20);
-    Imf::MultiPartInputFile in(
-        stream, static_cast<int>(std::min<std::uint64_t>(useful, std::thread::hardware_concurrency())));
+    std::uint64_t useful = 0, chunk = 0;
+    for (const ExrPart& part : header.parts) {
+        useful = std::max(useful, part.stored_bytes >> 20);
+        chunk = std::max(chunk, part.chunk_bytes);
+    }
+    const std::uint64_t threads = std::min<std::uint64_t>(useful, std::thread::hardware_concurrency());
+    // OpenEXR has two buffers a thread, each with its decompressor's.
+    const Claim claim =
+        claimMemory(3 * std::max<std::uint64_t>(2 * threads, 1) * chunk, file.size(), "decoding its blocks");
+    Imf::MultiPartInputFile in(stream, static_cast<int>(threads));
     PictureFile picture{static_cast<int>(header.display.width()),
                         static_cast<int>(header.display.height()),
                         "OpenEXR",

@@ -175,11 +175,9 @@ PictureSize sizeOfExr(std::span<const std::byte> bytes, std::string_view part) {
     return size;
 }
 
-}  // namespace
-
-PictureFile readPicture(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
-                        std::uint64_t most, EightBits eight) {
-    switch (formatOf(bytes, name, part)) {
+PictureFile readOf(Format format, std::span<const std::byte> bytes, const std::string& name,
+                   std::string_view part, std::uint64_t most, EightBits eight) {
+    switch (format) {
         case Format::exr:
             return readExr(bytes, name, most, part);
         case Format::png:
@@ -194,6 +192,20 @@ PictureFile readPicture(std::span<const std::byte> bytes, const std::string& nam
             break;
     }
     return pictureOfPfm(bytes, name, most);
+}
+
+}  // namespace
+
+PictureFile readPicture(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
+                        std::uint64_t most, EightBits eight) {
+    const PictureSize size = pictureSize(bytes, name, part, eight);
+    Claim claim = named(name, [&] {
+        return claimMemory(static_cast<std::uint64_t>(size.width * size.height * size.bytes_per_pixel),
+                           bytes.size(), fmt::format("an image of {} x {} pixels", size.width, size.height));
+    });
+    PictureFile file = readOf(formatOf(bytes, name, part), bytes, name, part, most, eight);
+    file.claim = std::move(claim);
+    return file;
 }
 
 PictureSize pictureSize(std::span<const std::byte> bytes, const std::string& name, std::string_view part,

@@ -2,6 +2,7 @@
 // The contents of an image file of any renderer: layers of float32.
 #pragma once
 
+#include "shared/image/claims.h"
 #include "shared/image/image.h"
 #include "shared/image/png.h"
 #include "shared/image/primaries.h"
@@ -54,6 +55,7 @@ struct PictureFile {
     FileNotes notes{};
     // Colours are not premultiplied by alpha: true for PNG, false for OpenEXR.
     bool straight_alpha = false;
+    Claim claim{};
 };
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/tiff.h"
 
+#include "shared/image/claims.h"
 #include "shared/image/orientation.h"
 #include "shared/text/fail.h"
 #include "shared/text/named.h"
@@ -201,13 +202,16 @@ public:
         samples_ = layout.planes ? 1 : layout.components;
     }
 
-    // Returns whether all could be read; each may take `most` bytes.
-    bool read(std::uint64_t most) {
+    // Returns whether all could be read from a file of `held` bytes; each may take `most` bytes.
+    bool read(std::uint64_t most, std::uint64_t held) {
         if (width_ < 1 || height_ < 1 || width_ > limits::image_side || height_ > limits::image_side)
             return false;
         const std::uint64_t size = std::uint64_t{width_} * height_ * samples_ * layout_.bytesPerSample();
         const tmsize_t expected = layout_.tiled ? TIFFTileSize(tiff_) : TIFFStripSize(tiff_);
         if (size > most || expected < 0 || static_cast<std::uint64_t>(expected) != size) return false;
+        // libtiff's own buffer, and ours.
+        const Claim claim =
+            claimMemory(2 * size, held, fmt::format("a tile or strip of {} x {} pixels", width_, height_));
         std::vector<unsigned char> piece(size);
         std::uint32_t number = 0;
         for (int plane = 0; plane < (layout_.planes ? layout_.components : 1); ++plane)
@@ -313,7 +317,7 @@ TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, 
         const std::uint16_t* kinds = nullptr;
         picture.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 &&
                              extra > 0 && kinds[0] == EXTRASAMPLE_ASSOCALPHA;
-        if (!Pieces(tiff.get(), layout, picture.image).read(most)) failToDecode(file);
+        if (!Pieces(tiff.get(), layout, picture.image).read(most, bytes.size())) failToDecode(file);
         picture.image = oriented(std::move(picture.image), layout.orientation);
         describe(tiff.get(), picture);
         return picture;

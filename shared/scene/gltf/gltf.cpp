@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/gltf.h"
 
+#include "shared/image/claims.h"
 #include "shared/image/file_bytes.h"
 #include "shared/scene/gltf/compression.h"
 #include "shared/scene/gltf/file.h"
@@ -14,7 +15,9 @@
 #include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/texture.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/scene/motion/instances.h"
 #include "shared/scene/motion/pose.h"
+#include "shared/text/counted.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
@@ -22,6 +25,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <stdexcept>
 
 namespace diptych {
@@ -74,7 +78,27 @@ std::vector<bool> drawnMeshes(const Scene& scene, std::size_t count) {
     return drawn;
 }
 
-Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress) {
+// A few nodes and primitives may have many instances, each with a transform.
+Claim claimInstances(const Scene& scene, const tinygltf::Model& model, std::uint64_t held) {
+    std::uint64_t instances = 0;
+    for (const Node& node : scene.nodes)
+        if (node.mesh >= 0)
+            instances += model.meshes[static_cast<std::size_t>(node.mesh)].primitives.size() *
+                         (node.copies >= 0 ? scene.copies[static_cast<std::size_t>(node.copies)].size() : 1);
+    return claimMemory(instances * sizeof(Instance), held, counted(instances, "instance"));
+}
+
+// Keeps the claims of the scene in use; another may be read meanwhile.
+void keepClaims(std::vector<Claim> claims) {
+    static std::mutex mutex;
+    static std::vector<Claim> kept;
+    const std::lock_guard lock(mutex);
+    kept = std::move(claims);
+}
+
+// `held`: bytes of the file.
+Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress,
+                std::uint64_t held) {
     Scene scene;
     noteWhatIsLeftOut(document, scene.notes);
     scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
@@ -89,6 +113,9 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), document.broken_meshes,
                      scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
+    for (const tinygltf::Buffer& buffer : document.model.buffers) held += buffer.data.size();
+    std::vector<Claim> claims;
+    const Claim claimOfInstances = claimInstances(scene, document.model, held);
     std::vector<int> imageOf;
     gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
     fetchImages(document, imageOf, scene.notes);
@@ -114,13 +141,17 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
         scene.meshes = gltf::readMeshes(model, scene, document.broken_meshes, meshNotes, tally);
     };
     const std::vector<bool> lightmaps = gltf::lightmapsAlone(scene);
-    const auto images = [&] { gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally); };
+    const auto images = [&] {
+        claims = gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally);
+    };
     tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
     for (const std::exception_ptr& failure : {meshFailure, imageFailure})
         if (failure) std::rethrow_exception(failure);
     for (const std::vector<std::string>* notes : {&imageNotes, &meshNotes})
         scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     leaveOutWhatIsBeyond(scene);
+    claims.push_back(claimOfInstances);
+    keepClaims(std::move(claims));
     return scene;
 }
 
@@ -131,8 +162,9 @@ Scene loadGltf(const std::string& file, const std::string& scene, const std::str
     return named(file, [&] {
         const std::filesystem::path path(file);
         const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-        return readScene(gltf::open(firstBytesOf(path, gltf::MAX_FILE_BYTES), folder, variant), scene,
-                         progress);
+        std::vector<unsigned char> bytes = firstBytesOf(path, gltf::MAX_FILE_BYTES);
+        const std::uint64_t held = bytes.size();
+        return readScene(gltf::open(std::move(bytes), folder, variant), scene, progress, held);
     });
 }
 
@@ -142,7 +174,8 @@ void checkGltf(const std::string& file, const std::string& variant) {
 
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder) {
-    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder, ""), "", {}); });
+    const std::uint64_t held = bytes.size();
+    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder, ""), "", {}, held); });
 }
 
 }  // namespace diptych

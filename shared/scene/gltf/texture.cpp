@@ -130,9 +130,9 @@ const char* otherImageOf(const tinygltf::Texture& texture) {
     return nullptr;
 }
 
-void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
-                std::vector<std::string>& notes, Tally& tally) {
+std::vector<Claim> readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                              const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
+                              std::vector<std::string>& notes, Tally& tally) {
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;
@@ -171,17 +171,23 @@ void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
         if ((total += image.decoded) > limits::imageBytes())
             fail(image.who, fmt::format("with it the decoded images take {} MiB; the limit is {} MiB",
                                         total >> 20, limits::imageBytes() >> 20));
+    std::vector<Claim> claims;
+    for (const Encoded& image : all)
+        claims.push_back(claimMemory(image.decoded, image.bytes.size(), image.who));
     // HDR images are rare, and their size is known only after opening, so they are decoded one by one.
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!all[i].radiance) continue;
         images[i] = decodeRadiance(all[i].bytes, all[i].who, limits::imageBytes() - total, notes);
-        total += images[i].rgba32.size() * sizeof(float);
+        const std::uint64_t bytes = images[i].rgba32.size() * sizeof(float);
+        claims.push_back(claimMemory(bytes, all[i].bytes.size(), all[i].who));
+        total += bytes;
     }
     ofEach([&](std::size_t i, const Encoded& image) {
         if (!image.radiance) images[i] = decodeImage(image.bytes);
         images[i].name = image.file;
         tally.oneMore();
     });
+    return claims;
 }
 
 }  // namespace diptych::gltf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/image/claims.h"
 #include "shared/scene/model/scene.h"
 
 #include <string>
@@ -24,9 +25,9 @@ std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene
 const char* otherImageOf(const tinygltf::Texture& texture);
 
 // Decodes images[i], the file's image imageOf[i], on all cores. Images flagged in `lightmaps` may also be
-// OpenEXR, Radiance HDR or PFM; `notes` receives repairs of these.
-void readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
-                const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
-                std::vector<std::string>& notes, Tally& tally);
+// OpenEXR, Radiance HDR or PFM; `notes` receives repairs of these. Returns the images' claims.
+std::vector<Claim> readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+                              const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
+                              std::vector<std::string>& notes, Tally& tally);
 
 }  // namespace diptych::gltf

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "shared/image/claims.h"
+#include "shared/image/picture_file.h"
+#include "tests/support/errors.h"
+#include "tests/support/exr_builder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <span>
+
+namespace diptych {
+namespace {
+
+constexpr std::uint64_t gib = std::uint64_t{1} << 30;
+
+TEST(Claims, BytesOfFilesBack64TimesAsMany) {
+    EXPECT_EQ(claimMemory(64 * gib, gib, "a"), nullptr);
+    EXPECT_EQ(claimMemory(0, 0, "a"), nullptr);
+    const Claim all = claimMemory(66 * gib, gib, "a");
+    EXPECT_NE(all, nullptr);
+}
+
+TEST(Claims, ShareOneBudgetAsLongAsTheyAreHeld) {
+    Claim first = claimMemory(gib, 0, "first");
+    const Claim copy = first;
+    const auto second = [&] { claimMemory(gib + 1, 0, "second"); };
+    const std::string said =
+        "second: takes 1024 MiB, claimed by 0 bytes, beside 1024 MiB claimed before; the "
+        "limit of such claims is 2048 MiB";
+    EXPECT_EQ(faultOf(second), said);
+    first = {};
+    EXPECT_EQ(faultOf(second), said) << "a copy is left";
+    {
+        const Claim last = claimMemory(gib, 0, "last");
+        EXPECT_NE(faultOf([] { claimMemory(1, 0, "none"); }), "");
+    }
+    EXPECT_EQ(faultOf([] { claimMemory(gib, 0, "again"); }), "");
+    EXPECT_NE(faultOf([] { claimMemory(~std::uint64_t{0}, 0, "beyond"); }), "");
+}
+
+// Nothing is allocated for the display window.
+TEST(Claims, APictureIsRefusedByName) {
+    MadePart part{"a", {{"R", Imf::FLOAT}, {"G", Imf::FLOAT}, {"B", Imf::FLOAT}, {"A", Imf::FLOAT}}};
+    part.data = box(0, 0, 1, 1);
+    part.display = box(0, 0, 2047, 2047);
+    const std::string exr = exrOf({part});
+    const auto read = [&] { return readPicture(std::as_bytes(std::span(exr)), "a.exr"); };
+    Claim before = claimMemory(2 * gib, 0, "before");
+    EXPECT_EQ(faultOf(read),
+              fmt::format("a.exr: an image of 2048 x 2048 pixels: takes 64 MiB, claimed by {} "
+                          "bytes, beside 2048 MiB claimed before; the limit of such claims is 2048 MiB",
+                          exr.size()));
+    before = {};
+    const PictureFile picture = read();
+    EXPECT_NE(picture.claim, nullptr);
+    EXPECT_NE(faultOf([] { claimMemory(2 * gib - (gib >> 5), 0, "beside"); }), "") << "as long as it lives";
+}
+
+}  // namespace
+}  // namespace diptych
