@@ -13,6 +13,7 @@
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
+#include "compare/run/still_working.h"
 #include "shared/image/picture_file.h"
 #include "shared/text/json_text.h"
 
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -204,7 +206,10 @@ Frame readPicture(const Options& options, const std::string& file) {
 }
 
 int explainFiles(const Options& options) {
+    Progress progress(progressOutput(options));
+    std::optional<StillWorking> working(std::in_place, Stage(progress, options.scenes[1]).part(0, 0), "read");
     const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
+    working.reset();
     if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
         throw std::runtime_error(
             fmt::format("{} shows {}, {} shows {}: explain takes one scene; if both are the same scene, give "
@@ -232,7 +237,6 @@ int explainFiles(const Options& options) {
         {{"Explain it again", shellLine(words)},
          {"Every channel of both", shellLine({"diff", options.scenes[0], options.scenes[1]})}}};
     const PictureChoice picture = pictureChoice(options);
-    Progress progress(progressOutput(options));
     const Stage stage(progress, where);
     const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
     Device device(deviceOptions(options));

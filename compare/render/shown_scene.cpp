@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/shown_scene.h"
 
+#include "compare/run/still_working.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"
@@ -19,13 +20,13 @@
 namespace diptych {
 
 Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
-    progress.at(0, "read");
+    StillWorking working(progress, "read");
     std::optional<Environment> environment;
     std::vector<std::string> notes;
     const bool own = settings.env == "scene";
     if (!own && settings.env != Settings().env) environment = readEnvironment(settings.env, notes);
     Scene scene = loadScene(
-        where, [&](double fraction, const char* step) { progress.at(fraction, step); }, settings.variant);
+        where, [&](double fraction, const char* step) { working.at(fraction, step); }, settings.variant);
     if (own && !scene.environment)
         throw std::runtime_error(
             fmt::format("--env scene: {} has no readable EXT_lights_image_based", oneLine(where)));

@@ -3,6 +3,7 @@
 
 #include "compare/metrics/pixel.h"
 #include "compare/metrics/prefilter.h"
+#include "compare/run/still_working.h"
 #include "compare/verdict/one_sided.h"
 #include "shared/image/file_bytes.h"
 #include "shared/image/free_memory.h"
@@ -427,8 +428,9 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     PictureDiff diff;
     diff.reference = reference;
     diff.test = test;
-    options.progress.at(0, "read");
+    std::optional<StillWorking> working(std::in_place, options.progress, "read");
     auto [a, b, same_bytes, compared] = readPair(reference, test, options);
+    working.reset();
     const Claim claims[] = {a.claim, b.claim};  // of images that are moved below
     diff.reference_format = a.format;
     diff.test_format = b.format;
