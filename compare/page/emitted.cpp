@@ -148,7 +148,7 @@ private:
         if (drawn && std::ranges::count(open_, "svg") == 0)
             fail(fmt::format("<{}> is not in a drawing", element));
         if (open_.empty() && !grammar_.outermost.empty() && !isOneOf(element, grammar_.outermost))
-            fail(fmt::format("<{}> is in no{}", element, grammar_.outermost));
+            fail(fmt::format("<{}> is outside all suites", element));
         std::vector<std::string_view> seen;
         while (rest_.starts_with(' ')) {
             taken(1);

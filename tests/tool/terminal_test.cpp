@@ -211,22 +211,33 @@ TEST(ShardScripts, OnlyDataIsJoined) {
     EXPECT_EQ(runTool(folder, "merge shard -o joined --force").code, 0);
 }
 
+// merge leaves the section out; if it did not, the page's policy would still run nothing.
 TEST(ShardScripts, NoneInASectionRunsOnTheJoinedPage) {
-    if (browser().empty()) GTEST_SKIP() << "no Chromium here";
     const Folder folder;
     ASSERT_EQ(runTool(folder, "compare builtin:triangle" + howSmall + "--shard 1/1 -o shard").code, 0);
+    const std::string planted =
+        "<script>window.owned = 1</script><img src='none.png' onerror='window.owned = 2'>"
+        "<script src='../evil.js'></script><b id='planted'>planted</b>";
     for (const auto& entry : fs::recursive_directory_iterator(folder / "shard"))
         if (entry.path().string().ends_with(".section.js")) {
-            std::string text = contentsOf(entry.path());
-            const std::string end = "\");\n";
-            ASSERT_TRUE(text.ends_with(end));
-            text.insert(text.size() - end.size(),
-                        "<script>window.owned = 1</script><img src='none.png' onerror='window.owned = 2'>"
-                        "<script src='../evil.js'></script><b id='planted'>planted</b>");
-            std::ofstream(entry.path(), std::ios::binary) << text;
+            const std::string sound = contentsOf(entry.path()), end = "\");\n";
+            ASSERT_TRUE(sound.ends_with(end));
+            std::ofstream(entry.path(), std::ios::binary)
+                << sound.substr(0, sound.size() - end.size()) << planted << end;
+            const Ran ran = runTool(folder, "merge shard -o refused");
+            EXPECT_EQ(ran.code, 2);
+            EXPECT_NE(ran.err.find("<script> is not an element that Diptych writes"), std::string::npos)
+                << ran.err;
+            std::ofstream(entry.path(), std::ios::binary) << sound;
         }
-    folder.write("evil.js", "window.owned = 3;\n");
+    if (browser().empty()) GTEST_SKIP() << "no Chromium here";
     ASSERT_EQ(runTool(folder, "merge shard -o joined").code, 0);
+    std::string page = contentsOf(folder / "joined/index.html");
+    const std::string sections = "<div id=\"sections\">";
+    ASSERT_NE(page.find(sections), std::string::npos);
+    page.insert(page.find(sections) + sections.size(), planted);
+    std::ofstream(folder / "joined/index.html", std::ios::binary) << page;
+    folder.write("evil.js", "window.owned = 3;\n");
     const Visit seen = visit(folder, folder / "joined/index.html", R"(
       await wait(300);
       const told = { planted: $('#planted')?.textContent, owned: window.owned };

@@ -140,11 +140,11 @@ TEST(HostileParts, MarkupThatDiptychDoesNotWriteLeavesTheSceneOut) {
     for (const char* markup : {"<meta http-equiv='refresh' content='0;url=https://evil.example'>",
                                "<style>tr{display:none}</style>", "<link rel='stylesheet' href='x.css'>",
                                "<b>", "</section>", "<p onclick='x'>a</p>", "<!-- a"}) {
-        std::string html = "<section>" + std::string(markup) + "</section>";
+        std::string html = "<section>intruder" + std::string(markup) + "</section>";
         write(section, fmt::format("diptychSection({},{});\n", Json(section).dump(), Json(html).dump()));
         const std::string problem = shards.merged(both);
         EXPECT_NE(problem.find("box-1"), problem.npos) << markup << "\n" << problem;
-        EXPECT_EQ(contentsOf(shards.root / "out/index.html").find(markup), std::string::npos);
+        EXPECT_EQ(contentsOf(shards.root / "out/index.html").find("intruder"), std::string::npos);
         const Json report = Json::parse(contentsOf(shards.root / "out/report.json"));
         EXPECT_EQ(report["comparisons"].size(), 1u);
         EXPECT_EQ(report["errors"][0]["scene"], "scene-1");
