@@ -192,7 +192,8 @@ TEST(GltfLoading, UnknownOptionalExtensionsAreNoted) {
     f.primitive()["extensions"]["EXT_one"] = 5;
     const Scene scene = f.load();
     EXPECT_EQ(scene.notes, (std::vector<std::string>{"EXT_one: left out, not supported",
-                                                     "EXT_two: left out, not supported"}));
+                                                     "EXT_two: left out, not supported",
+                                                     "EXT_two: is used but missing from extensionsUsed"}));
 }
 
 // The default scene, or the one chosen by index or name.

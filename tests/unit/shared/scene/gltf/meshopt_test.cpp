@@ -76,7 +76,7 @@ std::string written(GltfFile& f) {
     const std::string file = f.written();
     f.json["buffers"].push_back(
         {{"byteLength", 1 << 20}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
-    std::ofstream(file) << f.json.dump();
+    std::ofstream(file) << f.declared().dump();
     return file;
 }
 

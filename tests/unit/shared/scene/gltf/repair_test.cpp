@@ -19,7 +19,7 @@ const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 // Loads the file with unchanged buffer URIs.
 Scene loadAsIs(const GltfFile& f) {
-    std::ofstream(testFolder() / "as_is.gltf") << f.json.dump();
+    std::ofstream(testFolder() / "as_is.gltf") << f.declared().dump();
     return loadScene((testFolder() / "as_is.gltf").string());
 }
 
