@@ -32,13 +32,15 @@ public:
         const glm::dvec3 h = widths_.isotropic() ? around(u) : stretched(u);
         return glm::normalize(2 * glm::dot(to_viewer_, h) * h - to_viewer_);
     }
-    double density(const glm::dvec3& l) const {  // 1/sr
+    // 1/sr. Integrates to 1 over all directions: a facet that faces away from the viewer mirrors to below the
+    // horizon, where it is opposite to the half vector.
+    double density(const glm::dvec3& l) const {
         if (sheen_) {
             const double n_dot_l = glm::dot(normal_, l);
             return n_dot_l > 0 ? 1 / (4 * std::numbers::pi * std::sqrt(n_dot_l)) : 0;
         }
         const glm::dvec3 h = glm::normalize(l + to_viewer_);
-        const double n_dot_h = glm::dot(normal_, h), v_dot_h = std::abs(glm::dot(to_viewer_, h));
+        const double n_dot_h = std::abs(glm::dot(normal_, h)), v_dot_h = std::abs(glm::dot(to_viewer_, h));
         if (!(n_dot_h > 0) || !(v_dot_h > 0)) return 0;
         if (!widths_.isotropic()) {
             const double x = glm::dot(x_, h) / widths_.along, y = glm::dot(y_, h) / widths_.across,

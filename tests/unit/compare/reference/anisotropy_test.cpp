@@ -117,13 +117,14 @@ TEST(ReferenceAnisotropy, OnlyTheDirectionsPartInTheSurfaceCounts) {
     EXPECT_EQ(s.anisotropy_direction, glm::dvec3(0));
 }
 
-// Seen along the normal, every facet that faces up mirrors the viewer to one direction.
+// Every facet that faces up mirrors the viewer to one direction.
 TEST(ReferenceAnisotropy, FacetsCoverTheSurfaceOnce) {
     for (const double strength : {0.3, 0.8}) {
         const LobeSampler above{Brdf(stretchedMirror(0.4, strength, 0, 0.3))};
         EXPECT_NEAR(overDirections([&](const glm::dvec3& l) { return above.density(l); }), 1, 1e-5);
         const LobeSampler aside{Brdf(stretchedMirror(0.4, strength, 1.2, 0.3))};
-        EXPECT_LE(overDirections([&](const glm::dvec3& l) { return aside.density(l); }), 1 + 1e-5);
+        EXPECT_NEAR(overDirections([&](const glm::dvec3& l) { return aside.density(l); }), 1, 3e-3)
+            << "the density is infinite towards the viewer's opposite";
     }
 }
 

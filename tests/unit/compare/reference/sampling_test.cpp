@@ -2,6 +2,8 @@
 // The confidence interval of a mean of independent estimates, and the sample points.
 #include "compare/reference/sampling.h"
 
+#include "compare/reference/lobe_sampler.h"
+#include "compare/reference/sheen.h"
 #include "tests/support/reference_builder.h"
 
 #include <set>
@@ -105,6 +107,67 @@ TEST(ReferenceSampling, StreamsHaveNoNumberInCommon) {
             }
             EXPECT_NEAR(mean, 0.5, 4 * std::sqrt(1.0 / 12 / 256));
         }
+}
+
+// Fractions of samples by equal solid angles: rows of the cosine to +Z, columns of the azimuth.
+constexpr int histogramRows = 20, histogramColumns = 24;
+using Histogram = std::vector<double>;
+std::size_t binOf(const glm::dvec3& l) {
+    const int row = static_cast<int>((l.z + 1) / 2 * histogramRows),
+              column = static_cast<int>((std::atan2(l.y, l.x) / (2 * pi) + 0.5) * histogramColumns);
+    return static_cast<std::size_t>(std::clamp(row, 0, histogramRows - 1) * histogramColumns +
+                                    std::clamp(column, 0, histogramColumns - 1));
+}
+bool isBeside(std::size_t a, std::size_t b) {
+    const int rows = static_cast<int>(a / histogramColumns) - static_cast<int>(b / histogramColumns),
+              columns = static_cast<int>((a + std::size_t{histogramRows} * histogramColumns - b) %
+                                         histogramColumns);
+    return std::abs(rows) <= 1 && (columns <= 1 || columns == histogramColumns - 1);
+}
+Histogram drawnBy(const LobeSampler& lobe) {
+    Histogram drawn(std::size_t{histogramRows} * histogramColumns);
+    constexpr int steps = 512;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j)
+            drawn[binOf(lobe({(i + 0.5) / steps, (j + 0.5) / steps}))] += 1.0 / (steps * steps);
+    return drawn;
+}
+Histogram saidBy(const LobeSampler& lobe) {
+    Histogram said(std::size_t{histogramRows} * histogramColumns);
+    constexpr int rows = 30 * histogramRows, columns = 30 * histogramColumns;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) {
+            // Denser at the horizon, where a sheen's density is infinite.
+            const double t = 2 * (i + 0.5) / rows - 1, z = t * std::abs(t), out = std::sqrt(1 - z * z),
+                         turn = 2 * pi * ((j + 0.5) / columns - 0.5);
+            const glm::dvec3 l(out * std::cos(turn), out * std::sin(turn), z);
+            said[binOf(l)] += lobe.density(l) * 2 * std::abs(t) * 4 * pi / (double{rows} * columns);
+        }
+    return said;
+}
+
+// Every lobe, seen from all sides, also from below a mapped normal.
+TEST(ReferenceSampling, EveryLobesDensityIsThatOfItsSamplesAndIntegratesToOne) {
+    for (const double roughness : {0.5, 1.0})
+        for (const double angle : {0.0, 0.8, 1.4, 1.7})
+            for (const double stretched : {0.0, 0.7}) {
+                Surface s = mirror(roughness, angle);
+                if (stretched > 0) s.stretch(stretched, {0.6, 0.8, 0});
+                Surface velvet = s;
+                velvet.sheen_color = glm::dvec3(1);
+                velvet.sheen_roughness = roughness;
+                const bool sheen = stretched > 0 && angle < 1.5;
+                const LobeSampler lobe{Brdf(sheen && roughness == 0.5 ? sheenOf(velvet) : s)};
+                const Histogram drawn = drawnBy(lobe), said = saidBy(lobe);
+                EXPECT_NEAR(std::accumulate(said.begin(), said.end(), 0.0), 1, 0.02)
+                    << roughness << " " << angle << " " << stretched;
+                for (std::size_t i = 0; i < said.size(); ++i) {
+                    // The density is infinite opposite to the viewer, where its sum converges slowly.
+                    const bool opposite = isBeside(i, binOf(-s.to_viewer));
+                    EXPECT_NEAR(drawn[i], said[i], (opposite ? 0.5 : 0.03) * said[i] + 5e-4)
+                        << roughness << " " << angle << " " << stretched << ", bin " << i;
+                }
+            }
 }
 
 }  // namespace
