@@ -16,10 +16,11 @@ double squareOf(double x) {
     return x * x;
 }
 
-// The factor of GGX's width is the KHR sample viewer's applyIorToRoughness.
+// The factor of GGX's width is the KHR sample viewer's applyIorToRoughness, also of thin walls: microfacets
+// of index 1 do not refract.
 double widthOf(const Surface& s) {
     const double alpha = squareOf(s.roughness);
-    if (!(s.thickness > 0) || s.ior == 0) return alpha;
+    if (s.ior == 0) return alpha;
     return alpha * std::clamp(2 * s.ior - 2, 0.0, 1.0);
 }
 

@@ -217,7 +217,7 @@ double blurred(const std::vector<Image>& levels, const glm::dvec2& p, double lev
     return glm::mix(at(first), at(first + 1), level - std::floor(level));
 }
 
-// Level log2(width) times roughness; a slab's lobe is narrower if its index is below 1.5.
+// Level log2(width) times roughness; the lobe is narrower if the index is below 1.5, also a thin wall's.
 TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
     struct Case {
         float roughness, thickness, ior;
@@ -228,7 +228,7 @@ TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
         Material glass = glassOf(of.thickness, of.ior);
         glass.roughness = of.roughness;
         glass.specular = 0;
-        const double narrower = of.thickness > 0 ? std::clamp(2 * double{of.ior} - 2, 0.0, 1.0) : 1.0;
+        const double narrower = std::clamp(2 * double{of.ior} - 2, 0.0, 1.0);
         for (const Path path : drawn_paths) {
             const Image made = litOf(path, paneBeforeWall(glass), picture());
             const double level = std::log2(made.width) * double{of.roughness} * narrower;

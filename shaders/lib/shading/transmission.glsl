@@ -49,9 +49,9 @@ vec2 pixelBehind(const Surface s, const vec3 v, const float ior, const vec2 pixe
 // Radiance behind the surface, W/(sr m^2). `pixel`: of the surface. No branch depends on the material alone,
 // because lavapipe would compile such a shader again at every draw.
 vec3 lightBehind(const Surface s, const vec3 v, const vec2 pixel) {
-    bool bends = s.thickness > 0.0 && s.ior > 0.0, spreads = s.dispersion > 0.0 && s.ior > 0.0;
+    bool spreads = s.dispersion > 0.0 && s.ior > 0.0;
     float level = s.roughness * (log(float(textureSize(backdrop, 0).x)) * 1.44269504);
-    level *= bends ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;
+    level *= s.ior > 0.0 ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;
     // The F line's index exceeds the C line's by (ior - 1) / Abbe number; dispersion is 20 / Abbe number.
     float half_spread = spreads ? (s.ior - 1.0) * 0.025 * s.dispersion : 0.0;
     float least = spreads ? max(s.ior - half_spread, 1.0) : s.ior;
