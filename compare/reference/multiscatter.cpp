@@ -3,6 +3,9 @@
 
 #include "compare/reference/ambient.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,6 +44,14 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
     return f0 + (glm::dvec3(f90) - f0) * weight;
 }
 
+// A film may reflect more than the layer without it, and the base then gets no more than that leaves at n.v.
+glm::dvec3 filmTowardsViewer(const Surface& s) {
+    if (!(s.iridescence > 0)) return glm::dvec3(0);
+    const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
+    const glm::dvec3 plain = s.dielectric_f0 + (s.dielectric_f90 - s.dielectric_f0) * std::pow(1 - cosine, 5);
+    return glm::mix(plain, filmOf(s).reflected(cosine, s.dielectric_f0), s.iridescence);
+}
+
 }  // namespace
 
 Compensation compensationOf(const Surface& given, Multiscatter multiscatter) {
@@ -65,7 +76,8 @@ Compensation compensationOf(const Surface& given, Multiscatter multiscatter) {
                                meanFresnel(surface.dielectric_f0, surface.dielectric_f90));
         result.dielectric = of_layer.factor;
         const glm::dvec3 layer = single * of_layer.factor + of_layer.between;
-        if (surface.base_layer == BaseLayer::max) result.base = 1.0 - lostToLayer(surface.base_layer, layer);
+        if (surface.base_layer == BaseLayer::max)
+            result.base = 1.0 - lostToLayer(surface.base_layer, glm::max(layer, filmTowardsViewer(given)));
     }
     result.between = of_layer.between * (1 - surface.metallic) + of_metal.between * surface.metallic;
     return result;

@@ -81,11 +81,16 @@ void addFilm(inout Brdf b, const Surface s) {
     if (!(b.film.weight > 0.0)) return;
     FilmRay ray = filmRay(b.film, b.n_dot_v);
     float f90 = blend(b.dielectric_f90, 1.0, b.film.weight), w = ray.above;
-    vec3 dielectric = filmCurve(filmedFresnel(b.film, b.dielectric, ray, b.dielectric_f90), f90, w);
+    vec3 here = filmedFresnel(b.film, b.dielectric, ray, b.dielectric_f90);
+    vec3 dielectric = filmCurve(here, f90, w);
     vec3 metal = filmCurve(filmedFresnel(b.film, b.metal, ray, 1.0), 1.0, w);
     b.f0 = blend(dielectric * b.dielectric_gain, metal * b.metal_gain, b.metallic);
     b.f90 = blend(f90 * b.dielectric_gain, b.metal_gain, b.metallic);
-    if (b.base_fixed) return;
+    if (b.base_fixed) {
+        // The film may reflect more than the layer without it; no more than the rest reaches the base.
+        b.base_f0 = b.base_f90 = max(b.base_f0, min(lostBelow(here), vec3(1.0)));
+        return;
+    }
     b.base_f0 = lostBelow(dielectric);
     b.base_f90 = vec3(f90);
 }

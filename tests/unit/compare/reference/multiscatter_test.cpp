@@ -104,5 +104,28 @@ TEST(ReferenceMultiscatter, DirectLightSumsToTheSame) {
     }
 }
 
+// A film may reflect ten times as much as the layer without it. The base gets the rest, whatever the film's
+// weight.
+TEST(ReferenceMultiscatter, AFilmGainsNothingInAFurnace) {
+    for (const Multiscatter kind : {Multiscatter::energy, Multiscatter::fdez})
+        for (const double roughness : {0.1, 0.5, 1.0})
+            for (const double angle : {0.0, 0.8, 1.4})
+                for (const double weight : {0.25, 1.0})
+                    for (const double index : {1.1, 1.6, 2.5})
+                        for (const double thickness : {200.0, 300.0, 400.0}) {
+                            Surface s = mirror(roughness, angle);
+                            s.metallic = 0;
+                            s.dielectric_f0 = glm::dvec3(0.04);
+                            s.dielectric_f90 = 1;
+                            s.iridescence = weight;
+                            s.iridescence_ior = index;
+                            s.iridescence_thickness = thickness;
+                            const Compensation by = compensationOf(s, kind);
+                            const glm::dvec3 all = diffuseAlbedo(s, by) + specularAlbedo(s, by);
+                            EXPECT_LE(std::max({all.r, all.g, all.b}), 1.01)
+                                << roughness << " " << angle << " " << index << " " << thickness;
+                        }
+}
+
 }  // namespace
 }  // namespace diptych::reference
