@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 namespace diptych {
@@ -43,6 +44,25 @@ std::string layerCost(gpu::uint layer, const Requirements& needs, const Settings
                        layerBytes(layer, settings.gbuffer) * static_cast<gpu::uint>(settings.msaa));
 }
 
+// What a layer's model leaves out, with its size where light is lost or gained.
+std::string limitOf(std::string_view what, const SceneView& view, const Settings& settings) {
+    if (what == "anisotropy") {
+        const bool split = !view.needs.environment.empty() && settings.ibl == Ibl::split;
+        return std::string("; its direction is made perpendicular to the mapped normal") +
+               (split ? "; an environment's highlights are off by 20 % in the mean, at most 62 % (--ibl "
+                        "sampled: exact)"
+                      : "");
+    }
+    if (what == "sheen")
+        return "; what lies below is dimmed by the view's share alone: up to 14 % brighter in even light "
+               "than by the lesser of view and light";
+    if (what == "iridescence")
+        return "; evaluated at v.h as given, without the extension's guards against indices close to the "
+               "base's";
+    if (what == "transmission") return "; lights behind rough surfaces have no highlights in it";
+    return {};
+}
+
 std::string transmissionCost(const Requirements& needs, const Settings& settings) {
     if (settings.transparency == Transparency::off) return "--transparency off: not drawn";
     constexpr double texel = 16;
@@ -72,6 +92,7 @@ Requirements::Line shadowLine(const SceneView& view, const Settings& settings) {
 std::vector<Requirements::Line> planLines(const SceneView& view, const Settings& settings) {
     std::vector<Requirements::Line> lines = view.needs.lines();
     for (Requirements::Line& line : lines) {
+        if (line.modelled) line.why += limitOf(line.what, view, settings);
         if (view.default_sun && line.what == "directional lights")
             line.why = "the default sun, added because the scene has no light";
         if (line.modelled && line.what == "skins and morph targets")

@@ -60,6 +60,27 @@ TEST(PlanLines, SayWhatLayersCost) {
     EXPECT_EQ(plannedLine("transmission", "builtin:layers", settings).why.find("MiB"), std::string::npos);
 }
 
+TEST(PlanLines, SayWhatLayersLeaveOut) {
+    Settings settings;
+    const auto says = [&](const char* layer, const std::string& what) {
+        return plannedLine(layer, "builtin:layers", settings).why.find("; " + what) != std::string::npos;
+    };
+    EXPECT_TRUE(says("sheen", "what lies below is dimmed by the view's share alone"));
+    EXPECT_TRUE(says("iridescence", "evaluated at v.h as given"));
+    EXPECT_TRUE(says("anisotropy", "its direction is made perpendicular to the mapped normal"));
+    EXPECT_FALSE(says("anisotropy", "an environment's highlights")) << "it has none";
+    EXPECT_NE(plannedLine("transmission", "builtin:transmission", settings).why.find("no highlights"),
+              std::string::npos);
+    Scene sky = loadScene("builtin:layers");
+    sky.environment = Environment{"sky", Image(4, 2, 3, 1.0f)};
+    for (const Ibl ibl : {Ibl::split, Ibl::sampled}) {
+        settings.ibl = ibl;
+        for (const Requirements::Line& line : planLines(makeSceneView(sky, viewRequest(settings)), settings))
+            if (line.what == "anisotropy")
+                EXPECT_EQ(line.why.find("off by 20 % in the mean") != std::string::npos, ibl == Ibl::split);
+    }
+}
+
 TEST(PlanLines, SayWhatTransmissionCosts) {
     Settings settings;
     settings.size = {256, 192};  // 0.75 MiB of 16 bytes
