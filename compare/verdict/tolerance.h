@@ -3,6 +3,7 @@
 // loses.
 #pragma once
 
+#include "compare/reference/lighting.h"
 #include "compare/reference/sampling.h"
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
@@ -45,7 +46,8 @@ private:
 };
 
 // Error of float32 shading against double precision, relative to the pixel's largest component.
-inline constexpr double shadingRounding = 1e-4;
+// More where a lobe is sharp: Frame::rounding.
+inline constexpr double shadingRounding = reference::everywhereRounded;
 
 using reference::surerThan95;
 
