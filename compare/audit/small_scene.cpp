@@ -4,6 +4,7 @@
 #include "compare/files/gltf_file.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/scene/model/tangents.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/text/json_text.h"
 
@@ -41,6 +42,15 @@ std::optional<Case> flattened(const Case& whole) {
         Primitive primitive = primitiveOf(whole.scene, instance);
         primitive.texcoords[0].clear();
         primitive.texcoords[1].clear();
+        // Anisotropy's own tangents: it has no texture any more.
+        const Material& textured =
+            materialsOf(whole.scene, pose)[static_cast<std::size_t>(primitive.material)];
+        const bool turned = (turnedMaps(textured, true).layers & gpu::LAYER_ANISOTROPY) != 0;
+        for (std::size_t v = 0; v < primitive.tangents.size(); ++v) {
+            glm::vec4& tangent = primitive.tangents[v];
+            tangent = turned ? turnedTangent(primitive.normals[v], tangent)
+                             : glm::vec4(glm::vec3(tangent), signOf(tangent.w));
+        }
         scene.nodes.push_back({.name = "part",
                                .parent_from_node = instance.world_from_object,
                                .mesh = static_cast<int>(scene.meshes.size())});

@@ -171,8 +171,11 @@ private:
 
     std::size_t addMesh(const Primitive& primitive) {
         Json attributes{{"POSITION", file_.addPositions(primitive.positions)},
-                        {"NORMAL", file_.add(primitive.normals, "VEC3", float_component)},
-                        {"TANGENT", file_.add(primitive.tangents, "VEC4", float_component)}};
+                        {"NORMAL", file_.add(primitive.normals, "VEC3", float_component)}};
+        // A file has one frame for all maps; without it renderers make each map's own.
+        const auto isShared = [](const glm::vec4& tangent) { return std::abs(tangent.w) == 1; };
+        if (std::ranges::all_of(primitive.tangents, isShared))
+            attributes["TANGENT"] = file_.add(primitive.tangents, "VEC4", float_component);
         for (int set = 0; set < 2; ++set)
             if (!primitive.texcoords[set].empty())
                 attributes[fmt::format("TEXCOORD_{}", set)] =

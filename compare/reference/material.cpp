@@ -2,6 +2,8 @@
 #include "compare/reference/material.h"
 
 #include "compare/reference/sheen.h"
+#include "shared/scene/model/material_slots.h"
+#include "shared/scene/model/tangents.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -136,9 +138,32 @@ Materials::Frame Materials::frameAt(const Hit& hit) const {
     const auto tangentAt = [&](std::uint32_t i) {
         return posed ? posed->tangents[i] : unitOrZero(world * glm::dvec3(primitive.tangents[i]));
     };
-    return {mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric),
-            mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric),
-            handedness * double{primitive.tangents[v[0]].w} * (posed ? posed->bitangents : 1)};
+    const double mirrored = posed ? posed->bitangents : 1,
+                 sign = handedness * double{signOf(primitive.tangents[v[0]].w)} * mirrored;
+    Frame frame{mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric),
+                mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric),
+                sign};
+    if (turnedMaps(material(hit), material(hit).anisotropy > 0).layers == 0) return frame;
+    const auto turnAt = [&](std::uint32_t i) {
+        const MapTurn turn = MapTurn::of(primitive.tangents[i].w);
+        const glm::dvec2 own(turn.cosine, turn.sine);
+        if (posed) return own;
+        // A node's scales change angles within the surface.
+        const glm::dvec3 n(primitive.normals[i]), t(primitive.tangents[i]);
+        const glm::dvec3 b = glm::cross(n, t) * double{signOf(primitive.tangents[i].w)},
+                         along = unitOrZero(world * (t * own.x + b * own.y));
+        return glm::dvec2(glm::dot(along, tangentAt(i)),
+                          glm::dot(along, sign * glm::cross(normalAt(i), tangentAt(i))));
+    };
+    frame.turn = mixed<glm::dvec2>({turnAt(v[0]), turnAt(v[1]), turnAt(v[2])}, hit.barycentric);
+    frame.mirrored = MapTurn::of(primitive.tangents[v[0]].w).mirrored;
+    return frame;
+}
+
+glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, std::uint32_t layer,
+                              const glm::dvec3& t) {
+    const bool turned = (turnedMaps(m, m.anisotropy > 0).layers & layer) != 0;
+    return turned ? frame.turnedWorld(t) : frame.world(t);
 }
 
 glm::dvec3 Materials::mapped(const Hit& hit, const TextureSlot& slot, float scale,
@@ -171,9 +196,10 @@ void Materials::coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Su
     s.clearcoat_roughness =
         double{m.clearcoat_roughness} * lookUp(hit, m.clearcoat_roughness_texture, false, &ray).g;
     const bool has_map = m.clearcoat_normal_texture.texture >= 0 && m.clearcoat_normal_scale != 0;
-    const glm::dvec3 n =
-        has_map ? frame.world(mapped(hit, m.clearcoat_normal_texture, m.clearcoat_normal_scale, ray))
-                : frame.normal;
+    const glm::dvec3 n = has_map
+                             ? worldOf(m, frame, gpu::LAYER_CLEARCOAT,
+                                       mapped(hit, m.clearcoat_normal_texture, m.clearcoat_normal_scale, ray))
+                             : frame.normal;
     s.clearcoat_normal = facing(hit, n, s);
 }
 
@@ -191,7 +217,7 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
                  sine = std::sin(double{m.anisotropy_rotation});
     const glm::dvec3 turned(cosine * direction.x - sine * direction.y,
                             sine * direction.x + cosine * direction.y, 0);
-    s.stretch(strength, frame.world(turned));
+    s.stretch(strength, worldOf(m, frame, gpu::LAYER_ANISOTROPY, turned));
 }
 
 // KHR_materials_sheen: colour from RGB, roughness from alpha.
@@ -217,8 +243,6 @@ void Materials::film(const Hit& hit, const PixelRay& ray, Surface& s) const {
 // space; its node scales it, except that a skin places the vertices in the world.
 void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
-    s.transmission = double{m.transmission} * lookUp(hit, m.transmission_texture, false, &ray).r;
-    s.ior = double{m.ior};
     const Instance& instance = geometry_.instance(hit.id);
     const double scale = instance.skin >= 0
                              ? 1

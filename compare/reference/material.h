@@ -65,13 +65,23 @@ private:
     // The frame of normal maps, world space, interpolated without normalisation.
     struct Frame {
         glm::dvec3 normal, tangent;
-        double sign;  // bitangent = sign * cross(normal, tangent)
+        double sign;            // bitangent = sign * cross(normal, tangent)
+        glm::dvec2 turn{1, 0};  // the tangent of turned maps, along tangent and bitangent
+        bool mirrored = false;  // whether their bitangent has the other sign
         glm::dvec3 bitangent() const { return sign * glm::cross(normal, tangent); }
         glm::dvec3 world(const glm::dvec3& t) const {
             return t.x * tangent + t.y * bitangent() + t.z * normal;
         }
+        glm::dvec3 turnedWorld(const glm::dvec3& t) const {
+            const glm::dvec3 b = bitangent(), along = turn.x * tangent + turn.y * b,
+                             across = turn.x * b - turn.y * tangent;
+            return t.x * along + (mirrored ? -t.y : t.y) * across + t.z * normal;
+        }
     };
     Frame frameAt(const Hit& hit) const;
+    // A vector of the map of a layer (LAYER_*), whose tangents may be its own.
+    static glm::dvec3 worldOf(const Material& m, const Frame& frame, std::uint32_t layer,
+                              const glm::dvec3& t);
     // A normal map's value, tangent space, not normalised.
     glm::dvec3 mapped(const Hit& hit, const TextureSlot& slot, float scale, const PixelRay& ray) const;
     // Fills the normal, and the tangent frame and tangent-space normal of a normal map.

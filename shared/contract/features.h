@@ -128,11 +128,13 @@
     X(70, iridescence_texture,        item,    PASSES_SURFACE)                                              \
     X(71, iridescence_thickness_texture, item, PASSES_SURFACE)                                              \
     X(72, transmission_texture,       item,    PASS_FORWARD)    /* the G-buffer stores no transmission */   \
-    X(73, thickness_texture,          item,    PASS_FORWARD)                                                \
+    X(73, thickness_texture,          item,    PASSES_SURFACE)                                              \
     X(74, diffuse_transmission_texture, item,  PASSES_SURFACE)                                              \
     X(75, diffuse_transmission_color_texture, item, PASSES_SURFACE)                                         \
     /* the draw or dispatch shades listed tiles of the image: lighting_tiles.h */                           \
-    X(76, lighting_tiles,             pass,    PASS_LIGHTING)
+    X(76, lighting_tiles,             pass,    PASS_LIGHTING)                                               \
+    /* a sum of LAYER_* of material.h: maps whose tangents differ from the normal map's */                  \
+    X(77, turned_maps,                item,    PASSES_SURFACE)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -10,8 +10,10 @@ CONTRACT_BEGIN
 // Vertex attributes except the position. Positions have a buffer of their own because depth passes read
 // nothing else.
 struct VertexAttributes {
-    vec3 normal;   // object, unit
-    vec4 tangent;  // object; w: sign of the bitangent
+    vec3 normal;  // object, unit
+    // object; w: sign of the bitangent, times 1 + the turn to the tangent of FEATURE_turned_maps (0 to 1 for
+    // a full turn, by the length along the square around it), + 1 if their bitangents have opposite signs
+    vec4 tangent;
     vec2 texcoord0;
     vec2 texcoord1;
     vec4 color;  // linear Rec.709, alpha

@@ -49,6 +49,8 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
                                                    ? gpu::TRANSMISSION_COVERED
                                                    : gpu::TRANSMISSION_WHOLE);
     variant.set(gpu::FEATURE_layers, layersOf(material) & ~gpu::LAYER_TRANSMISSION);
+    variant.set(gpu::FEATURE_turned_maps,
+                turnedMaps(material, material.anisotropy > 0).layers & layersOf(material));
     return variant;
 }
 

@@ -6,7 +6,7 @@
 // input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
 // locations of neighbouring pixels are not one pixel apart.
 // Vulkan guarantees 16 locations of four components. All inputs together use these, so the first UV set
-// takes the fourth components of two others that are rarely read.
+// and the turn of maps take the fourth components of others.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
 
@@ -19,12 +19,18 @@
 #include "shaders/lib/samples/samples.glsl"
 #define DIRECTION in
 #endif
+const float MIRRORED_TURN = 1024.0;
+
 #define INPUT(at) layout(location = at) DIRECTION
 #define FOURTH(at) layout(location = at, component = 3) DIRECTION
 
 INPUT(0) vec3 v_normal;
+// feature_turned_maps: the tangent of their maps along tangent and bitangent. Times MIRRORED_TURN if their
+// bitangent has the other sign, so that interpolation keeps the two apart.
+FOURTH(0) float v_turn_cosine;
 INPUT(1) vec4 v_tangent;
 INPUT(2) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal
+FOURTH(2) float v_turn_sine;
 INPUT(3) vec4 v_color;
 INPUT(4) vec3 v_irradiance;  // of vertex lights, W/m^2
 FOURTH(4) float v_texcoord_u;
@@ -49,6 +55,8 @@ vec2 shaded_offset = placeOf(uint(gl_SampleMaskIn[0])) - 0.5;
 #define middle_texcoord vec2(MIDDLE(v_texcoord_u), MIDDLE(v_texcoord_v))
 #define shaded_tangent SHADED(v_tangent)
 #define middle_tangent MIDDLE(v_tangent)
+#define shaded_turn vec2(SHADED(v_turn_cosine), SHADED(v_turn_sine))
+#define middle_turn vec2(MIDDLE(v_turn_cosine), MIDDLE(v_turn_sine))
 #define shaded_color SHADED(v_color)
 #define middle_color MIDDLE(v_color)
 #define shaded_irradiance SHADED(v_irradiance)

@@ -169,6 +169,15 @@ vec3 fromTangentSpace(const vec3 t, const vec3 n, const vec4 tangent) {
     return t.x * tangent.xyz + t.y * bitangent + t.z * n;
 }
 
+// The same vector of the layer's map in the normal map's tangent space. `turn`: v_turn.
+vec3 turnedFrom(const vec3 t, const uint layer, const vec2 turn) {
+    if ((feature_turned_maps & layer) == 0u) return t;
+    bool mirrored = dot(turn, turn) > MIRRORED_TURN;
+    vec2 unit = mirrored ? turn / MIRRORED_TURN : turn;
+    float y = mirrored ? -t.y : t.y;
+    return vec3(t.x * unit.x - y * unit.y, t.x * unit.y + y * unit.x, t.z);
+}
+
 // Negated on the back of a double-sided material. The triangle's normal replaces a normal that vanished,
 // by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
 // share one normalisation.
@@ -199,7 +208,9 @@ vec3 clearcoatNormal(const vec3 towards) {
     if (on(feature_clearcoat_normal_texture)) {
         vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal,
                                feature_clearcoat_normal_texture);
-        n = fromTangentSpace(mappedNormal(texel, material.clearcoat_normal_scale), n, shaded_tangent);
+        vec3 t = mappedNormal(texel, material.clearcoat_normal_scale);
+        t = turnedFrom(t, LAYER_CLEARCOAT, shaded_turn);
+        n = fromTangentSpace(t, n, shaded_tangent);
     }
     return shadingNormal(n, towards);
 }
@@ -246,7 +257,9 @@ float filteredClearcoatRoughness(const float roughness) {
     if ((feature_specular_aa & SPECULAR_AA_MAPPED) != 0 && on(feature_clearcoat_normal_texture)) {
         vec2 at = middleTexcoord(SLOT_clearcoat_normal);
         float scale = overQuad(material.clearcoat_normal_scale);
-        n = fromTangentSpace(mappedNormal(texture(clearcoat_normal_texture, at), scale), n, middle_tangent);
+        vec3 t = mappedNormal(texture(clearcoat_normal_texture, at), scale);
+        t = turnedFrom(t, LAYER_CLEARCOAT, middle_turn);
+        n = fromTangentSpace(t, n, middle_tangent);
     }
     return filteredRoughness(roughness, n);
 }
@@ -278,7 +291,8 @@ void addAnisotropy(const Material m, inout Surface s) {
     vec2 turn = m.anisotropy_rotation;
     direction = vec2(direction.x * turn.x - direction.y * turn.y,
                      direction.x * turn.y + direction.y * turn.x);
-    turn = turnOf(fromTangentSpace(vec3(direction, 0.0), shaded_normal, shaded_tangent), s.normal);
+    vec3 t = turnedFrom(vec3(direction, 0.0), LAYER_ANISOTROPY, shaded_turn);
+    turn = turnOf(fromTangentSpace(t, shaded_normal, shaded_tangent), s.normal);
     s.anisotropy = turn != vec2(0.0) ? strength : 0.0;
     s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);
 }

@@ -124,11 +124,13 @@ std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
     checkSize(model, tasks);
 
     const std::vector<bool> anisotropic = materialsWithAnisotropy(scene),
-                            mapsThatTurn = tangentMapsThatTurn(scene);
+                            baseMapsThatTurn = tangentMapsThatTurn(scene),
+                            layerMaps = layerMapsThatTurn(scene);
     forEachInParallel(tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        const PrimitiveUse use{scene.materials, anisotropic, mapsThatTurn, uses[task.mesh].joints,
-                               meshes[task.mesh].weights.size()};
+        const PrimitiveUse use{scene.materials,        anisotropic,
+                               baseMapsThatTurn,       layerMaps,
+                               uses[task.mesh].joints, meshes[task.mesh].weights.size()};
         attempt(task, [&] {
             meshes[task.mesh].primitives[task.primitive] =
                 readPrimitive(model, fileOf(model, task), task.who(), use, task.notes);

@@ -264,9 +264,19 @@ private:
             if (!anisotropic && tangentSlot(use_.materials[material]) == gpu::SLOT_COUNT)
                 return makeAnyTangents(result_);
             const TextureSlot map = tangentMap(use_.materials[material]);
-            if (anisotropic && result_.texcoords[map.texcoord].empty())
+            const TurnedMaps turned = turnedMaps(use_.materials[material], anisotropic);
+            if (anisotropic &&
+                result_.texcoords[(turned.layers & gpu::LAYER_ANISOTROPY ? turned.map : map).texcoord]
+                    .empty())
                 note("direction of anisotropy is arbitrary: no tangents, no texture coordinates");
-            return makeTangents(result_, map, use_.maps_that_turn[material]);
+            if (turned.third)
+                note("anisotropy takes the tangents of the normal map: only the clear coat's map has others");
+            if (turned.layers != 0 && (use_.maps_that_turn[material] || use_.layer_maps_that_turn[material]))
+                note(
+                    "animations turn texture coordinates: the clear coat's and anisotropy's tangents keep "
+                    "their angle to the normal map's");
+            return makeTangents(result_, map, use_.maps_that_turn[material],
+                                turned.layers != 0 ? &turned.map : nullptr);
         }
         std::vector<glm::vec4> read = std::move(result_.tangents);
         makeAnyTangents(result_);  // fallback for the file's tangents without a direction

@@ -15,9 +15,10 @@ struct Primitive;
 namespace diptych::gltf {
 
 struct PrimitiveUse {
-    const std::vector<Material>& materials;   // the scene's; the last is the default material
-    const std::vector<bool>& anisotropic;     // by material: materialsWithAnisotropy()
-    const std::vector<bool>& maps_that_turn;  // by material: tangentMapsThatTurn()
+    const std::vector<Material>& materials;         // the scene's; the last is the default material
+    const std::vector<bool>& anisotropic;           // by material: materialsWithAnisotropy()
+    const std::vector<bool>& maps_that_turn;        // by material: tangentMapsThatTurn()
+    const std::vector<bool>& layer_maps_that_turn;  // by material: layerMapsThatTurn()
     // Joint count of the smallest skin that uses it; 0: not skinned, ignores joints.
     std::size_t joints = 0;
     std::size_t targets = 0;  // number of morph targets of its mesh

@@ -159,17 +159,29 @@ inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
     return anisotropic;
 }
 
-// For each material, whether an animation rotates, scales or mirrors its tangentMap().
-inline std::vector<bool> tangentMapsThatTurn(const Scene& scene) {
+// For each material, whether an animation rotates, scales or mirrors a map for which `counts(material,
+// slot)`.
+template <class Counts>
+std::vector<bool> mapsThatTurn(const Scene& scene, const Counts& counts) {
     std::vector<bool> turns(scene.materials.size(), false);
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
             if ((channel.part == AnimatedPart::texture_rotation ||
                  channel.part == AnimatedPart::texture_scale) &&
-                static_cast<std::size_t>(channel.element) ==
-                    tangentSlot(scene.materials[static_cast<std::size_t>(channel.object)]))
+                counts(scene.materials[static_cast<std::size_t>(channel.object)],
+                       static_cast<std::size_t>(channel.element)))
                 turns[static_cast<std::size_t>(channel.object)] = true;
     return turns;
+}
+// Its tangentMap().
+inline std::vector<bool> tangentMapsThatTurn(const Scene& scene) {
+    return mapsThatTurn(scene, [](const Material& m, std::size_t slot) { return slot == tangentSlot(m); });
+}
+// A map that TurnedMaps may be about.
+inline std::vector<bool> layerMapsThatTurn(const Scene& scene) {
+    return mapsThatTurn(scene, [](const Material& m, std::size_t slot) {
+        return slot != tangentSlot(m) && (slot == gpu::SLOT_clearcoat_normal || slot == gpu::SLOT_anisotropy);
+    });
 }
 
 // For each material, whether it ever blends; an animation may make it transmit light.

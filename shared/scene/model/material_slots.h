@@ -6,7 +6,9 @@
 #include "shared/scene/model/scene.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace diptych {
 
@@ -87,6 +89,42 @@ inline std::size_t tangentSlot(const Material& material) {
 inline TextureSlot tangentMap(const Material& material) {
     const std::size_t slot = tangentSlot(material);
     return slot == gpu::SLOT_COUNT ? TextureSlot{} : material.*materialSlots[slot].texture;
+}
+
+// Whether tangents of both maps agree on every surface: the transforms differ by an offset or by positive
+// scales along s and t.
+inline bool sameDirections(const TextureSlot& a, const TextureSlot& b) {
+    const auto area = [](const TextureSlot& m) { return m.u.x * m.v.y - m.u.y * m.v.x; };
+    const auto along = [&](const TextureSlot& m) {  // dP/ds, in the plane of the untransformed coordinates
+        return glm::dvec2(m.v.y, -m.v.x) * (area(m) < 0 ? -1.0 : 1.0);
+    };
+    if (a.texcoord != b.texcoord) return false;
+    if (area(a) == 0 || area(b) == 0)
+        return glm::dvec2(a.u) == glm::dvec2(b.u) && glm::dvec2(a.v) == glm::dvec2(b.v);
+    const glm::dvec2 p = along(a), q = along(b);
+    const double cosine = p.x * q.x + p.y * q.y, sine = p.x * q.y - p.y * q.x;
+    constexpr double rounded = 1e-6;  // of transforms given in float32
+    return (area(a) < 0) == (area(b) < 0) && std::abs(sine) <= rounded * cosine;
+}
+
+// Maps of layers whose generated tangents differ from those of tangentMap(). Vertices store one further
+// frame; a third is left out. Anisotropy without a texture takes the normal texture's UV set, untransformed.
+struct TurnedMaps {
+    std::uint32_t layers = 0;  // a sum of LAYER_CLEARCOAT and LAYER_ANISOTROPY
+    TextureSlot map{};
+    bool third = false;  // anisotropy, which takes the frame of tangentMap()
+};
+inline TurnedMaps turnedMaps(const Material& m, bool anisotropic) {
+    const TextureSlot base = tangentMap(m), coat = m.clearcoat_normal_texture;
+    const TextureSlot own =
+        m.anisotropy_texture.texture >= 0
+            ? m.anisotropy_texture
+            : TextureSlot{.texcoord = m.normal_texture.texture >= 0 ? m.normal_texture.texcoord : 0};
+    const bool coat_turned = coat.texture >= 0 && !sameDirections(base, coat),
+               turned = anisotropic && !sameDirections(base, own);
+    if (!coat_turned) return {turned ? gpu::LAYER_ANISOTROPY : 0, own};
+    const bool shared = turned && sameDirections(coat, own);
+    return {gpu::LAYER_CLEARCOAT | (shared ? gpu::LAYER_ANISOTROPY : 0), coat, turned && !shared};
 }
 
 inline bool isTransformed(const TextureSlot& slot) {

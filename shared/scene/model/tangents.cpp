@@ -4,9 +4,11 @@
 #include "shared/scene/model/tangent_space.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 
 namespace diptych {
@@ -63,7 +65,39 @@ TangentGroups groupsOf(const TangentSpace& space, const std::vector<std::uint32_
     return groups;
 }
 
+MapTurn between(const glm::vec3& normal, const glm::vec4& from, const glm::vec4& to) {
+    const glm::dvec3 tangent(from), other(to),
+        bitangent = double{from.w} * glm::cross(glm::dvec3(normal), tangent);
+    const glm::dvec2 turn(glm::dot(tangent, other), glm::dot(bitangent, other));
+    const double length = glm::length(turn);
+    if (!(length > 0)) return {};
+    return {turn.x / length, turn.y / length, (from.w < 0) != (to.w < 0)};
+}
+
 }  // namespace
+
+MapTurn MapTurn::of(float w) {
+    const double coded = std::abs(double{w}) - 1, turn = coded - std::floor(coded);
+    const auto side = [](double t) { return 4 * std::abs(t - std::floor(t) - 0.5) - 1; };
+    const glm::dvec2 on_square(side(turn), side(turn + 0.75));
+    const glm::dvec2 unit = glm::normalize(on_square);
+    return {unit.x, unit.y, coded >= 1};
+}
+
+float MapTurn::times(float sign) const {
+    const double x = cosine / (std::abs(cosine) + std::abs(sine)), turn = (sine < 0 ? 3 + x : 1 - x) / 4;
+    const float least = mirrored ? 2 : 1, coded = static_cast<float>(double{least} + turn);
+    return sign * (coded < least + 1 ? coded : least);
+}
+
+glm::vec4 turnedTangent(const glm::vec3& normal, const glm::vec4& tangent) {
+    const MapTurn turn = MapTurn::of(tangent.w);
+    const float sign = signOf(tangent.w);
+    const glm::vec3 along(tangent);
+    return {along * static_cast<float>(turn.cosine) +
+                glm::cross(normal, along) * (sign * static_cast<float>(turn.sine)),
+            turn.mirrored ? -sign : sign};
+}
 
 void makeFlatNormals(Primitive& primitive) {
     primitive.normals.clear();
@@ -86,19 +120,29 @@ void makeAnyTangents(Primitive& primitive) {
     for (const glm::vec3& normal : primitive.normals) primitive.tangents.push_back(anyTangent(normal));
 }
 
-void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) {
-    if (map.texcoord < 0 || map.texcoord > 1 || primitive.texcoords[map.texcoord].empty())
-        return makeAnyTangents(primitive);
+void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns, const TextureSlot* turned) {
+    const auto isThere = [&](int set) { return set >= 0 && set <= 1 && !primitive.texcoords[set].empty(); };
+    std::optional<TangentSpace> other;
+    if (turned && isThere(turned->texcoord)) other.emplace(primitive, *turned);
+    if (!isThere(map.texcoord) && !other) return makeAnyTangents(primitive);
     primitive.tangents.clear();
     // A map with zero extent at rest gets one later. Its bitangent signs are those of the unmapped
     // coordinates.
     const bool flattened = map_turns && map.u.x * map.v.y - map.u.y * map.v.x == 0;
     const TextureSlot read = flattened ? TextureSlot{.texture = map.texture, .texcoord = map.texcoord} : map;
-    const TangentSpace space(primitive, read);
+    std::optional<TangentSpace> space;
+    if (isThere(map.texcoord)) space.emplace(primitive, read);
+    const auto tangentAt = [&](std::size_t corner) {
+        const glm::vec3& normal = primitive.normals[primitive.indices[corner]];
+        glm::vec4 tangent = space ? space->at(corner) : anyTangent(normal);
+        if (other) tangent.w = between(normal, tangent, other->at(corner)).times(tangent.w);
+        return tangent;
+    };
 
-    const bool moves = map_turns || std::ranges::any_of(primitive.targets, [&](const MorphTarget& target) {
-                           return movesTangents(target, map.texcoord);
-                       });
+    const bool moves =
+        space && (map_turns || std::ranges::any_of(primitive.targets, [&](const MorphTarget& target) {
+                      return movesTangents(target, map.texcoord);
+                  }));
 
     // A vertex keeps its first tangent, and is copied for each other tangent (or group, if tangents move).
     // Corners with equal tangents share a copy if the search is short: a vertex of a million triangles may
@@ -111,8 +155,8 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) 
     std::vector<std::uint32_t> groups(source.size(), last);        // `last` if tangents do not move
     std::vector<std::uint32_t> nextCopy(source.size(), last);
     for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
-        const glm::vec4 tangent = space.at(corner);
-        const std::uint32_t group = moves ? space.groupAt(corner) : last;
+        const glm::vec4 tangent = tangentAt(corner);
+        const std::uint32_t group = moves ? space->groupAt(corner) : last;
         std::uint32_t v = primitive.indices[corner];
         for (int copies = 0; tangents[v] != glm::vec4(0) && (tangents[v] != tangent || groups[v] != group);
              ++copies) {
@@ -133,7 +177,7 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns) 
         primitive.indices[corner] = v;
     }
     TangentGroups made;  // before gather(), which replaces the vertices that `space` refers to
-    if (moves) made = groupsOf(space, primitive.indices, groups);
+    if (moves) made = groupsOf(*space, primitive.indices, groups);
     gather(primitive, source);
     for (std::size_t v = 0; v < tangents.size(); ++v)
         if (tangents[v] == glm::vec4(0)) tangents[v] = anyTangent(primitive.normals[v]);

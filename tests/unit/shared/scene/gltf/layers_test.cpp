@@ -2,6 +2,7 @@
 // KHR_materials_clearcoat, _anisotropy, _sheen and _iridescence: factors, textures, tangents, animation.
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
+#include "shared/scene/model/tangents.h"
 #include "shared/scene/motion/posed.h"
 #include "shared/scene/requirements.h"
 #include "tests/support/gltf_material_builder.h"
@@ -285,6 +286,61 @@ TEST(GltfLayers, TangentsFollowTheMapThatDefinesThem) {
         expectTangents(f.only(scene).tangents, expected, what);
         EXPECT_FALSE(mentions(scene.notes, arbitrary)) << what;
     }
+}
+
+// Each normal texture has the tangents of its own coordinates, and so has anisotropy.
+TEST(GltfLayers, EachMapHasTheTangentsOfItsCoordinates) {
+    const auto info = [](int set, double degrees = 0, double scale = 1) {
+        return Json{{"index", 0},
+                    {"texCoord", set},
+                    {"extensions",
+                     {{"KHR_texture_transform",
+                       {{"rotation", degrees * std::numbers::pi / 180}, {"scale", {scale, 2}}}}}}};
+    };
+    const Json base = {{"normalTexture", info(0, 90)}};
+    const auto coat = [&](const Json& map) {
+        return merged(coated({{"clearcoatFactor", 1}, {"clearcoatNormalTexture", map}}), base);
+    };
+    const auto texture = [&](const Json& map) {
+        return merged(brushed({{"anisotropyStrength", 0.5}, {"anisotropyTexture", map}}), base);
+    };
+    const Json strength = brushed({{"anisotropyStrength", 0.5}});
+    const glm::vec3 by_first(0, 1, 0), by_second(-1, 0, 0), none(0);
+    const std::tuple<const char*, Json, glm::vec3, float> cases[] = {
+        {"coat", coat(info(0)), by_first, 1},
+        {"mirrored coat", coat(info(0, 0, -1)), -by_first, -1},
+        {"coat on the second set", coat(info(1)), by_second, -1},
+        {"coat as the base", coat(info(0, 90)), none, 1},
+        {"anisotropy", texture(info(1)), by_second, -1},
+        {"anisotropy without a texture", merged(strength, base), by_first, 1},
+        {"both", merged(coat(info(0)), texture(info(0, 0, 3))), by_first, 1},
+        {"no base", merged(strength, coated({{"clearcoatFactor", 1}, {"clearcoatNormalTexture", info(1)}})),
+         by_first, 1}};
+    for (const auto& [what, material, expected, sign] : cases) {
+        GltfFile f = mapped(material);
+        const Scene scene = f.load();
+        const Primitive& p = f.only(scene);
+        EXPECT_EQ(turnedMaps(scene.materials.at(0), scene.materials[0].anisotropy > 0).layers != 0,
+                  expected != none)
+            << what;
+        EXPECT_FALSE(mentions(scene.notes, "takes the tangents of the normal map")) << what;
+        for (std::size_t v = 0; v < p.tangents.size(); ++v) {
+            const glm::vec4 turned = turnedTangent(p.normals[v], p.tangents[v]);
+            if (expected == none) {
+                EXPECT_EQ(std::abs(p.tangents[v].w), 1) << what;
+                continue;
+            }
+            EXPECT_LT(glm::distance(glm::vec3(turned), expected), 1e-6f) << what;
+            EXPECT_EQ(turned.w, sign * signOf(p.tangents[0].w) * signOf(p.tangents[0].w)) << what;
+        }
+    }
+    EXPECT_TRUE(mentions(mapped(merged(coat(info(1)), texture(info(0)))).load().notes,
+                         "anisotropy takes the tangents of the normal map"));
+    GltfFile turning = mapped(coat(info(1)));
+    animate(turning,
+            "KHR_materials_clearcoat/clearcoatNormalTexture/extensions/KHR_texture_transform/rotation", {0},
+            {1});
+    EXPECT_TRUE(mentions(turning.load().notes, "keep their angle to the normal map's"));
 }
 
 TEST(GltfLayers, TheFilesOwnTangentsStay) {
