@@ -2,6 +2,7 @@
 #include "compare/reference/material.h"
 
 #include "compare/reference/sheen.h"
+#include "compare/reference/transmission.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
 
@@ -239,29 +240,41 @@ void Materials::film(const Hit& hit, const PixelRay& ray, Surface& s) const {
                  lookUp(hit, m.iridescence_thickness_texture, false, &ray).g);
 }
 
-// KHR_materials_transmission: share from red. KHR_materials_volume: thickness from green, in the mesh's
-// space; its node scales it, except that a skin places the vertices in the world.
-void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const {
+// KHR_materials_volume: thickness from green, in the mesh's space; its node scales it, except that a skin
+// places the vertices in the world.
+double Materials::thicknessAt(const Hit& hit, const PixelRay& ray) const {
     const Material& m = material(hit);
     const Instance& instance = geometry_.instance(hit.id);
     const double scale = instance.skin >= 0
                              ? 1
                              : std::cbrt(std::abs(glm::determinant(glm::dmat3(instance.world_from_object))));
-    s.thickness = double{m.thickness} * lookUp(hit, m.thickness_texture, false, &ray).g * scale;
+    return double{m.thickness} * lookUp(hit, m.thickness_texture, false, &ray).g * scale;
+}
+
+// KHR_materials_transmission: share from red.
+void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const {
+    const Material& m = material(hit);
+    s.transmission = double{m.transmission} * lookUp(hit, m.transmission_texture, false, &ray).r;
+    s.ior = double{m.ior};
+    s.thickness = thicknessAt(hit, ray);
     s.attenuation_color = glm::dvec3(m.attenuation_color);
     s.attenuation_distance = double{m.attenuation_distance};
     s.dispersion = double{m.dispersion};
 }
 
-// KHR_materials_diffuse_transmission: weight from alpha, colour from RGB.
+// KHR_materials_diffuse_transmission: weight from alpha, colour from RGB. A volume absorbs over its
+// thickness.
 void Materials::transmitDiffusely(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
     s.diffuse_transmission =
         double{m.diffuse_transmission} * lookUp(hit, m.diffuse_transmission_texture, true, &ray).a;
-    if (s.diffuse_transmission > 0)
-        s.diffuse_transmission_color =
-            glm::dvec3(m.diffuse_transmission_color) *
-            glm::dvec3(lookUp(hit, m.diffuse_transmission_color_texture, true, &ray));
+    if (!(s.diffuse_transmission > 0)) return;
+    Surface volume;
+    volume.attenuation_color = glm::dvec3(m.attenuation_color);
+    volume.attenuation_distance = double{m.attenuation_distance};
+    s.diffuse_transmission_color = glm::dvec3(m.diffuse_transmission_color) *
+                                   glm::dvec3(lookUp(hit, m.diffuse_transmission_color_texture, true, &ray)) *
+                                   attenuationOf(volume, thicknessAt(hit, ray));
 }
 
 Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {

@@ -93,6 +93,7 @@ private:
     void sheen(const Hit& hit, const PixelRay& ray, Surface& s) const;
     void film(const Hit& hit, const PixelRay& ray, Surface& s) const;
     void transmit(const Hit& hit, const PixelRay& ray, Surface& s) const;
+    double thicknessAt(const Hit& hit, const PixelRay& ray) const;  // of a slab, m
     void transmitDiffusely(const Hit& hit, const PixelRay& ray, Surface& s) const;
 
     const Scene& scene_;

@@ -147,6 +147,15 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
         uses.push_back({gpu::DEBUG_diffuse_transmission_color,
                         {0, 0, 0, largestComponent(m.diffuse_transmission_color)},
                         true});
+    if (slot == gpu::SLOT_thickness && diffusesThroughVolume(m)) {
+        const glm::vec3& c = m.attenuation_color;  // the steepest change of exp(thickness log(color))
+        const double least = std::max(double{std::min({c.x, c.y, c.z})}, 1e-37);
+        uses.push_back({gpu::DEBUG_diffuse_transmission_color,
+                        {0,
+                         -std::log(least) * m.thickness / m.attenuation_distance *
+                             largestComponent(m.diffuse_transmission_color),
+                         0, 0}});
+    }
     if (slot == gpu::SLOT_iridescence) {
         const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
         uses.push_back({gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});

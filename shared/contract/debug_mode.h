@@ -179,7 +179,7 @@
           surface, 302, unorm, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
           diffuse_transmission, number, 0) \
     X(76, diffuse_transmission_color, 3, absolute, color, share, both, \
-          "colour of diffuse transmission, linear Rec.709; 0 without it", \
+          "colour of diffuse transmission, with its volume's absorption, linear Rec.709; 0 without it", \
           surface, 304, root, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
           diffuse_transmission, color, 0)
 // clang-format on

@@ -41,7 +41,7 @@ struct DrawConstants {
     uint triangle;
     uint group;    // sample group that a draw of deferred lighting shades: samples.h
     uvec2 posing;  // address of a PosedInstance, with FEATURE_vertex_posing
-    float scale;   // world units per object unit, with FEATURE_transmission; else 0
+    float scale;   // world units per object unit, with FEATURE_transmission or _absorbing; else 0
     // Deferred lighting with FEATURE_lighting_tiles.
     uvec2 tiles;     // address of uint[]: the tiles that the draw or dispatch shades, x | y << 16
     vec2 tile_size;  // of a tile in clip space, for draws

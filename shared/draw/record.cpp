@@ -62,7 +62,7 @@ gpu::DrawConstants constantsOf(const FrameInputs& inputs, const DrawItem& item) 
     if (inputs.variant.get(gpu::FEATURE_object_lights) != 0) constants.draw = item.draw;
     constants.material = item.range.material;
     constants.posing = inputs.posing.address(item);
-    if (item.transmissive) constants.scale = item.scale;
+    if (item.transmissive || item.variant.get(gpu::FEATURE_absorbing) != 0) constants.scale = item.scale;
     return constants;
 }
 

@@ -48,6 +48,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
         variant.set(gpu::FEATURE_transmission, material.alpha_mode == AlphaMode::blend
                                                    ? gpu::TRANSMISSION_COVERED
                                                    : gpu::TRANSMISSION_WHOLE);
+    if (diffusesThroughVolume(material)) variant.set(gpu::FEATURE_absorbing);
     variant.set(gpu::FEATURE_layers, layersOf(material) & ~gpu::LAYER_TRANSMISSION);
     variant.set(gpu::FEATURE_turned_maps,
                 turnedMaps(material, material.anisotropy > 0).layers & layersOf(material));

@@ -373,6 +373,15 @@ TEST(Layers, GlassAndLeavesReadTheirTextures) {
     forEachTexel(leaf, {weights, colors}, [&](const Frame& f, int x, int y, const glm::vec4& t) {
         expectLeaf(f, x, y, 0.6f * t.a, colorOf(t));
     });
+    // A volume absorbs over the thickness, which the node scales.
+    m.thickness = 0.75f;
+    m.attenuation_distance = 0.5f;
+    m.attenuation_color = {0.5f, 0.9f, 1};
+    forEachTexel(leaf, {&Material::thickness_texture}, [&](const Frame& f, int x, int y, const glm::vec4& t) {
+        expectLeaf(f, x, y, 0.6f, glm::pow(m.attenuation_color, glm::vec3(1.5f * t.g)));
+    });
+    leaf.nodes[0].parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(2));
+    for (const Frame& f : draw(leaf)) expectLeaf(f, 1, 1, 0.6f, glm::pow(m.attenuation_color, glm::vec3(3)));
 }
 
 // Only the red texel and the grey one have a sheen and a film.

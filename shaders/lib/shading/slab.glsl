@@ -6,12 +6,15 @@
 
 #include "shaders/lib/surface/surface.glsl"
 
-// Fraction of light that crosses the slab (Beer and Lambert).
-vec3 crossing(const Surface s) {
+// Fraction of light that crosses `thickness` metres (Beer and Lambert). `color` remains after `distance`.
+vec3 crossing(const vec3 color, const float distance, const float thickness) {
     // Finite, so that white, whose logarithm is 0, stays white.
-    float lengths = s.attenuation_distance > 0.0 ? min(s.thickness / s.attenuation_distance, 3e38) : 0.0;
-    vec3 crossed = exp(log(max(s.attenuation_color, vec3(1e-37))) * lengths);
-    return mix(crossed, vec3(0.0), bvec3(uvec3(equal(s.attenuation_color, vec3(0.0))) * uint(lengths > 0.0)));
+    float lengths = distance > 0.0 ? min(thickness / distance, 3e38) : 0.0;
+    vec3 crossed = exp(log(max(color, vec3(1e-37))) * lengths);
+    return mix(crossed, vec3(0.0), bvec3(uvec3(equal(color, vec3(0.0))) * uint(lengths > 0.0)));
+}
+vec3 crossing(const Surface s) {
+    return crossing(s.attenuation_color, s.attenuation_distance, s.thickness);
 }
 
 // From the surface to where the ray leaves the slab, m. `v`: unit, to the viewer. `ior` 0 stands for

@@ -10,6 +10,7 @@
 #include "shaders/lib/surface/material_factors.glsl"
 #include "shaders/lib/lights/object_lights.glsl"
 #include "shaders/lib/geometry/position.glsl"
+#include "shaders/lib/shading/slab.glsl"
 #include "shaders/lib/surface/specular_aa.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
@@ -319,11 +320,21 @@ void addFilm(const Material m, inout Surface s) {
     s.iridescence_thickness = there ? thickness : 0.0;
 }
 
+float slabThickness(const Material m) {
+    float thickness = m.thickness * constants.scale;
+    if (on(feature_thickness_texture))
+        thickness *= slotTexel(thickness_texture, SLOT_thickness, feature_thickness_texture).g;
+    return thickness;
+}
+
+// A volume behind the surface absorbs over its thickness, as in the Khronos sample viewer.
 void addDiffuseTransmission(const Material m, inout Surface s) {
     float weight = m.diffuse_transmission;
     vec3 color = m.diffuse_transmission_color;
     if (on(feature_diffuse_transmission_texture)) weight *= diffuseTransmissionTexel().a;
     if (on(feature_diffuse_transmission_color_texture)) color *= diffuseTransmissionColorTexel().rgb;
+    if (on(feature_absorbing))
+        color *= crossing(m.attenuation_color, m.attenuation_distance, slabThickness(m));
     s.diffuse_transmission = weight;
     s.diffuse_transmission_color = weight > 0.0 ? color : vec3(0.0);
 }
@@ -333,9 +344,7 @@ void addTransmission(const Material m, const float alpha, inout Surface s) {
     s.transmission = m.transmission;
     if (on(feature_transmission_texture))
         s.transmission *= slotTexel(transmission_texture, SLOT_transmission, feature_transmission_texture).r;
-    float thickness = m.thickness * constants.scale;
-    if (on(feature_thickness_texture))
-        thickness *= slotTexel(thickness_texture, SLOT_thickness, feature_thickness_texture).g;
+    float thickness = slabThickness(m);
     bool there = s.transmission > 0.0;
     s.ior = there ? m.ior : 0.0;
     s.thickness = there ? thickness : 0.0;

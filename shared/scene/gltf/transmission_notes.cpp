@@ -95,8 +95,8 @@ void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& dra
         },
         "with KHR_materials_dispersion, but without transmission through a thickness: no effect");
     noter.note([&](std::size_t i) { return lit(i) && diffuses(i) && thick(i); },
-               "with KHR_materials_diffuse_transmission and a volume: diffuses as a thin surface, scattering "
-               "in the volume is not modelled");
+               "with KHR_materials_diffuse_transmission and a volume: diffuses as a thin surface and absorbs "
+               "over the thickness, scattering in the volume is not modelled");
 }
 
 }  // namespace diptych::gltf

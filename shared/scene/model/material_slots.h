@@ -40,6 +40,12 @@ constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
     {&Material::diffuse_transmission_color_texture, true},
 }};
 
+// Whether what KHR_materials_volume absorbs colours diffuse transmission.
+inline bool diffusesThroughVolume(const Material& m) {
+    return !m.unlit && m.diffuse_transmission > 0 && m.thickness > 0 && m.attenuation_distance > 0 &&
+           m.attenuation_color != glm::vec3(1);
+}
+
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
 // this is the base colour.
 inline bool readsSlot(const Material& material, std::size_t slot) {
@@ -70,7 +76,7 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
         case gpu::SLOT_transmission:
             return material.transmission != 0;
         case gpu::SLOT_thickness:
-            return material.transmission != 0 && material.thickness != 0;
+            return (material.transmission != 0 && material.thickness != 0) || diffusesThroughVolume(material);
         case gpu::SLOT_diffuse_transmission:
         case gpu::SLOT_diffuse_transmission_color:
             return material.diffuse_transmission != 0;

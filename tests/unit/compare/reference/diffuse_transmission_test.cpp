@@ -229,6 +229,12 @@ TEST(ReferenceDiffuseTransmission, FactorsAndTexturesAndChannels) {
     scene.images[0].rgba[3] = 0;
     EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(0))
         << "no colour without a weight";
+    scene.images[0].rgba = {255, 255, 255, 255};
+    m.thickness = 2;
+    m.attenuation_distance = 1;
+    m.attenuation_color = {0.5f, 1, 0};
+    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(0.25, 0.5, 0))
+        << "the volume absorbs";
 }
 
 TEST(ReferenceDiffuseTransmission, CapturedLeavesAreShadedAgain) {
