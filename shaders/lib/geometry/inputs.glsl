@@ -62,6 +62,15 @@ vec2 shaded_offset = placeOf(uint(gl_SampleMaskIn[0])) - 0.5;
 #define shaded_irradiance SHADED(v_irradiance)
 #define shaded_irradiance_behind SHADED(v_irradiance_behind)
 
+// A vector of the layer's map, in the normal map's tangent space. `turn`: shaded_turn or middle_turn.
+vec3 turnedFrom(const vec3 t, const uint layer, const vec2 turn) {
+    if ((feature_turned_maps & layer) == 0u) return t;
+    bool mirrored = dot(turn, turn) > MIRRORED_TURN;
+    vec2 unit = mirrored ? turn / MIRRORED_TURN : turn;
+    float y = mirrored ? -t.y : t.y;
+    return vec3(t.x * unit.x - y * unit.y, t.x * unit.y + y * unit.x, t.z);
+}
+
 // Shaded location in pixels, like gl_FragCoord.xy. gl_FragCoord is at the pixel's centre, or at the sample
 // if each sample has its own fragment.
 vec2 shadedPixel() {

@@ -170,15 +170,6 @@ vec3 fromTangentSpace(const vec3 t, const vec3 n, const vec4 tangent) {
     return t.x * tangent.xyz + t.y * bitangent + t.z * n;
 }
 
-// The same vector of the layer's map in the normal map's tangent space. `turn`: v_turn.
-vec3 turnedFrom(const vec3 t, const uint layer, const vec2 turn) {
-    if ((feature_turned_maps & layer) == 0u) return t;
-    bool mirrored = dot(turn, turn) > MIRRORED_TURN;
-    vec2 unit = mirrored ? turn / MIRRORED_TURN : turn;
-    float y = mirrored ? -t.y : t.y;
-    return vec3(t.x * unit.x - y * unit.y, t.x * unit.y + y * unit.x, t.z);
-}
-
 // Negated on the back of a double-sided material. The triangle's normal replaces a normal that vanished,
 // by the node's scale or by interpolation; only variants where that can happen check for it. Both cases
 // share one normalisation.
