@@ -263,7 +263,8 @@ TEST(CheckpointFolder, AForeignOneIsRefusedUnchanged) {
         CheckpointFolder(home / "r", "scenes", {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
     };
     expectForeignIsRefused(there, use);
-    if (!testing::Test::IsSkipped()) EXPECT_THROW(use(), std::runtime_error) << "an empty one, too";
+    if (testing::Test::IsSkipped()) return;
+    EXPECT_THROW(use(), std::runtime_error) << "an empty one, too";
 }
 
 TEST(OutputFolder, ForeignMovesAreNotFinished) {

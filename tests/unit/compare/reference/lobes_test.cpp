@@ -261,7 +261,8 @@ float lobeInFloat(const glm::vec3& n, const glm::vec3& v, const glm::vec3& l, fl
     const float smith_v = std::sqrt(n_dot_v * n_dot_v * (1 - alpha2) + alpha2),
                 smith_l = std::sqrt(n_dot_l * n_dot_l * (1 - alpha2) + alpha2);
     const float a = alpha * glm::dot(s, s);
-    return a * a / (2 * std::numbers::pi_v<float> * q * q * (n_dot_l * smith_v + n_dot_v * smith_l)) * n_dot_l;
+    return a * a / (2 * std::numbers::pi_v<float> * q * q * (n_dot_l * smith_v + n_dot_v * smith_l)) *
+           n_dot_l;
 }
 
 // Float32 errs by more than the constant share at sharp highlights, and by less than the lobe's condition. A
@@ -288,20 +289,20 @@ TEST(ReferenceLobes, RoundingIsBoundedByTheConditionAndAWrongLobeIsNot) {
                          l = h * (2 * glm::dot(h, s.to_viewer)) - s.to_viewer;
         if (!(glm::dot(s.normal, s.to_viewer) > 0.05 && glm::dot(s.normal, l) > 0.05)) continue;
         const Light light = lightOf(LightKind::point, s.position + l * number(0.1, 20));
-        const Shading exact = shadedBy(std::span(&light, 1), s);
+        const Shading truth = shadedBy(std::span(&light, 1), s);
         const glm::vec3 to_light = glm::vec3(light.position) - place;
         const float distance = glm::length(to_light);
         const auto inFloat = [&](double width) {
             return double{lobeInFloat(n, v, to_light / distance, static_cast<float>(width)) /
                           (distance * distance)};
         };
-        const double value = exact.reflected.specular.g, share = everywhereRounded * value,
+        const double value = truth.reflected.specular.g, share = everywhereRounded * value,
                      error = std::abs(inFloat(alpha) - value);
         ++lights;
         beyond_share += error > share;
-        closest = std::max(closest, error / std::max(share, exact.rounding));
-        EXPECT_LE(error, std::max(share, exact.rounding)) << s.roughness << " " << error / value;
-        seen += std::abs(inFloat(1.01 * alpha) - value) > std::max(share, exact.rounding);
+        closest = std::max(closest, error / std::max(share, truth.rounding));
+        EXPECT_LE(error, std::max(share, truth.rounding)) << s.roughness << " " << error / value;
+        seen += std::abs(inFloat(1.01 * alpha) - value) > std::max(share, truth.rounding);
     }
     EXPECT_GT(lights, 5000);
     EXPECT_GT(beyond_share, lights / 100);

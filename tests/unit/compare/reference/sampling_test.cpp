@@ -112,10 +112,10 @@ TEST(ReferenceSampling, StreamsHaveNoNumberInCommon) {
 // Fractions of samples by equal solid angles: rows of the cosine to +Z, columns of the azimuth.
 constexpr int histogramRows = 20, histogramColumns = 24;
 using Histogram = std::vector<double>;
-std::size_t binOf(const glm::dvec3& l) {
-    const int row = static_cast<int>((l.z + 1) / 2 * histogramRows),
+std::size_t binAround(const glm::dvec3& l) {
+    const int band = static_cast<int>((l.z + 1) / 2 * histogramRows),
               column = static_cast<int>((std::atan2(l.y, l.x) / (2 * pi) + 0.5) * histogramColumns);
-    return static_cast<std::size_t>(std::clamp(row, 0, histogramRows - 1) * histogramColumns +
+    return static_cast<std::size_t>(std::clamp(band, 0, histogramRows - 1) * histogramColumns +
                                     std::clamp(column, 0, histogramColumns - 1));
 }
 bool isBeside(std::size_t a, std::size_t b) {
@@ -129,7 +129,7 @@ Histogram drawnBy(const LobeSampler& lobe) {
     constexpr int steps = 512;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j)
-            drawn[binOf(lobe({(i + 0.5) / steps, (j + 0.5) / steps}))] += 1.0 / (steps * steps);
+            drawn[binAround(lobe({(i + 0.5) / steps, (j + 0.5) / steps}))] += 1.0 / (steps * steps);
     return drawn;
 }
 Histogram saidBy(const LobeSampler& lobe) {
@@ -141,7 +141,7 @@ Histogram saidBy(const LobeSampler& lobe) {
             const double t = 2 * (i + 0.5) / rows - 1, z = t * std::abs(t), out = std::sqrt(1 - z * z),
                          turn = 2 * pi * ((j + 0.5) / columns - 0.5);
             const glm::dvec3 l(out * std::cos(turn), out * std::sin(turn), z);
-            said[binOf(l)] += lobe.density(l) * 2 * std::abs(t) * 4 * pi / (double{rows} * columns);
+            said[binAround(l)] += lobe.density(l) * 2 * std::abs(t) * 4 * pi / (double{rows} * columns);
         }
     return said;
 }
@@ -163,7 +163,7 @@ TEST(ReferenceSampling, EveryLobesDensityIsThatOfItsSamplesAndIntegratesToOne) {
                     << roughness << " " << angle << " " << stretched;
                 for (std::size_t i = 0; i < said.size(); ++i) {
                     // The density is infinite opposite to the viewer, where its sum converges slowly.
-                    const bool opposite = isBeside(i, binOf(-s.to_viewer));
+                    const bool opposite = isBeside(i, binAround(-s.to_viewer));
                     EXPECT_NEAR(drawn[i], said[i], (opposite ? 0.5 : 0.03) * said[i] + 5e-4)
                         << roughness << " " << angle << " " << stretched << ", bin " << i;
                 }

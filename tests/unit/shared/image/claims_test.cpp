@@ -12,19 +12,19 @@
 namespace diptych {
 namespace {
 
-constexpr std::uint64_t gib = std::uint64_t{1} << 30;
+constexpr std::uint64_t oneGib = std::uint64_t{1} << 30;
 
 TEST(Claims, BytesOfFilesBack64TimesAsMany) {
-    EXPECT_EQ(claimMemory(64 * gib, gib, "a"), nullptr);
+    EXPECT_EQ(claimMemory(64 * oneGib, oneGib, "a"), nullptr);
     EXPECT_EQ(claimMemory(0, 0, "a"), nullptr);
-    const Claim all = claimMemory(66 * gib, gib, "a");
+    const Claim all = claimMemory(66 * oneGib, oneGib, "a");
     EXPECT_NE(all, nullptr);
 }
 
 TEST(Claims, ShareOneBudgetAsLongAsTheyAreHeld) {
-    Claim first = claimMemory(gib, 0, "first");
+    Claim first = claimMemory(oneGib, 0, "first");
     const Claim copy = first;
-    const auto second = [&] { claimMemory(gib + 1, 0, "second"); };
+    const auto second = [&] { claimMemory(oneGib + 1, 0, "second"); };
     const std::string said =
         "second: takes 1024 MiB, claimed by 0 bytes, beside 1024 MiB claimed before; the "
         "limit of such claims is 2048 MiB";
@@ -32,10 +32,10 @@ TEST(Claims, ShareOneBudgetAsLongAsTheyAreHeld) {
     first = {};
     EXPECT_EQ(faultOf(second), said) << "a copy is left";
     {
-        const Claim last = claimMemory(gib, 0, "last");
+        const Claim last = claimMemory(oneGib, 0, "last");
         EXPECT_NE(faultOf([] { claimMemory(1, 0, "none"); }), "");
     }
-    EXPECT_EQ(faultOf([] { claimMemory(gib, 0, "again"); }), "");
+    EXPECT_EQ(faultOf([] { claimMemory(oneGib, 0, "again"); }), "");
     EXPECT_NE(faultOf([] { claimMemory(~std::uint64_t{0}, 0, "beyond"); }), "");
 }
 
@@ -46,7 +46,7 @@ TEST(Claims, APictureIsRefusedByName) {
     part.display = box(0, 0, 2047, 2047);
     const std::string exr = exrOf({part});
     const auto read = [&] { return readPicture(std::as_bytes(std::span(exr)), "a.exr"); };
-    Claim before = claimMemory(2 * gib, 0, "before");
+    Claim before = claimMemory(2 * oneGib, 0, "before");
     EXPECT_EQ(faultOf(read),
               fmt::format("a.exr: an image of 2048 x 2048 pixels: takes 64 MiB, claimed by {} "
                           "bytes, beside 2048 MiB claimed before; the limit of such claims is 2048 MiB",
@@ -54,7 +54,8 @@ TEST(Claims, APictureIsRefusedByName) {
     before = {};
     const PictureFile picture = read();
     EXPECT_NE(picture.claim, nullptr);
-    EXPECT_NE(faultOf([] { claimMemory(2 * gib - (gib >> 5), 0, "beside"); }), "") << "as long as it lives";
+    EXPECT_NE(faultOf([] { claimMemory(2 * oneGib - (oneGib >> 5), 0, "beside"); }), "")
+        << "as long as it lives";
 }
 
 }  // namespace
