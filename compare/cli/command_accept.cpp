@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
+#include "compare/files/linked_file.h"
 #include "compare/files/our_files.h"
-#include "compare/files/output.h"
 #include "compare/run/print.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"

@@ -3,7 +3,7 @@
 #include "compare/choose/report.h"
 #include "compare/choose/scene_chooser.h"
 #include "compare/cli/commands.h"
-#include "compare/files/output.h"
+#include "compare/files/linked_file.h"
 #include "compare/files/scene_folders.h"
 #include "compare/run/print.h"
 #include "shared/image/atomic_file.h"

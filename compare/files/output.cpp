@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/output.h"
 
+#include "compare/files/linked_file.h"
 #include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "shared/image/atomic_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
@@ -34,19 +34,16 @@ bool isEmpty(const fs::path& folder) {
     throw std::runtime_error(fmt::format("-o {}: {}", out.string(), why));
 }
 
-[[noreturn]] void failLinks(const fs::path& out, const std::error_code& error) {
-    fail(out, error.value() == ELOOP ? "its links lead in a circle; give another name" : error.message());
-}
-
 // Throws if it is certain that nothing can be written there, also with --force.
 void checkWritable(const Output& output) {
     std::error_code error;
     const fs::file_status there = fs::status(output.path, error);
-    if (there.type() == fs::file_type::none) failLinks(output.path, error);
     const bool folder = output.kind == OutputKind::folder;
     if (fs::is_other(there))
         fail(output.path, "is a device, pipe or socket; give the name of a file or folder");
-    linkedFile(output.path);  // throws for another user's link
+    linkedFile(output.path);  // throws for links that must not be followed
+    if (there.type() == fs::file_type::none)
+        throw std::runtime_error(writingFailed(output.path, error.value()));
     if (folder && fs::is_regular_file(there))
         fail(output.path, "is a file, but a folder is written there; give another name");
     fs::path above = fs::absolute(output.path, error);
@@ -73,18 +70,6 @@ Output outputOf(const fs::path& out, bool folders_alone) {
     throw std::runtime_error(
         fmt::format("-o {}: cannot write {} files; use .exr, .png, or a name without extension for a folder",
                     out.string(), out.extension().string()));
-}
-
-fs::path linkedFile(const fs::path& out) {
-    struct stat link {};
-    if (::lstat(out.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return out;
-    // Another user may have put it there during the run.
-    if (link.st_uid != ::geteuid() && link.st_uid != 0)
-        fail(out, "is another user's link, which may lead anywhere; name its target");
-    std::error_code error;
-    fs::path target = fs::weakly_canonical(out, error);
-    if (error) failLinks(out, error);
-    return target;
 }
 
 fs::path besideOutput(const fs::path& out, const std::string& what) {

@@ -20,11 +20,6 @@ struct Output {
 // command writes only folders.
 Output outputOf(const std::filesystem::path& out, bool folders_alone = false);
 
-// The target if `out` is a link, else `out`. A link that the user names is kept; links inside a folder are
-// replaced (AtomicFile). Throws std::runtime_error naming -o if links lead in a circle, or if another user
-// but root made the link.
-std::filesystem::path linkedFile(const std::filesystem::path& out);
-
 // ".NAME.what" beside an output, for finished parts of an unfinished output.
 std::filesystem::path besideOutput(const std::filesystem::path& out, const std::string& what);
 

@@ -3,8 +3,8 @@
 
 #include "compare/files/file_moves.h"
 #include "compare/files/folder_lock.h"
+#include "compare/files/linked_file.h"
 #include "compare/files/our_files.h"
-#include "compare/files/output.h"
 
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"

@@ -15,10 +15,10 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -49,11 +49,22 @@ bool hasEnded(pid_t child, int ms) {
     }
 }
 
+// A file under /proc, which reports no size.
+std::string procText(const std::string& name) {
+    std::string text;
+    if (std::FILE* const file = std::fopen(name.c_str(), "re")) {
+        char piece[4096];
+        for (std::size_t got = 0; (got = std::fread(piece, 1, sizeof piece, file)) > 0;)
+            text.append(piece, got);
+        std::fclose(file);
+    }
+    return text;
+}
+
 // The state in /proc/PID/stat, "R" to "Z", which follows the name in brackets; 'X' if there is no such
 // process.
 char stateOf(pid_t process) {
-    std::ifstream file(fmt::format("/proc/{}/stat", process));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = procText(fmt::format("/proc/{}/stat", process));
     const std::size_t end = text.rfind(") ");
     return end == text.npos ? 'X' : text[end + 2];
 }
@@ -63,7 +74,7 @@ void addBelow(pid_t process, std::vector<pid_t>& all) {
     std::error_code gone;
     std::filesystem::directory_iterator thread(fmt::format("/proc/{}/task", process), gone);
     for (; !gone && thread != std::filesystem::directory_iterator(); thread.increment(gone)) {
-        std::ifstream children(thread->path() / "children");
+        std::istringstream children(procText(thread->path() / "children"));
         for (pid_t child = 0; children >> child;) {
             all.push_back(child);
             addBelow(child, all);
