@@ -258,9 +258,9 @@ pid_t processIn(const fs::path& file) {
 TEST(External, ATimeoutEndsAllThatItStarted) {
     for (const char* mode : {"flee", "stop"}) {
         const Folder folder;
-        writeRenderer(folder, "fake", {mode, (folder / "pid").string()}, {{"timeout", 1.5}});
+        writeRenderer(folder, "fake", {mode, (folder / "pid").string()}, {{"timeout", 3}});
         const Ran ran = runTool(folder, compare_points + "--renderer fake=fake.json");
-        EXPECT_TRUE(ran.failedOver("was killed after its timeout of 1.5 s"));
+        EXPECT_TRUE(ran.failedOver("was killed after its timeout of 3 s"));
         const pid_t child = processIn(folder / "pid");
         ASSERT_GT(child, 0);
         EXPECT_TRUE(soon([&] { return !isRunning(child); })) << mode;
