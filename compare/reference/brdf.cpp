@@ -159,19 +159,6 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     return {scattered_ * baseUnder(layer) * (n_dot_l / std::numbers::pi), mixed * (lobe * n_dot_l)};
 }
 
-// D is proportional to 1 / k^2, where k is the squared length of the half vector with its components along
-// the surface divided by the widths.
-double Brdf::steepness(const glm::dvec3& to_light) const {
-    const glm::dvec3 half = halfway(to_light), up = normal_ * glm::dot(normal_, half), beside = half - up;
-    if (sheen_ || !(glm::dot(normal_, half) > 0)) return 0;
-    const glm::dvec3 divided =
-        up + (widths_.isotropic() ? beside / square(widths_.across)
-                                  : widths_.x * (glm::dot(widths_.x, half) / square(widths_.along)) +
-                                        widths_.y * (glm::dot(widths_.y, half) / square(widths_.across)));
-    const double k = glm::dot(divided, half);
-    return 4 * glm::length(divided - half * k) / k;
-}
-
 glm::dvec3 Brdf::halfway(const glm::dvec3& to_light) const {
     const glm::dvec3 sum = to_light + to_viewer_;
     const double length = glm::length(sum);

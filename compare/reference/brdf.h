@@ -71,10 +71,6 @@ public:
     // The GGX or sheen lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
 
-    // Condition of the GGX lobe: its relative change per radian by which rounding turns the half vector in
-    // the steepest direction; 0 for a sheen.
-    double steepness(const glm::dvec3& to_light) const;
-
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }
     // Widths of the GGX lobe; 1 for a sheen.

@@ -55,16 +55,6 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     return split(turn > std::max(widths.across, apart - turn));
 }
 
-// The angle by which float32 turns the half vector of a light at `position`, rad. Units in the last place:
-// 1 of the position, which the difference to the surface magnifies; 8 of the two unit vectors and their sum;
-// 4 of its products with the normal.
-double roundedTurn(const Brdf& brdf, const glm::dvec3& position, const Incident& light) {
-    constexpr double unit = 0x1p-24, least_v_dot_h = 1e-3;
-    const double magnified = std::isfinite(light.distance) ? glm::length(position) / light.distance : 1;
-    const double sum = std::max(glm::length(light.to_light + brdf.toViewer()), 2 * least_v_dot_h);
-    return unit * ((magnified + 8) / sum + 4);
-}
-
 // Random stream of a surface's random walks; no light has this index.
 constexpr std::uint64_t betweenStream = ~std::uint64_t{1};
 // Streams of the environment's errors and of occlusion.
@@ -192,11 +182,8 @@ Shading Lighting::layer(const Surface& surface, Multiscatter multiscatter, const
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position, falloff_);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
-        if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance))) {
+        if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance)))
             sum.reflected += reflected;
-            sum.rounding += Reflected{.specular = reflected.specular}.size() *
-                            brdf.steepness(light.to_light) * roundedTurn(brdf, p.position, light);
-        }
         // Keeps NaN visible.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }

@@ -27,9 +27,6 @@ namespace diptych::reference {
 // a smooth integrand that is a thousand times the error.
 inline constexpr double quadratureError = 2e-6;
 
-// Error of float32 shading against double precision that every pixel may have, relative to its value.
-inline constexpr double everywhereRounded = 1e-4;
-
 struct Shading {
     // From lights and environment towards the viewer, W/(sr m^2).
     Reflected reflected;
@@ -42,14 +39,11 @@ struct Shading {
     Reflected environment{};  // the environment's part of `reflected`
     // Parts of `reflected` and `ambient`: the clear coat's, the sheen's, and that of light from behind.
     glm::dvec3 clearcoat{0}, sheen{0}, from_behind{0};
-    // How far float32 vectors may move the highlights of punctual lights, largest component, W/(sr m^2).
-    double rounding = 0;
 
     glm::dvec3 all() const { return reflected.sum() + ambient; }
     Shading& operator+=(const Shading& other) {
         reflected += other.reflected;
         uncertainty += other.uncertainty;
-        rounding += other.rounding;
         ambient += other.ambient;
         costs += other.costs;
         surroundings += other.surroundings;
@@ -60,8 +54,8 @@ struct Shading {
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b,   a.uncertainty * b, a.ambient * b, a.costs * b,       a.surroundings * b,
-                a.environment * b, a.clearcoat * b,   a.sheen * b,   a.from_behind * b, a.rounding * b};
+        return {a.reflected * b,   a.uncertainty * b, a.ambient * b, a.costs * b,      a.surroundings * b,
+                a.environment * b, a.clearcoat * b,   a.sheen * b,   a.from_behind * b};
     }
 };
 

@@ -29,14 +29,9 @@ namespace {
 constexpr int tileSide = 16;
 
 // The other images of a picture, in the order in which tiles store them.
-std::array<Image*, 7> besides(Picture& picture) {
-    return {&picture.rounding,          &picture.shadow_edge,  &picture.local_shadow_edge,
-            &picture.environment_costs, &picture.surroundings, &picture.blended,
-            &picture.unblended};
-}
-
-double beyondEverywhere(const Shading& s) {
-    return std::max(0.0, s.rounding - everywhereRounded * Reflected{.specular = s.reflected.specular}.size());
+std::array<Image*, 6> besides(Picture& picture) {
+    return {&picture.shadow_edge,  &picture.local_shadow_edge, &picture.environment_costs,
+            &picture.surroundings, &picture.blended,           &picture.unblended};
 }
 
 bool isOfShadows(int mode) {
@@ -71,8 +66,6 @@ public:
             }
         picture_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
-        if (std::ranges::any_of(request.lights, [](const Light& light) { return !isArea(light.kind); }))
-            picture_.rounding = Image(request.view.width, request.view.height, 1);
         const auto cast = [&](const auto& which) {
             return request.shadow_edges && std::ranges::any_of(request.casters, [&](std::size_t i) {
                        return which(request.lights[i]);
@@ -131,8 +124,8 @@ public:
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });
         }
-        for (Image* const image : {&picture_.uncertainty, &picture_.rounding})
-            if (std::ranges::all_of(image->data, [](float u) { return u == 0; })) *image = {};
+        if (std::ranges::all_of(picture_.uncertainty.data, [](float u) { return u == 0; }))
+            picture_.uncertainty = {};
         return std::move(picture_);
     }
 
@@ -173,7 +166,6 @@ private:
                 if (image.empty()) return;
                 for (const double number : numbers) values.push_back(static_cast<float>(number));
             };
-            take(picture_.rounding, {beyondEverywhere(pixel.shading) + beyondEverywhere(pixel.blended)});
             take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
             take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
             EnvironmentCosts c = pixel.shading.costs;

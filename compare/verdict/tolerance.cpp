@@ -217,8 +217,6 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
-        if (!reference.rounding.empty())
-            result.because += " or, where a highlight is sharper, what float32 vectors move it";
         if (const Frame* const shown = encodingShownBy(mode, pair))
             result.because += fmt::format("; on the surfaces that the {} G-buffer decodes, as {} shades them",
                                           nameOf(path.settings.gbuffer), shown->name);
@@ -364,9 +362,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     if (!(isShaded(mode.number) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingShownBy(mode, pair) &&
-        !Allowances(pair).any())
-        return {};
+    if (reference.uncertainty.empty() && !encodingShownBy(mode, pair) && !Allowances(pair).any()) return {};
     return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
 }
 
@@ -385,7 +381,6 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
         for (const double allowed : allowances.at(mode, i)) open += allowed;
         if (isLit(mode.number) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
-        if (isLit(mode.number) && !reference.rounding.empty()) open += double{reference.rounding.pixel(i)[0]};
         if (mode.metric == Metric::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         // Removes the encoding's effect on light from the path's pixel.

@@ -3,7 +3,6 @@
 // loses.
 #pragma once
 
-#include "compare/reference/lighting.h"
 #include "compare/reference/sampling.h"
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
@@ -46,8 +45,7 @@ private:
 };
 
 // Error of float32 shading against double precision, relative to the pixel's largest component.
-// More where a lobe is sharp: Frame::rounding.
-inline constexpr double shadingRounding = reference::everywhereRounded;
+inline constexpr double shadingRounding = 1e-4;
 
 using reference::surerThan95;
 

@@ -132,9 +132,6 @@ struct Frame {
     // relative to lit (as lit's metric), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
-    // Reference with highlights so sharp that float32 vectors move them by over 1e-4 of their light: by how
-    // much more, W x H x 1, W/(sr m^2).
-    Image rounding;
     // Reference with a shadow-casting directional light, W x H x 3. First, the pixel's distance from the
     // shadow boundary, perpendicular to the light, m; 0 in the penumbra. Second, reflected light without
     // the shadow, largest component, W/(sr m^2). Third, incident light without it, luminance, W/m^2.
