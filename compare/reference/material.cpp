@@ -161,10 +161,10 @@ Materials::Frame Materials::frameAt(const Hit& hit) const {
     return frame;
 }
 
-glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, std::uint32_t layer,
+glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, bool (TurnedMaps::*of)() const,
                               const glm::dvec3& t) {
-    const bool turned = (turnedMaps(m, m.anisotropy > 0).layers & layer) != 0;
-    return turned ? frame.turnedWorld(t) : frame.world(t);
+    const TurnedMaps turned = turnedMaps(m, m.anisotropy > 0);
+    return (turned.*of)() ? frame.turnedWorld(t) : frame.world(t);
 }
 
 glm::dvec3 Materials::mapped(const Hit& hit, const TextureSlot& slot, float scale,
@@ -198,7 +198,7 @@ void Materials::coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Su
         double{m.clearcoat_roughness} * lookUp(hit, m.clearcoat_roughness_texture, false, &ray).g;
     const bool has_map = m.clearcoat_normal_texture.texture >= 0 && m.clearcoat_normal_scale != 0;
     const glm::dvec3 n = has_map
-                             ? worldOf(m, frame, gpu::LAYER_CLEARCOAT,
+                             ? worldOf(m, frame, &TurnedMaps::ofCoat,
                                        mapped(hit, m.clearcoat_normal_texture, m.clearcoat_normal_scale, ray))
                              : frame.normal;
     s.clearcoat_normal = facing(hit, n, s);
@@ -218,7 +218,7 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
                  sine = std::sin(double{m.anisotropy_rotation});
     const glm::dvec3 turned(cosine * direction.x - sine * direction.y,
                             sine * direction.x + cosine * direction.y, 0);
-    s.stretch(strength, worldOf(m, frame, gpu::LAYER_ANISOTROPY, turned));
+    s.stretch(strength, worldOf(m, frame, &TurnedMaps::ofAnisotropy, turned));
 }
 
 // KHR_materials_sheen: colour from RGB, roughness from alpha.

@@ -8,6 +8,10 @@
 
 #include <glm/geometric.hpp>
 
+namespace diptych {
+struct TurnedMaps;
+}
+
 namespace diptych::reference {
 
 // A camera ray and its differences to the rays of the next pixels to the right and below. Origins are
@@ -79,8 +83,8 @@ private:
         }
     };
     Frame frameAt(const Hit& hit) const;
-    // A vector of the map of a layer (LAYER_*), whose tangents may be its own.
-    static glm::dvec3 worldOf(const Material& m, const Frame& frame, std::uint32_t layer,
+    // A vector of the map of a layer, whose tangents may be its own (`of`).
+    static glm::dvec3 worldOf(const Material& m, const Frame& frame, bool (TurnedMaps::*of)() const,
                               const glm::dvec3& t);
     // A normal map's value, tangent space, not normalised.
     glm::dvec3 mapped(const Hit& hit, const TextureSlot& slot, float scale, const PixelRay& ray) const;

@@ -134,7 +134,7 @@
     /* the draw or dispatch shades listed tiles of the image: lighting_tiles.h */                           \
     X(76, lighting_tiles,             pass,    PASS_LIGHTING)                                               \
     /* a sum of LAYER_* of material.h: maps whose tangents differ from the normal map's */                  \
-    X(77, turned_maps,                item,    PASSES_SURFACE)                                              \
+    X(77, turned_maps,                item,    PASSES_SURFACE | PASS_DEPTH)                                 \
     /* diffuse transmission through a volume that absorbs */                                                \
     X(78, absorbing,                  item,    PASSES_SURFACE)
 // clang-format on

@@ -119,6 +119,9 @@ struct TurnedMaps {
     std::uint32_t layers = 0;  // a sum of LAYER_CLEARCOAT and LAYER_ANISOTROPY
     TextureSlot map{};
     bool third = false;  // anisotropy, which takes the frame of tangentMap()
+
+    bool ofCoat() const { return (layers & gpu::LAYER_CLEARCOAT) != 0; }
+    bool ofAnisotropy() const { return (layers & gpu::LAYER_ANISOTROPY) != 0; }
 };
 inline TurnedMaps turnedMaps(const Material& m, bool anisotropic) {
     const TextureSlot base = tangentMap(m), coat = m.clearcoat_normal_texture;

@@ -223,7 +223,8 @@ TEST(ReferenceIridescence, CompensationsAreThoseOfTheSurfaceWithoutIt) {
         EXPECT_EQ(a.dielectric, b.dielectric);
         EXPECT_EQ(a.metal, b.metal);
         EXPECT_EQ(a.between, b.between);
-        EXPECT_EQ(a.base, b.base);
+        // The base gets no more than the film leaves.
+        for (int c = 0; c < 3; ++c) EXPECT_LE(b.base.value()[c], a.base.value()[c]);
     }
     // The factor multiplies the film's reflectance.
     const Surface metal = filmed(beetle(1, 0.9, 0.8), 1);
