@@ -26,10 +26,11 @@ std::string sceneOf(const std::string& nodes, std::size_t count,
            positions + R"("}]})";
 }
 
-void expectParity(const Folder& folder, const std::string& name, const std::string& scene) {
+void expectParity(const Folder& folder, const std::string& name, const std::string& scene,
+                  const char* options = "") {
     folder.write(name, scene);
     fs::remove_all(folder / "report");
-    const Ran ran = runTool(folder, "compare " + name + " --size 64x36 --runs 0 -q -o report");
+    const Ran ran = runTool(folder, "compare " + name + " --size 64x36 --runs 0 -q -o report " + options);
     EXPECT_EQ(ran.code, 0) << name << ": " << ran.err;
     EXPECT_TRUE(fs::exists(folder / "report" / "index.html")) << name;
 }
@@ -93,12 +94,15 @@ TEST(ExtremeScenes, LightThatFloat32CannotHold) {
 
 TEST(ExtremeScenes, NothingToDraw) {
     const Folder folder;
-    expectParity(folder, "no-node.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
-    expectParity(folder, "no-scene.gltf", R"({"asset": {"version": "2.0"}})");
+    const char* const empty = "--allow-empty";
+    expectParity(folder, "no-node.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})",
+                 empty);
+    expectParity(folder, "no-scene.gltf", R"({"asset": {"version": "2.0"}})", empty);
     expectParity(folder, "no-mesh.gltf",
-                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{}]})");
+                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{}]})",
+                 empty);
     expectParity(folder, "one-vertex.gltf",
-                 sceneOf(R"({"mesh": 0})", 1, "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", 1));
+                 sceneOf(R"({"mesh": 0})", 1, "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", 1), empty);
     expectParity(folder, "one-place.gltf", sceneOf(R"({"mesh": 0})", 1, std::string(48, 'A')));
 }
 
