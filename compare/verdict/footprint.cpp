@@ -301,17 +301,17 @@ private:
     }
 
     // The channel as a displayable image: values without an upper end, if `scale` is not 0, by Reinhard's
-    // curve and a display's gamma; other values unchanged.
+    // curve and a display's gamma; other values as a display clamps them.
     Image pictureOf(const Image& image, double scale) const {
         Image picture(image.width, image.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double value = image.pixel(i)[std::min(c, image.components - 1)],
                              exposed = scale * value;
-                picture.pixel(i)[c] =
-                    static_cast<float>(scale > 0               ? std::pow(exposed / (1 + exposed), 1 / 2.2)
-                                       : isAngle(mode_.metric) ? 0.5 * value + 0.5
-                                                               : value);
+                const double shown = scale > 0               ? std::pow(exposed / (1 + exposed), 1 / 2.2)
+                                     : isAngle(mode_.metric) ? 0.5 * value + 0.5
+                                                             : value;
+                picture.pixel(i)[c] = static_cast<float>(std::clamp(shown, 0.0, 1.0));
             }
         return picture;
     }
