@@ -75,7 +75,8 @@ TEST(PlanLines, SayWhatLayersLeaveOut) {
     sky.environment = Environment{"sky", Image(4, 2, 3, 1.0f)};
     for (const Ibl ibl : {Ibl::split, Ibl::sampled}) {
         settings.ibl = ibl;
-        for (const Requirements::Line& line : planLines(makeSceneView(sky, viewRequest(settings)), settings)) {
+        for (const Requirements::Line& line :
+             planLines(makeSceneView(sky, viewRequest(settings)), settings)) {
             if (line.what != "anisotropy") continue;
             EXPECT_EQ(line.why.find("off by 20 % in the mean") != std::string::npos, ibl == Ibl::split);
         }
