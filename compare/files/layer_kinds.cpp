@@ -15,8 +15,7 @@ const DebugMode* modeOf(const std::string& name, std::size_t width) {
     return mode && mode->name == name && static_cast<std::size_t>(mode->width) == width ? mode : nullptr;
 }
 
-// What three components of a layer are by the layer's name, in the words of renderers: ids of Cryptomatte,
-// whose float bits count, vectors, or colours.
+// Renderers name layers of Cryptomatte ids, whose float bits count, and of vectors; others are colours.
 ChannelKind kindByName(const std::string& layer) {
     static const std::set<std::string> vectors{
         "n",      "ng",   "ns",          "normal",       "normals",       "geonormal",     "shadingnormal",

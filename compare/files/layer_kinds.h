@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the channels of an image file are: light, vectors, numbers or ids.
+// Classifies channels of an image file: light, vectors, numbers or ids.
 #pragma once
 
 #include "shared/frame/debug_modes.h"

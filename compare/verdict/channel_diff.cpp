@@ -263,7 +263,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
     channel.figures = measurement.all();
     const Rule* const rule = ruleFor(rules, mode.name);
-    // A rule on what is granted limits the derived tolerance instead of replacing it.
+    // A rule on `granted` applies in addition to the derived tolerance.
     const bool derived = !rule || boundsOnly(rule->fail, "granted");
     if (derived) judge(channel, pair, measurement, allowNoise);
     if (rule && channel.reason.empty()) judge(channel, *rule, measurement);

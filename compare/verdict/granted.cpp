@@ -82,7 +82,7 @@ double grantedMean(const std::vector<Granted>& granted) {
 }
 
 std::string grantedText(const DebugMode& mode, const std::vector<Granted>& granted) {
-    // What is granted less than a tenth of the first is in the JSON.
+    // The JSON also has approximations with less than a tenth of the largest grant.
     std::string text;
     for (const Granted& each : granted) {
         if (each.mean < 0.1 * granted.front().mean) break;

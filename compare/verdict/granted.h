@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a path's approximations cost against the reference, which tolerances grant: each one's share of lit's
-// error.
+// Splits lit's error against the reference into the parts that tolerances grant to each approximation.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
