@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace diptych::audit {
@@ -90,11 +91,16 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
                                 small.size.width, small.size.height, page::number(reduced->shown.error));
     const Settings asked = series.applied(small);
     for (const std::string& file : {failure.scene, lights}) writeFile(trial.folder / file, scenes[file]);
-    for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
-        if (failure.command.empty() &&
-            trial.fails(comparisonWords(failure, lights, asked, mode, trial.words, trial.folder)))
-            failure.command = shellLine(comparisonWords(failure, lights, asked, mode, trial.words, folder));
-    if (failure.command.empty()) failure.words += "; compare tolerates this error and passes";
+    try {
+        for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
+            if (failure.command.empty() &&
+                trial.fails(comparisonWords(failure, lights, asked, mode, trial.words, trial.folder)))
+                failure.command =
+                    shellLine(comparisonWords(failure, lights, asked, mode, trial.words, folder));
+        if (failure.command.empty()) failure.words += "; compare tolerates this error and passes";
+    } catch (const std::runtime_error& error) {
+        failure.words += fmt::format("; it was not reproduced: {}", error.what());
+    }
     of.failures.push_back(std::move(failure));
 }
 

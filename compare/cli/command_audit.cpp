@@ -46,29 +46,18 @@ void checkAuditOptions(const Options& options) {
 }
 
 // Runs a command exactly as the report would print it. Returns whether compare fails.
-bool compareFails(const Options& options, std::vector<std::string> words,
-                  const std::filesystem::path& folder) {
-    const std::string out = (folder / "report").string();
+bool compareFails(std::vector<std::string> words, const std::filesystem::path& folder) {
+    // Not directly in `folder`: while it is temporary, its lock is taken, and a report locks the folder
+    // that it is in.
+    const std::string out = (folder / "trial/report").string();
     words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
-    try {
-        return runCommand(parseCommandLine(words)) == 1;
-    } catch (const std::runtime_error& error) {
-        say(options, fmt::format("{}: does not reproduce the failure: {}", words.back(), error.what()));
-        return false;
-    }
+    return runCommand(parseCommandLine(words)) == 1;
 }
 
 audit::AuditQuestion questionOf(const Options& options, const std::filesystem::path& folder) {
     std::vector<std::string> device;
     if (!options.device.empty()) device = {"--device", options.device};
-    return {options.audit.quantities,
-            options.audit.required,
-            folder,
-            options.force,
-            device,
-            [&](const std::vector<std::string>& words, const std::filesystem::path& trial) {
-                return compareFails(options, words, trial);
-            }};
+    return {options.audit.quantities, options.audit.required, folder, options.force, device, compareFails};
 }
 
 int auditQuantities(const Options& options, const Settings& settings) {

@@ -50,10 +50,11 @@ void holdStandardDescriptors() {
 }
 
 // Keeps freed memory for the next pipeline: a driver that compiles on the CPU takes and frees tens of
-// megabytes for each (compare/render/MEASURED.md).
+// megabytes for each, in small pieces. Images and blocks of device memory go back to the system: kept, they
+// leave holes of all sizes (compare/render/MEASURED.md).
 void keepFreedMemory() {
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+    mallopt(M_MMAP_THRESHOLD, 4 << 20);
     mallopt(M_TOP_PAD, 64 << 20);
 }
 

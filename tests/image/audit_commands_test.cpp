@@ -5,6 +5,8 @@
 #include "tests/image/square.h"
 #include "tests/tool/run.h"
 
+#include <stdexcept>
+
 namespace diptych::tests {
 namespace {
 
@@ -64,6 +66,7 @@ TEST(AuditCommands, AreThoseThatShowTheFailure) {
                                     }
                                 }
                                 tried.push_back(line);
+                                if (!*shows) throw std::runtime_error("no room");
                                 return line.find(shows) != line.npos;
                             }},
                            "out", files);
@@ -84,6 +87,8 @@ TEST(AuditCommands, AreThoseThatShowTheFailure) {
     EXPECT_EQ(none.command, "");
     EXPECT_NE(none.words.find("compare tolerates this error and passes"), std::string::npos) << none.words;
     EXPECT_EQ(none.scene, "brightness.gltf") << "the scene is there all the same";
+    const audit::Failure untried = failureOf("");
+    EXPECT_TRUE(untried.words.ends_with("; it was not reproduced: no room")) << untried.words;
 }
 
 }  // namespace
