@@ -159,6 +159,21 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
     return {scattered_ * baseUnder(layer) * (n_dot_l / std::numbers::pi), mixed * (lobe * n_dot_l)};
 }
 
+// GGX is proportional to 1 / k^2; k is the squared length of the half vector after its components along the
+// surface are divided by the widths. Turning the light turns the half vector by that over |l + v|.
+glm::dvec2 Brdf::rounding(const glm::dvec3& to_light, double turned) const {
+    const double of_cosine = turned / std::abs(glm::dot(normal_, to_light));
+    const glm::dvec3 half = halfway(to_light), up = normal_ * glm::dot(normal_, half), beside = half - up;
+    if (sheen_) return glm::dvec2(of_cosine);
+    const glm::dvec3 divided =
+        up + (widths_.isotropic() ? beside / square(widths_.across)
+                                  : widths_.x * (glm::dot(widths_.x, half) / square(widths_.along)) +
+                                        widths_.y * (glm::dot(widths_.y, half) / square(widths_.across)));
+    const double k = glm::dot(divided, half), steepness = 4 * glm::length(divided - half * k) / k;
+    return {of_cosine,
+            of_cosine + steepness * 2 * turned / std::max(glm::length(to_light + to_viewer_), 1e-3)};
+}
+
 glm::dvec3 Brdf::halfway(const glm::dvec3& to_light) const {
     const glm::dvec3 sum = to_light + to_viewer_;
     const double length = glm::length(sum);

@@ -8,6 +8,8 @@
 #include "compare/reference/surface.h"
 #include "compare/reference/thin_film.h"
 
+#include <glm/vec2.hpp>
+
 #include <cmath>
 #include <optional>
 
@@ -70,6 +72,9 @@ public:
     Reflected operator()(const glm::dvec3& to_light) const;
     // The GGX or sheen lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
+
+    // Relative errors of the diffuse and the specular lobe if float32 turns `to_light` by `turned`, rad.
+    glm::dvec2 rounding(const glm::dvec3& to_light, double turned) const;
 
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }

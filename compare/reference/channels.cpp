@@ -5,6 +5,9 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/model/axes.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
@@ -32,17 +35,19 @@ glm::dvec3 ofPane(const Pixel& p) {
 struct ChannelRow {
     gpu::uint mode;
     glm::dvec3 (*value)(const Pixel&);
+    glm::vec4 rounding{0};  // weights of Picture::rounding
 };
 constexpr ChannelRow channelRows[] = {
     // Light is the mean over the pixel's area, even if the centre shows background.
-    {gpu::DEBUG_lit, [](const Pixel& p) { return p.lit; }},
+    {gpu::DEBUG_lit, [](const Pixel& p) { return p.lit; }, {1, 1, 0, 0}},
     {gpu::DEBUG_lit_diffuse,
-     [](const Pixel& p) { return p.shading.reflected.diffuse + p.shading.reflected.transmitted; }},
-    {gpu::DEBUG_lit_specular, [](const Pixel& p) { return p.shading.reflected.specular; }},
+     [](const Pixel& p) { return p.shading.reflected.diffuse + p.shading.reflected.transmitted; },
+     {1, 0, 0, 0}},
+    {gpu::DEBUG_lit_specular, [](const Pixel& p) { return p.shading.reflected.specular; }, {0, 1, 0, 0}},
     {gpu::DEBUG_lit_ambient, [](const Pixel& p) { return p.shading.ambient; }},
     {gpu::DEBUG_lit_environment, [](const Pixel& p) { return p.shading.environment.sum(); }},
-    {gpu::DEBUG_lit_clearcoat, [](const Pixel& p) { return p.shading.clearcoat; }},
-    {gpu::DEBUG_lit_sheen, [](const Pixel& p) { return p.shading.sheen; }},
+    {gpu::DEBUG_lit_clearcoat, [](const Pixel& p) { return p.shading.clearcoat; }, {0, 0, 1, 0}},
+    {gpu::DEBUG_lit_sheen, [](const Pixel& p) { return p.shading.sheen; }, {0, 0, 0, 1}},
     {gpu::DEBUG_lit_transmission, [](const Pixel& p) { return p.transmitted; }},
     {gpu::DEBUG_lit_haze, [](const Pixel& p) { return p.haze.scattered; }},
     {gpu::DEBUG_shadow_visibility, [](const Pixel& p) { return glm::dvec3(p.sun_visibility); }},
@@ -92,6 +97,12 @@ constexpr ChannelRow channelRows[] = {
 };
 
 }  // namespace
+
+double roundingOf(int mode, const float* rounding) {
+    const auto row = std::ranges::find(channelRows, static_cast<gpu::uint>(mode), &ChannelRow::mode);
+    if (row == std::end(channelRows)) return 0;
+    return double{glm::dot(row->rounding, glm::vec4(rounding[0], rounding[1], rounding[2], rounding[3]))};
+}
 
 glm::dvec3 channelValue(int mode, const Pixel& pixel) {
     const auto row = std::ranges::find(channelRows, static_cast<gpu::uint>(mode), &ChannelRow::mode);

@@ -14,6 +14,9 @@
 
 namespace diptych::reference {
 
+// What Picture::rounding at a pixel grants a channel, W/(sr m^2); 0 if that is no light.
+double roundingOf(int mode, const float* rounding);
+
 // The components of a channel (shared/contract/debug_mode.h).
 glm::dvec3 channelValue(int mode, const Pixel& pixel);
 

@@ -153,6 +153,7 @@ Shading Lighting::operator()(const Surface& surface, const Visibility& visible, 
     const double weight = coatWeight(surface);
     Shading coat = layer(coatOf(surface), Multiscatter::off, visible, streamOf(seed, coatStream)) * weight;
     coat.clearcoat = coat.reflected.specular + coat.ambient;
+    coat.rounding.z = coat.rounding.y;
     coat += base * (1 - weight);
     return coat;
 }
@@ -161,6 +162,7 @@ Shading Lighting::underCoat(const Surface& surface, const Visibility& visible, s
     if (!hasSheen(surface)) return layer(surface, multiscatter_, visible, seed);
     Shading all = layer(sheenOf(surface), Multiscatter::off, visible, streamOf(seed, sheenStream));
     all.sheen = all.reflected.specular + all.ambient;
+    all.rounding.w = all.rounding.y;
     all += layer(underSheen(surface), multiscatter_, visible, seed) * keptUnderSheen(surface);
     return all;
 }
@@ -182,8 +184,12 @@ Shading Lighting::layer(const Surface& surface, Multiscatter multiscatter, const
     for (const Punctual& p : punctual_) {
         const Incident light = incident(p.light, p.position, surface.position, falloff_);
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
-        if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance)))
+        if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance))) {
             sum.reflected += reflected;
+            const glm::dvec2 of = brdf.rounding(light.to_light, light.turned) + light.rounding;
+            const Reflected lobe{.specular = reflected.specular};
+            sum.rounding += glm::dvec4((reflected - lobe).size() * of.x, lobe.size() * of.y, 0, 0);
+        }
         // Keeps NaN visible.
         if (std::isnan(reflected.size())) sum.reflected += reflected;
     }

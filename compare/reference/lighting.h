@@ -27,6 +27,9 @@ namespace diptych::reference {
 // a smooth integrand that is a thousand times the error.
 inline constexpr double quadratureError = 2e-6;
 
+// Error of float32 shading against double precision that every pixel may have, relative to its light.
+inline constexpr double everywhereRounded = 1e-4;
+
 struct Shading {
     // From lights and environment towards the viewer, W/(sr m^2).
     Reflected reflected;
@@ -39,6 +42,9 @@ struct Shading {
     Reflected environment{};  // the environment's part of `reflected`
     // Parts of `reflected` and `ambient`: the clear coat's, the sheen's, and that of light from behind.
     glm::dvec3 clearcoat{0}, sheen{0}, from_behind{0};
+    // Errors that a path's float32 makes where light grazes, nears its range or meets a sharp lobe. Of
+    // diffuse and specular light, clear coat and sheen; largest components, W/(sr m^2).
+    glm::dvec4 rounding{0};
 
     glm::dvec3 all() const { return reflected.sum() + ambient; }
     Shading& operator+=(const Shading& other) {
@@ -51,11 +57,12 @@ struct Shading {
         clearcoat += other.clearcoat;
         sheen += other.sheen;
         from_behind += other.from_behind;
+        rounding += other.rounding;
         return *this;
     }
     friend Shading operator*(const Shading& a, double b) {
-        return {a.reflected * b,   a.uncertainty * b, a.ambient * b, a.costs * b,      a.surroundings * b,
-                a.environment * b, a.clearcoat * b,   a.sheen * b,   a.from_behind * b};
+        return {a.reflected * b,   a.uncertainty * b, a.ambient * b, a.costs * b,       a.surroundings * b,
+                a.environment * b, a.clearcoat * b,   a.sheen * b,   a.from_behind * b, a.rounding * b};
     }
 };
 

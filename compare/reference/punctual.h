@@ -23,9 +23,11 @@ struct Incident {
     glm::dvec3 to_light{0};    // unit; 0 at the light's own position
     glm::dvec3 irradiance{0};  // W/m^2 on a surface perpendicular to that direction
     double distance = 0;       // m; infinite for a directional light
+    // Errors of a path's float32: the angle by which `to_light` turns, rad; of `irradiance`, relative.
+    double turned = 0, rounding = 0;
 };
 
-// `light_position` and `place` are in the same space.
+// `light_position` and `place` are relative to the eye, as a path rounds them.
 Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place,
                   const Falloff& falloff = {});
 

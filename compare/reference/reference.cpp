@@ -29,9 +29,17 @@ namespace {
 constexpr int tileSide = 16;
 
 // The other images of a picture, in the order in which tiles store them.
-std::array<Image*, 6> besides(Picture& picture) {
-    return {&picture.shadow_edge,  &picture.local_shadow_edge, &picture.environment_costs,
-            &picture.surroundings, &picture.blended,           &picture.unblended};
+std::array<Image*, 7> besides(Picture& picture) {
+    return {&picture.rounding,          &picture.shadow_edge,  &picture.local_shadow_edge,
+            &picture.environment_costs, &picture.surroundings, &picture.blended,
+            &picture.unblended};
+}
+
+glm::dvec4 beyondEverywhere(const Shading& s) {
+    const auto size = [](const glm::dvec3& light) { return Reflected{light}.size(); };
+    const glm::dvec4 light(size(s.reflected.diffuse + s.reflected.transmitted), size(s.reflected.specular),
+                           size(s.clearcoat), size(s.sheen));
+    return glm::max(s.rounding - everywhereRounded * light, glm::dvec4(0));
 }
 
 bool isOfShadows(int mode) {
@@ -66,6 +74,8 @@ public:
             }
         picture_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
+        if (std::ranges::any_of(request.lights, [](const Light& light) { return !isArea(light.kind); }))
+            picture_.rounding = Image(request.view.width, request.view.height, 4);
         const auto cast = [&](const auto& which) {
             return request.shadow_edges && std::ranges::any_of(request.casters, [&](std::size_t i) {
                        return which(request.lights[i]);
@@ -124,8 +134,8 @@ public:
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });
         }
-        if (std::ranges::all_of(picture_.uncertainty.data, [](float u) { return u == 0; }))
-            picture_.uncertainty = {};
+        for (Image* const image : {&picture_.uncertainty, &picture_.rounding})
+            if (std::ranges::all_of(image->data, [](float u) { return u == 0; })) *image = {};
         return std::move(picture_);
     }
 
@@ -166,6 +176,8 @@ private:
                 if (image.empty()) return;
                 for (const double number : numbers) values.push_back(static_cast<float>(number));
             };
+            const glm::dvec4 rounding = beyondEverywhere(pixel.shading);
+            take(picture_.rounding, {rounding.x, rounding.y, rounding.z, rounding.w});
             take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
             take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
             EnvironmentCosts c = pixel.shading.costs;

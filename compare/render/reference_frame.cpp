@@ -133,6 +133,7 @@ void takePicture(reference::Picture& picture, Frame& frame) {
         if (auto repaired = repairNonfinite(image); !repaired.empty())
             frame.repaired[mode] = std::move(repaired);
     frame.through_gbuffer = std::move(picture.decoded);
+    frame.rounding = std::move(picture.rounding);
     frame.shadow_edge = std::move(picture.shadow_edge);
     frame.local_shadow_edge = std::move(picture.local_shadow_edge);
     frame.blended = std::move(picture.blended);

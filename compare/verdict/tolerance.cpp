@@ -2,6 +2,7 @@
 #include "compare/verdict/tolerance.h"
 
 #include "compare/metrics/pixel.h"
+#include "compare/reference/channels.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
@@ -217,6 +218,10 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result;
     if (isLit(mode.number)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
+        if (!reference.rounding.empty())
+            result.because +=
+                " or, where light grazes, nears its range or meets a sharp lobe, what float32 "
+                "positions err by";
         if (const Frame* const shown = encodingShownBy(mode, pair))
             result.because += fmt::format("; on the surfaces that the {} G-buffer decodes, as {} shades them",
                                           nameOf(path.settings.gbuffer), shown->name);
@@ -362,7 +367,9 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     if (!(isShaded(mode.number) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (reference.uncertainty.empty() && !encodingShownBy(mode, pair) && !Allowances(pair).any()) return {};
+    if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingShownBy(mode, pair) &&
+        !Allowances(pair).any())
+        return {};
     return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
 }
 
@@ -377,7 +384,8 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
-        double open = 0;
+        double open =
+            reference.rounding.empty() ? 0 : reference::roundingOf(mode.number, reference.rounding.pixel(i));
         for (const double allowed : allowances.at(mode, i)) open += allowed;
         if (isLit(mode.number) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};

@@ -3,6 +3,7 @@
 // loses.
 #pragma once
 
+#include "compare/reference/lighting.h"
 #include "compare/reference/sampling.h"
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
@@ -44,8 +45,9 @@ private:
     std::unique_ptr<const State> state_;
 };
 
-// Error of float32 shading against double precision, relative to the pixel's largest component.
-inline constexpr double shadingRounding = 1e-4;
+// Error of float32 shading against double precision, relative to the pixel's largest component. More where
+// Frame::rounding says so.
+inline constexpr double shadingRounding = reference::everywhereRounded;
 
 using reference::surerThan95;
 

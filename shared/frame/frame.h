@@ -132,6 +132,9 @@ struct Frame {
     // relative to lit (as lit's metric), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
+    // Reference with punctual lights: what float32 may err by more than 1e-4 of the light, in lit_diffuse,
+    // lit_specular, lit_clearcoat and lit_sheen, W x H x 4, W/(sr m^2). Empty if 0 everywhere.
+    Image rounding;
     // Reference with a shadow-casting directional light, W x H x 3. First, the pixel's distance from the
     // shadow boundary, perpendicular to the light, m; 0 in the penumbra. Second, reflected light without
     // the shadow, largest component, W/(sr m^2). Third, incident light without it, luminance, W/m^2.

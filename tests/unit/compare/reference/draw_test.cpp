@@ -199,6 +199,23 @@ TEST(ReferenceDraw, LightFromBehindTheTriangle) {
     EXPECT_EQ(seenBelow(scene, true), 0);
 }
 
+// At the end of a light's range its window is the difference of almost equal numbers.
+TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptWhereItCounts) {
+    Scene scene = floorScene();
+    scene.lights = {lightOf(LightKind::point, {0, 0, 2})};
+    const View view = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
+    for (const float range : {20.0f, 2.0001f}) {
+        scene.lights[0].range = range;
+        const Drawn d = drawn(scene, view);
+        ASSERT_EQ(d.picture.rounding.empty(), range == 20);
+        if (range == 20) continue;
+        const double share =
+            double{d.picture.rounding.at(0, 0, 0)} / double{d[gpu::DEBUG_lit_diffuse].at(0, 0, 0)};
+        EXPECT_GT(share, 0.001);
+        EXPECT_LT(share, 0.02);
+    }
+}
+
 TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     Scene scene = floorScene();
     Material m = matte();

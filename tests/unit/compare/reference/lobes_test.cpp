@@ -5,6 +5,7 @@
 #include "compare/reference/brdf.h"
 
 #include <functional>
+#include <random>
 
 namespace diptych::reference {
 namespace {
@@ -248,6 +249,85 @@ TEST(ReferenceLobes, ASunInAMirror) {
     const double radiance = 1 / (pi * std::pow(std::sin(edge), 2));
     const double expected = sum * edge / steps * 2 * pi / steps * radiance;
     EXPECT_NEAR(red(shadedBy(std::span(&sun, 1), s).reflected), expected, 2e-6 * expected);
+}
+
+// ---- rounding ----------------------------------------------------------------------------------------
+
+// The light of a point in float32, without cancellation in the lobe: GGX, Smith's height-correlated masking
+// and KHR_lights_punctual's window.
+double lightInFloat(const Light& light, const glm::vec3& place, const glm::vec3& n, float alpha) {
+    const glm::vec3 away = glm::vec3(light.position) - place, v = -place / glm::length(place);
+    const float d2 = glm::dot(away, away), x = d2 * (1 / (light.range * light.range));
+    const glm::vec3 l = away / std::sqrt(d2), s = l + v, across = glm::cross(n, s);
+    const float up = glm::dot(n, s), alpha2 = alpha * alpha, q = glm::dot(across, across) + up * up * alpha2;
+    const float n_dot_v = glm::dot(n, v), n_dot_l = glm::dot(n, l);
+    const float smith_v = std::sqrt(n_dot_v * n_dot_v * (1 - alpha2) + alpha2),
+                smith_l = std::sqrt(n_dot_l * n_dot_l * (1 - alpha2) + alpha2);
+    const float a = alpha * glm::dot(s, s);
+    const float lobe =
+        a * a / (2 * std::numbers::pi_v<float> * q * q * (n_dot_l * smith_v + n_dot_v * smith_l));
+    return double{lobe * n_dot_l * ((1 - x * x) / d2)};
+}
+
+// Float32 errs by more than the constant share where light grazes, nears its range or meets a sharp lobe, and
+// by less than the bound. A lobe that is 1 % too wide or 0.1 % too bright errs by more at almost all lights,
+// and the bound leaves blunt lobes in the middle of a light's range alone.
+TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
+    std::mt19937 random(3);
+    const auto number = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    const auto anywhere = [&] {
+        return glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), number(-1, 1)));
+    };
+    enum { sharp, grazing, ending, easy, all };
+    for (int kind = 0; kind < all; ++kind) {
+        int lights = 0, beyond_share = 0, wider_seen = 0, brighter_seen = 0;
+        double closest = 0, most = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const glm::vec3 place(anywhere() * number(5, 20)), n = glm::normalize(glm::vec3(anywhere()));
+            Surface s = mirror(kind == sharp ? number(0, 0.2) : number(0.3, 1), 0);
+            s.position = glm::dvec3(place);
+            s.to_viewer = -glm::normalize(s.position);
+            s.normal = s.geometric_normal = glm::normalize(glm::dvec3(n));
+            const double alpha = std::pow(std::max(s.roughness, least_roughness), 2);
+            const glm::dvec3 facet = glm::normalize(s.normal + anywhere() * (alpha * number(0, 4)));
+            glm::dvec3 l = facet * (2 * glm::dot(facet, s.to_viewer)) - s.to_viewer;
+            if (kind == grazing)
+                l = glm::normalize(glm::cross(s.normal, l)) + s.normal * std::exp(number(-8, -4));
+            const double up = glm::dot(s.normal, l = glm::normalize(l));
+            if (!(glm::dot(s.normal, s.to_viewer) > 0.1 && up > (kind == grazing ? 0 : 0.1))) continue;
+            const double distance = number(1, 20);
+            Light light = lightOf(LightKind::point, s.position + l * distance);
+            light.range = static_cast<float>(
+                distance * (1 + (kind == ending ? std::exp(number(-8, -4)) : number(0.5, 3))));
+            const Shading shading = shadedBy(std::span(&light, 1), s);
+            const auto errorOf = [&](double width, double factor) {
+                return std::abs(factor * lightInFloat(light, place, n, static_cast<float>(width)) -
+                                shading.reflected.specular.g);
+            };
+            const double share = everywhereRounded * shading.reflected.specular.g,
+                         bound = std::max(share, shading.rounding.y), error = errorOf(alpha, 1);
+            EXPECT_LE(error, bound) << kind << " " << s.roughness << " " << up;
+            ++lights;
+            beyond_share += error > share;
+            closest = std::max(closest, error / bound);
+            most = std::max(most, bound / share);
+            wider_seen += errorOf(1.01 * alpha, 1) > bound;
+            brighter_seen += errorOf(alpha, 1.001) > bound;
+        }
+        SCOPED_TRACE(kind);
+        EXPECT_GT(lights, 1000);
+        EXPECT_GT(wider_seen, lights * 9 / 10);
+        if (kind == easy) {
+            EXPECT_EQ(most, 1);
+            EXPECT_EQ(brighter_seen, lights);
+            continue;
+        }
+        EXPECT_GT(beyond_share, lights / 100);
+        EXPECT_GT(closest, 0.1) << "the bound is not far above the errors";
+        EXPECT_GT(brighter_seen, lights / 2);
+    }
 }
 
 }  // namespace

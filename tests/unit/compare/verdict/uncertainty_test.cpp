@@ -121,6 +121,28 @@ TEST(Uncertainty, IsTakenOffThePixelsError) {
     EXPECT_EQ(certainOf(traced, half).size(), 1u) << "the background does not count";
 }
 
+// What float32 errs by beyond 1e-4 is granted to the light that it belongs to.
+TEST(Uncertainty, RoundingIsTakenOffTheChannelsOfItsLight) {
+    Frame traced = frameOf(Path::reference, 1, 1), path = frameOf(Path::forward_plus, 1.01f, 1.01f);
+    traced.rounding = Image(2, 1, 4);
+    traced.rounding.data = {0.001f, 0.002f, 0.003f, 0.004f, 0, 0, 0, 0};
+    for (const auto& [mode, granted] : {std::pair{gpu::DEBUG_lit, 0.003},
+                                        {gpu::DEBUG_lit_diffuse, 0.001},
+                                        {gpu::DEBUG_lit_specular, 0.002},
+                                        {gpu::DEBUG_lit_clearcoat, 0.003},
+                                        {gpu::DEBUG_lit_sheen, 0.004},
+                                        {gpu::DEBUG_lit_ambient, 0.0}}) {
+        const int number = static_cast<int>(mode);
+        for (Frame* const frame : {&traced, &path}) frame->channels[number] = frame->channels[litMode];
+        const Coverage covered = coverage(traced, path);
+        const Requirements needs;
+        const auto errors = certainErrors(debugMode(number), FramePair{traced, path, needs, covered});
+        ASSERT_TRUE(errors);
+        EXPECT_NEAR(errors->at(0), 0.01 - granted, 1e-6) << number;
+        EXPECT_NEAR(errors->at(1), 0.01, 1e-6) << number;
+    }
+}
+
 TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
     for (const float known : {0.001f, std::numeric_limits<float>::infinity()})
         for (const float wrong :
