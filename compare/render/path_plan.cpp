@@ -49,8 +49,8 @@ std::string limitOf(std::string_view what, const SceneView& view, const Settings
     if (what == "anisotropy") {
         const bool split = !view.needs.environment.empty() && settings.ibl == Ibl::split;
         return std::string("; its direction is made perpendicular to the mapped normal") +
-               (split ? "; an environment's highlights are off by 20 % in the mean, at most 62 % (--ibl "
-                        "sampled: exact)"
+               (split ? "; an environment's highlights are off by 20 to 50 % in the mean (--ibl sampled: "
+                        "exact)"
                       : "");
     }
     if (what == "sheen")
