@@ -22,7 +22,8 @@ struct Picture {
     // Uncertainty of lit, in its unit: half the 95 % confidence interval of sampling, plus the quadrature
     // error. Empty if 0 everywhere.
     Image uncertainty;
-    // Shading::rounding beyond everywhereRounded of the light, W x H x 4 (roundingOf()). Empty if 0 everywhere.
+    // Shading::rounding beyond everywhereRounded of the light, W x H x 4 (roundingOf()). Empty if 0
+    // everywhere.
     Image rounding;
     // If a sun casts shadows, W x H x 3. First the distance from its shadow's boundary, m across the light
     // (shadow_edge.h; infinite where the surface faces away). Then the largest component of its unshadowed
