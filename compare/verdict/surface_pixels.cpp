@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -34,16 +35,20 @@ bool isBesideEdge(const SurfaceAround& frame, const Image& ids, const Image* nor
     return found;
 }
 
-// Whether texture coordinates jump beside a pixel: they change far more to one side than to the other.
-bool isBesideSeam(const Image& uv, std::size_t i) {
-    constexpr double even = 4;
+// Whether texture coordinates jump beside a pixel: a neighbour's are `jump` from those that continue the
+// change from the opposite neighbour. In perspective that change is linear after division by depth;
+// nullptr: orthographic.
+bool isBesideSeam(const Image& uv, const Image* depth, std::size_t i, double jump) {
     const auto width = static_cast<std::size_t>(uv.width);
     const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+    if (x < 1 || y < 1 || x + 1 >= uv.width || y + 1 >= uv.height) return true;
+    const auto divided = [&](std::size_t j, int c) {
+        return double{uv.pixel(j)[c]} * (depth ? double{*depth->pixel(i)} / double{*depth->pixel(j)} : 1);
+    };
     for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
-        if (x < 1 || y < 1 || x + 1 >= uv.width || y + 1 >= uv.height) return true;
-        const double a = metrics::distance(uv.pixel(indexOf(uv, x + dx, y + dy)), uv.pixel(i), 2),
-                     b = metrics::distance(uv.pixel(indexOf(uv, x - dx, y - dy)), uv.pixel(i), 2);
-        if (std::max(a, b) > even * std::min(a, b) + 1e-5) return true;
+        const std::size_t a = indexOf(uv, x - dx, y - dy), b = indexOf(uv, x + dx, y + dy);
+        for (int c = 0; c < 2; ++c)
+            if (std::abs(divided(a, c) - 2 * divided(i, c) + divided(b, c)) >= jump) return true;
     }
     return false;
 }
@@ -88,16 +93,19 @@ public:
         const double facet = facetOf_(i);
         Result result;
         result.edge = isBesideEdge(sides_[0], *ids_[0], normals_[0], i, facet) ||
-                      isBesideEdge(sides_[1], *ids_[1], normals_[1], i, facet) ||
-                      (coordinates_ && (isBesideSeam(*uvs_[0], i) || isBesideSeam(*uvs_[1], i)));
+                      isBesideEdge(sides_[1], *ids_[1], normals_[1], i, facet);
         result.material = *ids_[0]->pixel(i) != *ids_[1]->pixel(i);
         result.place = (normals_[0] && normals_[1] &&
                         metrics::angle(normals_[0]->pixel(i), normals_[1]->pixel(i)) > facet) ||
                        (depth_ && !(depth_->error(i) <= (*depth_)(i)));
-        result.seam = coordinates_ &&
-                      !(apart(texcoords_, uvs_[0]->pixel(i), uvs_[1]->pixel(i)) <=
-                        (*coordinates_)(i) +
-                            relativeRounding() * std::max(1.0, metrics::largestFinite(uvs_[0]->pixel(i), 2)));
+        if (!coordinates_) return result;
+        const double bound = (*coordinates_)(i) +
+                             relativeRounding() * std::max(1.0, metrics::largestFinite(uvs_[0]->pixel(i), 2));
+        result.seam = !(apart(texcoords_, uvs_[0]->pixel(i), uvs_[1]->pixel(i)) <= bound);
+        // A sub-pixel step causes at most half the bound (kink), so a seam has caused the other half.
+        for (const std::size_t side : {0, 1})
+            result.edge = result.edge ||
+                          isBesideSeam(*uvs_[side], perspective_ ? depths_[side] : nullptr, i, bound / 2);
         return result;
     }
 
@@ -136,6 +144,7 @@ private:
                  depths_ = planesOf(pair_, gpu::DEBUG_depth),
                  positions_ = planesOf(pair_, gpu::DEBUG_position);
     const Planes uvs_ = pair_.across->texcoords;
+    const bool perspective_ = pair_.baseline.camera.fov_degrees > 0;
     const DebugMode& texcoords_ = debugMode(gpu::DEBUG_texcoords);
     const std::array<SurfaceAround, 2> sides_{SurfaceAround(pair_.baseline), SurfaceAround(pair_.test)};
     const FacetBound facetOf_{pair_};

@@ -111,6 +111,7 @@ protected:
     void showAnother(int x, int y, float material) {
         *there(gpu::DEBUG_material_id, x, y) = material;
         *there(gpu::DEBUG_depth, x, y) = 50;
+        std::fill_n(there(gpu::DEBUG_texcoords, x, y), 2, 0.0f);
     }
 
     Report report_;
@@ -190,6 +191,29 @@ TEST_F(AcrossDevicesPair, DepthMayMoveByTheStepsOfBothDevicesAndNotFurther) {
     EXPECT_EQ(faults(), "");
     moveBy(0.2);
     EXPECT_NE(faults(), "");
+}
+
+// Two coplanar triangles whose texture coordinates jump by twice their change to the next pixel, as in a fan
+// of polar coordinates. The second device moves the seam of one row by a pixel.
+TEST_F(AcrossDevicesPair, APixelMayCrossASmallSeamAndATriangleMayNotMoveByAQuarterPixelMore) {
+    constexpr double change = 0.01, step = 1.0 / 16;
+    const auto fillBy = [&](double pixels) {
+        for (const std::size_t frame : {0, 1})
+            for (int y = 0; y < across_side; ++y)
+                for (int x = 0; x < across_side; ++x) {
+                    const bool beyond = x >= (frame == 1 && y == 5 ? 9 : 8), moved = frame == 1 && !beyond;
+                    const double affine = change * (x + (beyond ? 2 : 0) + (moved ? pixels : 0));
+                    float* uv = at(frame, gpu::DEBUG_texcoords).pixel(index(x, y));
+                    uv[0] = static_cast<float>(affine * *at(frame, gpu::DEBUG_depth).pixel(index(x, y)));
+                    uv[1] = 0;
+                }
+    };
+    fillBy(0);
+    EXPECT_EQ(faults(), "");
+    fillBy(step);
+    EXPECT_EQ(faults(), "");
+    fillBy(step + 0.25);
+    EXPECT_NE(faults().find(" not beside an edge"), std::string::npos) << faults();
 }
 
 TEST_F(AcrossDevicesPair, OneCodeOfATexelIsFound) {
