@@ -17,7 +17,8 @@ ImageRef addChannelLighting(PassList& passes, const FrameInputs& inputs, ImageRe
                             std::shared_ptr<const DescriptorSets> channels);
 
 // Adds one pass that computes the terms of lit before blending: lit_diffuse, lit_specular, lit_ambient,
-// lit_haze, transmittance, lit_environment. Throws as above.
+// lit_haze, transmittance, lit_environment. The alpha of the first two is shadow_visibility and
+// local_visibility. Throws as above.
 std::array<ImageRef, 6> addChannelTerms(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                                         std::shared_ptr<const DescriptorSets> channels);
 

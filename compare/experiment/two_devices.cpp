@@ -98,6 +98,8 @@ std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& ther
     images[gpu::DEBUG_lit_specular] = std::move(terms.specular);
     images[gpu::DEBUG_lit_ambient] = std::move(terms.ambient);
     images[gpu::DEBUG_lit_environment] = std::move(terms.environment);
+    images[gpu::DEBUG_shadow_visibility] = std::move(terms.shadow_visibility);
+    images[gpu::DEBUG_local_visibility] = std::move(terms.local_visibility);
     for (auto& [mode, image] : images) keepInFile(image.data);
     return images;
 }

@@ -181,9 +181,10 @@ ChannelTerms ChannelShading::terms(std::uint32_t sides) {
     state_->drawTerms(sides);
     std::vector<PassList::ReadBack> requests;
     for (const ImageRef term : *state_->terms) requests.push_back({term, 3});
+    for (const std::size_t term : {0, 1}) requests.push_back({(*state_->terms)[term], 1, {}, 3});
     std::vector<Image> read = readImages(passes, requests);
-    return {std::move(read[0]), std::move(read[1]), std::move(read[2]),
-            std::move(read[3]), std::move(read[4]), std::move(read[5])};
+    return {std::move(read[0]), std::move(read[1]), std::move(read[2]), std::move(read[3]),
+            std::move(read[4]), std::move(read[5]), std::move(read[6]), std::move(read[7])};
 }
 
 LightChannels ChannelShading::light(std::uint32_t sides, std::size_t place) {

@@ -43,7 +43,8 @@ private:
 // x H x 3 each, 0 in the background.
 struct ChannelTerms {
     Image diffuse, specular, ambient, haze, transmittance;
-    Image environment;  // included in diffuse and specular
+    Image environment;                          // included in diffuse and specular
+    Image shadow_visibility, local_visibility;  // W x H x 1
 };
 
 // Direct light of one light, before haze: W x H x 3 each.

@@ -22,7 +22,8 @@ struct AcrossDevices {
     // metres of a position (world axes, camera as origin, m). Empty: unknown; then no two surfaces count
     // as having equal depth.
     std::function<bool(int material, const float* place, double near, bool several)> surface_at{};
-    // Lit channels of the test's surfaces, shaded on the baseline's device from their channels.
+    // Lit channels and visibilities of the test's surfaces, shaded on the baseline's device from their
+    // channels.
     std::map<int, Image> relit;
 };
 

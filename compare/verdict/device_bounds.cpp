@@ -117,17 +117,21 @@ double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) cons
 
 Shadowed::Shadowed(const FramePair& pair) {
     for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
-        if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b)
-            images_.push_back({a, b});
+        if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b) {
+            const Image* const relit = imageOf(pair.across->relit, static_cast<int>(mode));
+            images_.push_back({relit ? relit : a, b, a});
+        }
 }
 
 bool Shadowed::differs(std::size_t i) const {
-    return std::ranges::any_of(images_, [i](const auto& of) { return areApart(*of[0], i, *of[1], i); });
+    return std::ranges::any_of(images_, [i](const auto& of) {
+        return areApart(*of[0], i, *of[1], i) || areApart(*of[2], i, *of[1], i);
+    });
 }
 
 double Shadowed::relative(std::size_t i) const {
     double share = 0;
-    for (const auto& [a, b] : images_)
+    for (const auto& [a, b, baseline] : images_)
         if (const double least = std::min(*a->pixel(i), *b->pixel(i)); least > 0)
             share += metrics::distance(*a->pixel(i), *b->pixel(i)) / least;
     return share;

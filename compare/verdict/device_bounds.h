@@ -30,18 +30,20 @@ private:
     double step_;
 };
 
-// Shadows in both images: finds pixels with different visibility of a shadow-casting light.
+// Shadows in both images: finds pixels with different visibility of a shadow-casting light. Also compares
+// the test's surfaces under the baseline's shadow maps, which decide how those are relit: a shadow's corner
+// may lie between both devices' positions.
 class Shadowed {
 public:
     explicit Shadowed(const FramePair& pair);
     bool differs(std::size_t i) const;
     // Relative difference of light under visibilities that differs() considers equal.
     double relative(std::size_t i) const;
-    // Next to a shadow boundary in either image.
+    // Next to a shadow boundary in any of the images.
     bool isBesideEdge(std::size_t i) const;
 
 private:
-    std::vector<std::array<const Image*, 2>> images_;
+    std::vector<std::array<const Image*, 3>> images_;  // relit (else baseline), test, baseline
 };
 
 // Tolerance of each pixel, and the difference compared with it, both in the channel's metric.

@@ -2,7 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Terms whose sum is the lit of deferred_channels.frag, one per attachment, before blending.
+// Terms whose sum is the lit of deferred_channels.frag, one per attachment, before blending. The first two
+// have shadow_visibility and local_visibility in alpha, as in captures.
 #define FLAT_VIEW
 #include "shaders/lib/shading/shade.glsl"
 #include "shaders/lib/geometry/stored_depth.glsl"
@@ -18,8 +19,8 @@ layout(location = 5) out vec4 out_environment;
 void main() {
     Surface s = surfaceFromChannels(ivec2(gl_FragCoord.xy));
     Radiance radiance = shade(s, lightsAt(gl_FragCoord.xy, depthAt(ivec2(gl_FragCoord.xy))));
-    out_diffuse = vec4(radiance.diffuse, 1.0);
-    out_specular = vec4(radiance.specular, 1.0);
+    out_diffuse = vec4(radiance.diffuse, radiance.sun_visibility);
+    out_specular = vec4(radiance.specular, localVisibility(radiance));
     out_ambient = vec4(radiance.ambient, 1.0);
     out_haze = vec4(radiance.haze, 1.0);
     out_transmittance = vec4(radiance.transmittance, 1.0);

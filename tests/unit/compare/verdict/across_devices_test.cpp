@@ -373,6 +373,22 @@ TEST_F(AcrossDevicesPair, ShadowsMayDifferBesideTheirEdgesAlone) {
     EXPECT_NE(faults().find(" not beside a shadow boundary"), std::string::npos);
 }
 
+// The other device's position is lit by one percent of the sun in this device's shadow map. Neither picture
+// shows that shadow boundary.
+TEST_F(AcrossDevicesPair, AShadowMayEndBetweenBothPositionsOfAPixel) {
+    Image& lit = across_.relit[gpu::DEBUG_lit];
+    lit.at(7, 9, 0) *= 1.02f;
+    EXPECT_EQ(faults(), "lit ");
+    Image& visible = across_.relit[gpu::DEBUG_shadow_visibility];
+    visible = at(1, gpu::DEBUG_shadow_visibility);
+    EXPECT_EQ(faults(), "lit ");
+    visible.at(7, 9) += 0.01f;
+    EXPECT_EQ(faults(), "");
+    for (int x = 15; x < 20; ++x)
+        for (int y = 20; y < 24; ++y) visible.at(x, y) += 0.01f;
+    EXPECT_NE(faults().find(" not beside a shadow boundary"), std::string::npos);
+}
+
 TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {
     *there(gpu::DEBUG_roughness, 3, 3) = std::nanf("");
     EXPECT_NE(faults().find("roughness"), std::string::npos);
