@@ -14,7 +14,8 @@
 
 namespace diptych::reference {
 
-// What Picture::rounding at a pixel grants a channel, W/(sr m^2); 0 if that is no light.
+// The part of Picture::rounding that belongs to a channel, from the four components of a pixel, W/(sr m^2); 0
+// if the channel is no light.
 double roundingOf(int mode, const float* rounding);
 
 // The components of a channel (shared/contract/debug_mode.h).

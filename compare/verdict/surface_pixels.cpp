@@ -35,9 +35,9 @@ bool isBesideEdge(const SurfaceAround& frame, const Image& ids, const Image* nor
     return found;
 }
 
-// Whether texture coordinates jump beside a pixel: a neighbour's are `jump` from those that continue the
-// change from the opposite neighbour. In perspective that change is linear after division by depth;
-// nullptr: orthographic.
+// Whether texture coordinates jump beside a pixel: their second difference over two opposite neighbours
+// reaches `jump`. In perspective they are linear in the image after division by `depth`; nullptr:
+// orthographic.
 bool isBesideSeam(const Image& uv, const Image* depth, std::size_t i, double jump) {
     const auto width = static_cast<std::size_t>(uv.width);
     const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);

@@ -121,7 +121,7 @@ TEST(Uncertainty, IsTakenOffThePixelsError) {
     EXPECT_EQ(certainOf(traced, half).size(), 1u) << "the background does not count";
 }
 
-// What float32 errs by beyond 1e-4 is granted to the light that it belongs to.
+// Each channel of light is granted its own part of the reference's bound on rounding.
 TEST(Uncertainty, RoundingIsTakenOffTheChannelsOfItsLight) {
     Frame traced = frameOf(Path::reference, 1, 1), path = frameOf(Path::forward_plus, 1.01f, 1.01f);
     traced.rounding = Image(2, 1, 4);
