@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
-#include <sstream>
 #include <utility>
 
 namespace diptych {
@@ -15,22 +15,45 @@ const DebugMode* modeOf(const std::string& name, std::size_t width) {
     return mode && mode->name == name && static_cast<std::size_t>(mode->width) == width ? mode : nullptr;
 }
 
-// Renderers name layers of Cryptomatte ids, whose float bits count, and of vectors; others are colours.
-ChannelKind kindByName(const std::string& layer) {
-    static const std::set<std::string> vectors{
-        "n",      "ng",   "ns",          "normal",       "normals",       "geonormal",     "shadingnormal",
-        "p",      "pref", "pworld",      "position",     "positions",     "worldposition", "point",
-        "st",     "uv",   "uvs",         "texcoord",     "texcoords",     "vector",        "velocity",
-        "motion", "flow", "opticalflow", "motionvector", "motionvectors", "tangent",       "bitangent"};
-    std::istringstream parts(layer);
-    std::string word;
-    for (std::string part; std::getline(parts, part, '.');) {
-        word.clear();
-        for (const char c : part)
-            if (std::isalpha(static_cast<unsigned char>(c))) word += static_cast<char>(std::tolower(c));
-        if (word.starts_with("crypto")) return ChannelKind::id;
+// The words of a name in lower case: "worldNormal", "normal_ws" and "Denoising Normal" all have "normal".
+// Capitals in a row are one word; digits end one.
+std::vector<std::string> wordsOf(const std::string& name) {
+    std::vector<std::string> words;
+    bool open = false, lower = false;
+    for (const char c : name) {
+        const auto u = static_cast<unsigned char>(c);
+        if (std::isalpha(u)) {
+            if (!open || (lower && std::isupper(u))) words.emplace_back();
+            words.back() += static_cast<char>(std::tolower(u));
+            lower = std::islower(u) != 0;
+        }
+        open = std::isalpha(u) != 0;
     }
-    return vectors.contains(word) ? ChannelKind::vector : ChannelKind::color;
+    return words;
+}
+
+// Renderers name layers of ids, whose exact values count, and of vectors; others are colours.
+ChannelKind kindByName(const std::string& layer) {
+    static const std::set<std::string> alone{"n", "ng", "ns", "p", "z", "material", "object", "instance"},
+        ids{"id", "ids", "index", "objectid", "materialid", "instanceid", "material", "object", "instance"},
+        vectors{
+            "normal",      "normals",      "geonormal", "shadingnormal", "worldnormal", "pos",       "pref",
+            "pworld",      "position",     "positions", "worldposition", "point",       "st",        "uv",
+            "uvs",         "texcoord",     "texcoords", "vector",        "velocity",    "motion",    "flow",
+            "opticalflow", "motionvector", "mv",        "motionvectors", "tangent",     "bitangent", "depth"};
+    const std::vector<std::string> words = wordsOf(layer);
+    const std::vector<std::string> last = wordsOf(layer.substr(layer.rfind('.') + 1));
+    if (std::ranges::any_of(words, [](const std::string& word) { return word.starts_with("crypto"); }))
+        return ChannelKind::id;
+    // Short words and "material" say so alone only: "material color" is a colour.
+    if (last.size() == 1 && alone.contains(last[0]))
+        return ids.contains(last[0]) ? ChannelKind::id : ChannelKind::vector;
+    const auto names = [&](const std::set<std::string>& some) {
+        return std::ranges::any_of(
+            last, [&](const std::string& word) { return some.contains(word) && !alone.contains(word); });
+    };
+    if (names(ids)) return ChannelKind::id;
+    return names(vectors) ? ChannelKind::vector : ChannelKind::color;
 }
 
 }  // namespace
@@ -49,8 +72,8 @@ std::string componentOf(const std::string& channel) {
 
 ChannelKind kindOf(const std::string& name, const std::vector<std::string>& channels,
                    const std::string& type) {
-    if (const DebugMode* mode = modeOf(name, channels.size())) return mode->kind;
     if (type == "uint") return ChannelKind::id;
+    if (const DebugMode* mode = modeOf(name, channels.size())) return mode->kind;
     if (channels.size() != 3) return ChannelKind::scalar;
     return componentOf(channels[0]) == "X" ? ChannelKind::vector : kindByName(name);
 }
@@ -64,6 +87,11 @@ bool isNegative(const Image& image) {
         all += any([](float v) { return v != 0; });
     }
     return negative > 0 && 10 * negative >= all;
+}
+
+bool isWhole(const Image& image) {
+    return std::ranges::all_of(image.data, [](float v) { return std::isfinite(v) && v == std::floor(v); }) &&
+           std::ranges::any_of(image.data, [](float v) { return v > 1024; });
 }
 
 bool isDebugMode(const std::string& name, std::size_t width) {

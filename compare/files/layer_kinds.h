@@ -21,6 +21,9 @@ ChannelKind kindOf(const std::string& name, const std::vector<std::string>& chan
 // fewer.
 bool isNegative(const Image& image);
 
+// Whether all values are integers, some beyond 1,024: ids as float32. Rendered light has fractions there.
+bool isWhole(const Image& image);
+
 // Whether the layer has the name and width of a debug mode.
 bool isDebugMode(const std::string& name, std::size_t width);
 

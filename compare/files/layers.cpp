@@ -72,8 +72,9 @@ private:
     std::vector<PictureChannel>& out_;
     std::vector<bool> left_;
 
-    // Grey Y becomes R, G, B, so that it can be compared with colours and by FLIP.
+    // Grey Y becomes R, G, B, so that it can be compared with colours and by FLIP. Integers are no light.
     void takeGrey() {
+        if (layer_.sample == "uint") return;
         for (std::size_t i = 0; i < layer_.channels.size(); ++i)
             if (left_[i] && layer_.channels[i] == "Y") {
                 PictureChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
@@ -301,13 +302,15 @@ std::string setKind(PictureChannel& a, const PictureChannel& b) {
     a.kind = std::max(a.kind, b.kind);
     const bool negative = a.kind == ChannelKind::color && (isNegative(a.image) || isNegative(b.image));
     if (negative) a.kind = ChannelKind::vector;
-    if (a.kind == ChannelKind::color || componentOf(a.channels[0]) != "R" ||
-        (isDebugMode(a.name, 3) && !negative))
+    const bool integers = a.type == "uint" || b.type == "uint" || (isWhole(a.image) && isWhole(b.image));
+    if (integers) a.kind = ChannelKind::id;
+    if (a.kind == ChannelKind::color ||
+        (!integers && (componentOf(a.channels[0]) != "R" || (isDebugMode(a.name, 3) && !negative))))
         return {};
     return fmt::format("{}: not light, by its {}; {} are compared", a.name,
-                       negative           ? "negative values"
-                       : a.type == "uint" ? "integers"
-                                          : "name",
+                       negative   ? "negative values"
+                       : integers ? "integers"
+                                  : "name",
                        a.kind == ChannelKind::id ? "exact values" : "vectors");
 }
 

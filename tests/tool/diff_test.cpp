@@ -110,7 +110,8 @@ TEST(DiffCommand, WhatIsNoLightIsNotJudgedByEyes) {
                  {{{"R", "G", "B"}, &light}, {{layer + ".R", layer + ".G", layer + ".B"}, &data}});
     };
     Image some(32, 16, 3, 0.25f), turned(32, 16, 3, 0.2501f);
-    for (const char* layer : {"N", "ViewLayer.Normal", "velocity", "CryptoObject00", "P"}) {
+    for (const char* layer : {"N", "ViewLayer.Normal", "velocity", "CryptoObject00", "P", "normal_ws",
+                              "denoisingNormal", "uCryptoAsset00", "objectId", "IndexOB", "mv", "material"}) {
         write("a.exr", layer, some);
         write("b.exr", layer, turned);
         const Ran ran = runTool(folder, "diff a.exr b.exr --tolerance 0.5");
@@ -123,6 +124,11 @@ TEST(DiffCommand, WhatIsNoLightIsNotJudgedByEyes) {
     write("a.exr", "diffuse", some);
     write("b.exr", "diffuse", turned);
     EXPECT_EQ(runTool(folder, "diff a.exr b.exr --tolerance 0.5 -q").code, 0) << "a colour";
+    for (const char* layer : {"material color", "Pale", "identical", "indirect"}) {
+        write("a.exr", layer, some);
+        write("b.exr", layer, turned);
+        EXPECT_EQ(runTool(folder, "diff a.exr b.exr --tolerance 0.5 -q").code, 0) << layer;
+    }
     // Of this layer a tenth is negative, and then one pixel.
     for (const std::size_t every : {8u, 512u}) {
         Image first = some, second = some;

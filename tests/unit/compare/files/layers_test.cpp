@@ -55,6 +55,21 @@ TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
     EXPECT_EQ(channels[5].kind, ChannelKind::id);
 }
 
+// Integers are ids: by their type, also without a layer's name, or by values that light does not have.
+TEST(Layers, IntegersAreNoLight) {
+    const auto kindsOf = [](PictureLayer&& one) {
+        return matchChannels(channelsOf(file({one}), {}), channelsOf(file({one}), {}), {}).channels[0].kind;
+    };
+    EXPECT_EQ(kindsOf(layer("", {"R", "G", "B"}, "uint")), ChannelKind::id);
+    EXPECT_EQ(kindsOf(layer("", {"Y"}, "uint")), ChannelKind::id);
+    PictureLayer ids = layer("", {"R", "G", "B"});
+    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::color) << "small integers may be light";
+    ids.image.data[0] = 100001;
+    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::id);
+    ids.image.data[1] = 0.5f;
+    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::color);
+}
+
 // On either side, and also in named layers and 8-bit files.
 TEST(Layers, AColourWithoutAlphaIsOpaque) {
     const auto with = [] {
