@@ -4,7 +4,10 @@
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/motion/bounds.h"
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace diptych {
@@ -41,6 +44,11 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
         if (known != kept.end()) return known->second;
         return kept.emplace(request.animation, chooseDefaultView(scene, request.animation)).first->second;
     };
+    // Only what lies beyond is missing in a pose.
+    if (pose.instances.empty() && hasTriangles(scene))
+        throw std::runtime_error(
+            fmt::format("nothing is left to draw at {:g} s: all drawn nodes are not finite or beyond {:g} m",
+                        request.time, maxCoordinate));
     SceneView result;
     result.pose = std::move(pose);
     result.view = makeView(scene, result.pose, request.camera, request.width, request.height, defaultView);

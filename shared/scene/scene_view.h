@@ -51,7 +51,8 @@ struct SceneView {
     Requirements needs;                         // of the scene under `lights`
 };
 
-// Throws std::runtime_error naming --camera, --animation or --lights if the request is invalid.
+// Throws std::runtime_error naming --camera, --animation or --lights if the request is invalid, or if the
+// animation has moved everything beyond maxCoordinate.
 SceneView makeSceneView(const Scene& scene, const ViewRequest& request);
 
 // Caches the views of one scene. Each is built at its first request; each pair of time and animation is

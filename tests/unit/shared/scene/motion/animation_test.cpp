@@ -5,6 +5,8 @@
 
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/pose.h"
+#include "shared/scene/scene_view.h"
+#include "tests/support/errors.h"
 #include "tests/support/gltf_builder.h"
 
 #include <glm/geometric.hpp>
@@ -290,6 +292,12 @@ TEST(Animation, WhatIsMovedBeyondReachIsNotInThePose) {
     EXPECT_EQ(poseAt(scene, 0).instances.size(), 1u);
     EXPECT_EQ(poseAt(scene, 1).instances.size(), 0u);
     EXPECT_EQ(poseAt(scene, 0.1).instances.size(), 1u) << "a tenth of it is in reach";
+    const auto at = [](double seconds) {
+        return ViewRequest{.time = seconds, .camera = "", .width = 8, .height = 8, .lights = ""};
+    };
+    EXPECT_EQ(makeSceneView(scene, at(0.1)).pose.instances.size(), 1u);
+    EXPECT_EQ(faultOf([&] { makeSceneView(scene, at(1)); }),
+              "nothing is left to draw at 1 s: all drawn nodes are not finite or beyond 1e+18 m");
 }
 
 }  // namespace
