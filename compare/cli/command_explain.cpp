@@ -192,7 +192,7 @@ Frame readPicture(const Options& options, const std::string& file) {
         frame.settings = options.settings;
         frame.settings.camera = options.cameras.front();
     } else {
-        checkAsked(file, options.scene_file.empty() ? frame.scene : "", frame.settings.lights);
+        checkAsked(file, options.scene_file.empty() ? frame.scene : "", frame.settings);
     }
     if (isReferenceFrame(frame))
         throw std::runtime_error(

@@ -112,7 +112,7 @@ Options reported(const Options& given) {
     const ReportedView of = readReport(given);
     Options options =
         named("--report " + given.view.report.string(), [&] { return parseReported(of.command); });
-    checkAsked("--report " + given.view.report.string(), options.scenes.front(), options.settings.lights);
+    checkAsked("--report " + given.view.report.string(), options.scenes.front(), options.settings);
     options.shown = findDebugMode(of.channel)->number;
     options.pixel = given.pixel ? given.pixel : of.pixel;
     options.size_given = true;

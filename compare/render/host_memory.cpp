@@ -32,23 +32,6 @@ double pixelsOf(const Settings& settings) {
     return double(settings.size.width) * double(settings.size.height);
 }
 
-// 32-bit texels; moment maps take four times that.
-double shadowBytes(const Settings& settings) {
-    constexpr double texel = 4;
-    const auto squared = [](double side) { return side * side; };
-    switch (settings.shadows) {
-        case Shadows::off:
-            return 0;
-        case Shadows::clipmap:
-            return texel * settings.clipmap_pages * squared(settings.clipmap_page_size);
-        case Shadows::pcf:
-        case Shadows::pcss:
-            return texel * settings.shadow_cascades * squared(settings.shadow_size);
-        default:
-            return 4 * texel * settings.shadow_cascades * squared(settings.shadow_size);
-    }
-}
-
 double imageBytes(const Settings& settings, bool sun) {
     return pixelsOf(settings) * settings.msaa * sampleBytes(settings) + (sun ? shadowBytes(settings) : 0);
 }
@@ -83,6 +66,23 @@ double pipelineBytes(const RenderOptions& options, std::size_t materials) {
 }
 
 }  // namespace
+
+// 32-bit texels; moment maps take four times that.
+double shadowBytes(const Settings& settings) {
+    constexpr double texel = 4;
+    const auto squared = [](double side) { return side * side; };
+    switch (settings.shadows) {
+        case Shadows::off:
+            return 0;
+        case Shadows::clipmap:
+            return texel * settings.clipmap_pages * squared(settings.clipmap_page_size);
+        case Shadows::pcf:
+        case Shadows::pcss:
+            return texel * settings.shadow_cascades * squared(settings.shadow_size);
+        default:
+            return 4 * texel * settings.shadow_cascades * squared(settings.shadow_size);
+    }
+}
 
 std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
                          bool sun, std::size_t materials) {

@@ -14,6 +14,9 @@
 
 namespace diptych {
 
+// Shadow maps of the sun, bytes; 0 without shadows.
+double shadowBytes(const Settings& settings);
+
 // Peak host memory, bytes, while rendering one Frame of each Settings in turn, beyond the loaded scene's.
 // Includes images, and for a CPU device (`software`) its images and pipelines. Measured on lavapipe 22.3:
 // 0.7 to 1.5 times the actual use (MEASURED.md). `sun`: whether a directional light may cast shadows.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/shown_scene.h"
 
+#include "compare/render/host_memory.h"
 #include "compare/run/still_working.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/lights/rig.h"
@@ -47,7 +48,7 @@ void requireTriangles(const Scene& scene, const std::string& where) {
                                          oneLine(where), why == scene.notes.end() ? "" : ": " + *why));
 }
 
-void checkAsked(const std::string& file, const std::string& where, const std::string& lights) {
+void checkAsked(const std::string& file, const std::string& where, const Settings& settings) {
     constexpr std::uint64_t most = std::uint64_t{1} << 30;
     const auto check = [&](const std::string& what, std::uint64_t bytes) {
         if (bytes > most)
@@ -56,7 +57,9 @@ void checkAsked(const std::string& file, const std::string& where, const std::st
                 oneLine(what), static_cast<double>(bytes) / 1e9));
     };
     check(where, askedBytes(where));
-    check("--lights " + lights, rigBytes(lights));
+    check("--lights " + settings.lights, rigBytes(settings.lights));
+    check(fmt::format("--shadow-size {}", settings.shadow_size),
+          static_cast<std::uint64_t>(shadowBytes(settings)));
 }
 
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {

@@ -19,9 +19,9 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
 // Throws std::runtime_error, one line, if nothing in the scene has triangles: two such images always agree.
 void requireTriangles(const Scene& scene, const std::string& where);
 
-// For a scene and a rig that a file names, not the user: throws std::runtime_error if building them takes
-// more than 1 GiB. `where` may be empty.
-void checkAsked(const std::string& file, const std::string& where, const std::string& lights);
+// For a scene and Settings that a file names, not the user: throws std::runtime_error if building the scene,
+// the rig of lights or the sun's shadow maps takes more than 1 GiB. `where` may be empty.
+void checkAsked(const std::string& file, const std::string& where, const Settings& settings);
 
 // Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
 double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);

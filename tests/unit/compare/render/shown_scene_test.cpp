@@ -24,7 +24,9 @@ TEST(ShownScene, ABuiltinSceneBeyondAnyMemoryIsRefusedBeforeItIsBuilt) {
 
 TEST(ShownScene, AFileMayAskForOneGibibyte) {
     const auto fault = [](const char* where, const char* lights) {
-        return faultOf([&] { checkAsked("a.exr", where, lights); });
+        Settings settings;
+        settings.lights = lights;
+        return faultOf([&] { checkAsked("a.exr", where, settings); });
     };
     EXPECT_EQ(fault("", ""), "");
     EXPECT_EQ(fault("a.gltf", "point:100"), "");
@@ -32,6 +34,13 @@ TEST(ShownScene, AFileMayAskForOneGibibyte) {
     EXPECT_TRUE(fault("builtin:array?objects=10000000", "")
                     .starts_with("a.exr: asks for builtin:array?objects=10000000, about "));
     EXPECT_TRUE(fault("", "point:10000000").starts_with("a.exr: asks for --lights point:10000000, about "));
+    Settings shadowed;
+    shadowed.shadow_size = 16384;
+    EXPECT_TRUE(faultOf([&] {
+                    checkAsked("a.exr", "", shadowed);
+                }).starts_with("a.exr: asks for --shadow-size 16384, about "));
+    shadowed.shadows = Shadows::off;
+    EXPECT_EQ(faultOf([&] { checkAsked("a.exr", "", shadowed); }), "");
 }
 
 }  // namespace
