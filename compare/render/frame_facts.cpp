@@ -43,6 +43,7 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     if (!settings.haze || settings.haze_density == 0)  // else lit is complete
         frame.background = {scene.background.r, scene.background.g, scene.background.b};
     frame.notes = scene.notes;
+    frame.notes.insert(frame.notes.end(), view.pose.notes.begin(), view.pose.notes.end());
     if (!view.default_view.empty())
         frame.notes.push_back(fmt::format("the scene has no camera: viewed {}; --camera chooses another view",
                                           view.default_view));

@@ -41,7 +41,11 @@ Scene loadShown(const std::string& where, const Settings& settings, const Stage&
 }
 
 void requireTriangles(const Scene& scene, const std::string& where) {
-    if (hasTriangles(scene)) return;
+    if (hasArea(scene)) return;
+    if (hasTriangles(scene))
+        throw std::runtime_error(fmt::format(
+            "{}: has nothing to draw: no triangle has an area; --allow-empty compares it all the same",
+            oneLine(where)));
     const auto why = std::ranges::find_if(
         scene.notes, [](const std::string& note) { return note.find("left out") != note.npos; });
     throw std::runtime_error(fmt::format("{}: has nothing to draw{}; --allow-empty compares it all the same",

@@ -187,7 +187,8 @@ void bringTogether(PictureFile& a, PictureFile& b, bool same_bytes, bool strict,
         // A line that both files have makes no difference between them.
         for (const std::string& line : file->notes.not_applied)
             say(line, strict && std::ranges::count(others, line) == 0);
-        for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
+        if (file == &a || diff.reference != diff.test)
+            for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
     }
     diff.width = a.width;
     diff.height = a.height;
@@ -361,9 +362,12 @@ void judgeChannels(PictureDiff& diff, const PictureDiffOptions& options) {
     if (options.metric_given && options.rules.empty() &&
         std::ranges::none_of(diff.channels, [&](const auto& channel) {
             return (*channel->measurement)({options.metric, 0}).has_value();
-        }))
-        throw std::runtime_error(
-            fmt::format("--metric {}: not defined for any channel of these images", options.metric));
+        })) {
+        std::vector<std::string> names;
+        for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
+        throw std::runtime_error(fmt::format("--metric {}: not defined for any channel of these images: {}",
+                                             options.metric, fmt::join(names, ", ")));
+    }
     for (auto& channel : diff.channels) sayHidden(diff, *channel);
 }
 

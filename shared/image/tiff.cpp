@@ -117,6 +117,10 @@ bool isFloat(const TiffLayout& layout) {
     return layout.format == SAMPLEFORMAT_IEEEFP;
 }
 
+bool isInverted(const TiffLayout& layout) {
+    return layout.colours == PHOTOMETRIC_MINISWHITE && !isFloat(layout);
+}
+
 std::string sampleOf(const TiffLayout& layout) {
     if (isFloat(layout)) return layout.bits == 16 ? "half" : "float";
     return fmt::format("{} bit", layout.bits);
@@ -230,7 +234,7 @@ public:
 
 private:
     void put(const unsigned char* from, std::uint32_t x0, std::uint32_t y0, int plane) {
-        const bool inverted = layout_.colours == PHOTOMETRIC_MINISWHITE && !isFloat(layout_);
+        const bool inverted = isInverted(layout_);
         const std::size_t step = layout_.bytesPerSample();
         for (std::uint32_t y = y0; y < std::min(y0 + height_, layout_.height); ++y)
             for (std::uint32_t x = x0; x < std::min(x0 + width_, layout_.width); ++x)
@@ -320,6 +324,7 @@ TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, 
         if (!Pieces(tiff.get(), layout, picture.image).read(most, bytes.size())) failToDecode(file);
         picture.image = oriented(std::move(picture.image), layout.orientation);
         describe(tiff.get(), picture);
+        if (isInverted(layout)) picture.notes.lines.emplace_back("its values are inverted: 0 is white in it");
         return picture;
     });
 }

@@ -266,7 +266,8 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
         }
     } else {
         std::vector<std::string> names;
-        for (const auto& of : namesOf(pose.cameras)) names.insert(names.end(), of.begin(), of.end());
+        if (!isIndex(choice))
+            for (const auto& of : namesOf(pose.cameras)) names.insert(names.end(), of.begin(), of.end());
         failCamera(choice, fmt::format("{}{}; it takes {}", listOf(pose.cameras), didYouMean(choice, names),
                                        accepted));
     }

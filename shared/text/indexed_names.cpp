@@ -22,10 +22,14 @@ std::string indexedNames(std::span<const std::string> names) {
     return list;
 }
 
+bool isIndex(const std::string& choice) {
+    return choice.find_first_not_of("0123456789", choice.starts_with('-')) == choice.npos;
+}
+
 std::optional<std::size_t> indexOfNamed(const std::string& choice,
                                         std::span<const std::vector<std::string>> names,
                                         std::string_view who) {
-    if (choice.find_first_not_of("0123456789", choice.starts_with('-')) == choice.npos) {
+    if (isIndex(choice)) {
         std::size_t index = names.size();
         std::from_chars(choice.data(), choice.data() + choice.size(), index);
         return index < names.size() ? std::optional(index) : std::nullopt;

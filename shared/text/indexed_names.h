@@ -14,6 +14,9 @@ namespace diptych {
 // the first 20 are only counted.
 std::string indexedNames(std::span<const std::string> names);
 
+// Whether `choice` is an integer.
+bool isIndex(const std::string& choice);
+
 // The item that `choice` names: an integer is an index, another text one of the item's names. Empty if there
 // is none. Throws std::runtime_error, "WHO: ...", if several have the name.
 std::optional<std::size_t> indexOfNamed(const std::string& choice,

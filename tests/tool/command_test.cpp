@@ -90,7 +90,13 @@ TEST(Command, CompareNeedsSomethingToDraw) {
     folder.write("lines.gltf", changed("\"POSITION\": 0 }", "\"POSITION\": 0 }, \"mode\": 1"));
     folder.write("nan.gltf",
                  changed("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", std::string(48, '/')));
+    folder.write("point.gltf",
+                 changed("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA", std::string(48, 'A')));
+    folder.write("flat.gltf", changed("\"mesh\": 0 }", "\"mesh\": 0, \"scale\": [1, 0, 0] }"));
     const std::string compare = "compare" + quick + " --channels lit -o report ";
+    for (const char* empty : {"point.gltf", "flat.gltf"})
+        EXPECT_TRUE(runTool(folder, compare + empty)
+                        .failedOver(std::string(empty) + ": has nothing to draw: no triangle has an area"));
     EXPECT_TRUE(runTool(folder, compare + "lines.gltf")
                     .failedOver("lines.gltf: has nothing to draw: mesh 0, primitive 0: points or lines, left "
                                 "out; --allow-empty"));

@@ -195,6 +195,23 @@ bool hasRotatedMap(const Scene& scene, const Pose& pose, const Primitive& primit
     return isRotated(tangentMap(scene.materials[m]), tangentMap(pose.materials[m]));
 }
 
+// Whether any triangle has an area in the world. Stops at the first.
+bool hasArea(const Primitive& p, const glm::dmat3& worldFromObject) {
+    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+        const glm::dvec3 a(p.positions[p.indices[i]]), b(p.positions[p.indices[i + 1]]),
+            c(p.positions[p.indices[i + 2]]);
+        if (glm::cross(worldFromObject * (b - a), worldFromObject * (c - a)) != glm::dvec3(0)) return true;
+    }
+    return false;
+}
+
+void noteBeyond(std::vector<std::string>& notes, std::size_t count, const char* what,
+                const std::string& when = {}) {
+    if (count)
+        notes.push_back(fmt::format("{} {} not finite or beyond {:g} m{}: left out", counted(count, what),
+                                    count == 1 ? "is" : "are", maxCoordinate, when));
+}
+
 }  // namespace
 
 Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
@@ -207,6 +224,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
     PropertyMotion properties = propertiesAt(scene, seconds, animation);
     pose.materials = std::move(properties.materials);
     Weights weights(scene, motion, pose);
+    std::size_t beyond = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         const std::vector<Primitive>& primitives = primitivesOf(scene, node);
@@ -219,7 +237,10 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
             const std::span<const glm::dmat4> copies = copiesOf(scene, node);
             for (std::size_t c = 0; c < copies.size(); ++c) {
                 const glm::dmat4 worldFromObject = worldFromNode * copies[c];
-                if (!isWithin(worldFromObject, extent)) continue;
+                if (!isWithin(worldFromObject, extent)) {
+                    ++beyond;
+                    continue;
+                }
                 pose.instances.push_back({.mesh = node.mesh,
                                           .primitive = static_cast<int>(p),
                                           .node = static_cast<int>(n),
@@ -231,6 +252,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
             }
         }
     }
+    noteBeyond(pose.notes, beyond, "drawn instance", fmt::format(" at {:g} s", seconds));
     std::uint64_t vertices = 0;
     for (Instance& instance : pose.instances) {
         if (!instance.deformed()) continue;
@@ -258,6 +280,18 @@ bool hasTriangles(const Scene& scene) {
     });
 }
 
+bool hasArea(const Scene& scene) {
+    if (!scene.animations.empty()) return hasTriangles(scene);
+    const std::vector<glm::dmat4> world = worldFromNodeAtRest(scene.nodes);
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        for (const Primitive& p : primitivesOf(scene, scene.nodes[n]))
+            for (const glm::dmat4& copy : copiesOf(scene, scene.nodes[n]))
+                if (!p.joint_sets.empty() || !p.targets.empty() ||
+                    hasArea(p, glm::dmat3(worldFromPrimitive(scene, world, n, p) * copy)))
+                    return true;
+    return false;
+}
+
 void leaveOutWhatIsBeyond(Scene& scene) {
     const std::vector<glm::dmat4> world = worldFromNodeAtRest(scene.nodes);
     std::vector<std::vector<glm::dvec3>> extents;
@@ -265,12 +299,7 @@ void leaveOutWhatIsBeyond(Scene& scene) {
         extents.emplace_back();
         for (const Primitive& p : mesh.primitives) extents.back().push_back(extentOf(p));
     }
-    const auto note = [&](std::size_t count, const char* what) {
-        if (count)
-            scene.notes.push_back(fmt::format("{} {} not finite or beyond {:g} m: left out",
-                                              counted(count, what), count == 1 ? "is" : "are",
-                                              maxCoordinate));
-    };
+    const auto note = [&](std::size_t count, const char* what) { noteBeyond(scene.notes, count, what); };
     std::size_t beyond = 0, copiesBeyond = 0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         Node& node = scene.nodes[n];

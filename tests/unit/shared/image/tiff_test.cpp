@@ -114,6 +114,7 @@ TEST(Tiff, WhiteMayBeZero) {
     MadeTiff file = made(2, 1, 1, 8, 1, stored<std::uint8_t>({0, 255}));
     file.tags[262] = 0;
     EXPECT_EQ(read(file).image.data, (PixelData{1, 0}));
+    EXPECT_EQ(read(file).notes.lines, std::vector<std::string>{"its values are inverted: 0 is white in it"});
     for (unsigned code = 0; code < 256; ++code) {
         file.strip[0] = static_cast<char>(code);
         EXPECT_EQ(read(file).image.data[0], static_cast<float>(255 - code) / 255.0f) << code;

@@ -254,7 +254,8 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
     scene.cameras[0].node_name = "hero";
     scene.cameras[1].name = "7";
     EXPECT_EQ(viewOf(scene, "1").eye(), glm::dvec3(-1, 0, 0));
-    EXPECT_NE(viewFault("7", scene).find("0 \"1\" (node \"hero\"), 1 \"7\""), std::string::npos);
+    EXPECT_NE(viewFault("7", scene).find("0 \"1\" (node \"hero\"), 1 \"7\"; it takes"), std::string::npos)
+        << "an index is not a misspelt name";
     EXPECT_EQ(viewOf(scene, "hero").eye(), glm::dvec3(7, 8, 9));
     scene.cameras[1].name = "hero";
     EXPECT_EQ(viewFault("hero", scene),

@@ -291,13 +291,16 @@ TEST(Animation, WhatIsMovedBeyondReachIsNotInThePose) {
     const Scene scene = f.load();
     EXPECT_EQ(poseAt(scene, 0).instances.size(), 1u);
     EXPECT_EQ(poseAt(scene, 1).instances.size(), 0u);
+    EXPECT_EQ(poseAt(scene, 0).notes, std::vector<std::string>());
     EXPECT_EQ(poseAt(scene, 0.1).instances.size(), 1u) << "a tenth of it is in reach";
     const auto at = [](double seconds) {
         return ViewRequest{.time = seconds, .camera = "", .width = 8, .height = 8, .lights = ""};
     };
     EXPECT_EQ(makeSceneView(scene, at(0.1)).pose.instances.size(), 1u);
     EXPECT_EQ(faultOf([&] { makeSceneView(scene, at(1)); }),
-              "nothing is left to draw at 1 s: all drawn nodes are not finite or beyond 1e+18 m");
+              scene.name +
+                  ": nothing is left to draw: 1 drawn instance is not finite or beyond 1e+18 m at 1 s: "
+                  "left out");
 }
 
 }  // namespace
