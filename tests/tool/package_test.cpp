@@ -158,8 +158,10 @@ TEST(Package, AnotherProgramLinksTheLibrary) {
 
 TEST(Package, ADebianPackageHoldsTheProgramAndSaysWhatItNeeds) {
     const Folder folder;
-    if (!isThere(folder, "dpkg-shlibdeps") || !isThere(folder, "cpack"))
-        GTEST_SKIP() << "dpkg-shlibdeps is not here (Debian package dpkg-dev): no .deb is made";
+    for (const auto& [need, package] :
+         {std::pair{"dpkg-shlibdeps", "dpkg-dev"}, {"file", "file"}, {"cpack", "cmake"}})
+        if (!isThere(folder, need))
+            GTEST_SKIP() << need << " is not here (Debian package " << package << "): no .deb is made";
     const Ran packed =
         runShell(folder, "cpack --config '" DIPTYCH_BINARY_DIR "/CPackConfig.cmake' -B .", folder.path());
     ASSERT_EQ(packed.code, 0) << packed.out << packed.err;
