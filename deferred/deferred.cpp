@@ -294,8 +294,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     std::vector<CapturedImage> images;
     const bool stored = !storesNothing(inputs);
     // The frame's own G-buffer stores geometric normals only if shadows need them.
-    if (stored && std::ranges::find(request.modes, static_cast<int>(gpu::DEBUG_geometric_normal)) !=
-                      request.modes.end()) {
+    if (stored && std::ranges::find(request.modes, Channel::geometric_normal) != request.modes.end()) {
         addGBuffer(passes, inputs, frame, true);
         addDepthOfApart(passes, inputs, frame);
     }

@@ -66,7 +66,7 @@ FrameImages addForwardPlus(PassList& passes, const FrameInputs& inputs) {
 std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameInputs& inputs,
                                                  const FrameImages& frame, const CaptureRequest& request) {
     std::vector<CapturedImage> images;
-    const auto capture = [&](const std::vector<int>& modes, bool encoded) {
+    const auto capture = [&](const std::vector<Channel>& modes, bool encoded) {
         if (modes.empty()) return;
         const auto keyOf = [&](PipelineKey key) {
             return encoded ? throughGBuffer(std::move(key), inputs) : key;

@@ -3,10 +3,10 @@
 
 #include "compare/experiment/errors.h"
 #include "compare/experiment/kept.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/model/material_slots.h"
@@ -27,15 +27,13 @@ using experiment::knownOrInfinite;
 
 namespace {
 
-constexpr auto litOf = static_cast<int>(gpu::DEBUG_lit), idsOf = static_cast<int>(gpu::DEBUG_material_id),
-               depthOf = static_cast<int>(gpu::DEBUG_depth);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void multiply(Image& image, double factor) {
     for (float& value : image.data) value = static_cast<float>(value * factor);
 }
 
-ChannelStats statsOf(int mode, const Frame& truth, const Frame& test, const Coverage& where) {
+ChannelStats statsOf(Channel mode, const Frame& truth, const Frame& test, const Coverage& where) {
     const DebugMode& channel = debugMode(mode);
     return channelStats(channel.metric, channel.kind, truth.channels.at(mode), test.channels.at(mode), where);
 }
@@ -44,10 +42,10 @@ ChannelStats statsOf(int mode, const Frame& truth, const Frame& test, const Cove
 // white. Both use the truth's exposure.
 double pictureError(const Frame& truth, const Frame& test, const Coverage& where, double exposure) {
     PictureScale scale;
-    scale.exposure = exposureFor({}, &truth.channels.at(litOf), where);
+    scale.exposure = exposureFor({}, &truth.channels.at(Channel::lit), where);
     scale.exposure.factor *= exposure;
-    const Image8 a = channelPicture(debugMode(litOf), truth, scale),
-                 b = channelPicture(debugMode(litOf), test, scale);
+    const Image8 a = channelPicture(debugMode(Channel::lit), truth, scale),
+                 b = channelPicture(debugMode(Channel::lit), test, scale);
     std::vector<double> apart;
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
@@ -91,7 +89,7 @@ void leaveShape(Material& material) {
     if (material.alpha_mode != AlphaMode::opaque) material.base_color_texture = color;
 }
 
-RenderOptions drawing(std::vector<int> channels) {
+RenderOptions drawing(std::vector<Channel> channels) {
     RenderOptions options;
     options.channels = std::move(channels);
     options.requested = options.channels;
@@ -173,7 +171,7 @@ Measurer::Measurer(Device& device, const Subject& subject, std::function<void(co
 Frame Measurer::litOfSurfaces(Renderer& renderer, Settings settings) {
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::surface;
-    return renderer.draw(referenceSettings(settings), drawing({litOf, idsOf}));
+    return renderer.draw(referenceSettings(settings), drawing({Channel::lit, Channel::material_id}));
 }
 
 Frame Measurer::tracedRays(Scene scene, Settings settings) {
@@ -187,8 +185,9 @@ Frame Measurer::tracedRays(Scene scene, Settings settings) {
     scene.environment.reset();
     for (Material& material : scene.materials) leaveShape(material);
     SceneViews views(scene);
-    return std::move(
-        drawWithoutDevice(views, {referenceSettings(settings)}, drawing({idsOf, depthOf})).front());
+    return std::move(drawWithoutDevice(views, {referenceSettings(settings)},
+                                       drawing({Channel::material_id, Channel::depth}))
+                         .front());
 }
 
 const Measurer::Truth& Measurer::original(const Size& size) {
@@ -206,21 +205,23 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     Outcome outcome;
     Coverage opaque = coverage(truth.lit, truth.lit);
     remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i); });
-    const ChannelStats light = statsOf(litOf, truth.lit, lit, opaque);
+    const ChannelStats light = statsOf(Channel::lit, truth.lit, lit, opaque);
     outcome.light = knownOrInfinite(light.p99);
     outcome.light_999 = knownOrInfinite(light.p999);
     outcome.worst_x = light.worst_x;
     outcome.worst_y = light.worst_y;
     if (exposure > 0) outcome.light = pictureError(truth.lit, lit, opaque, exposure);
-    const Image &there = truth.rays.channels.at(idsOf), &here = rays.channels.at(idsOf);
+    const Image &there = truth.rays.channels.at(Channel::material_id),
+                &here = rays.channels.at(Channel::material_id);
     Coverage alike = coverage(truth.rays, truth.rays);
     const std::size_t before = alike.count;
     remove(alike, [&](std::size_t i) { return there.data[i] != here.data[i]; });
     outcome.misplaced = before - alike.count;
-    outcome.depth = knownOrInfinite(statsOf(depthOf, truth.rays, rays, alike).p99);
-    outcome.flip = knownOrInfinite(hdrFlip(truth.lit.channels.at(litOf), lit.channels.at(litOf)).mean);
+    outcome.depth = knownOrInfinite(statsOf(Channel::depth, truth.rays, rays, alike).p99);
+    outcome.flip =
+        knownOrInfinite(hdrFlip(truth.lit.channels.at(Channel::lit), lit.channels.at(Channel::lit)).mean);
     outcome.nonfinite = lit.counters.nonfinite_pixels;
-    if (const auto repaired = lit.repaired.find(litOf); repaired != lit.repaired.end()) {
+    if (const auto repaired = lit.repaired.find(Channel::lit); repaired != lit.repaired.end()) {
         const auto width = static_cast<std::uint32_t>(lit.settings.size.width);
         outcome.worst_x = static_cast<int>(repaired->second.front() % width);
         outcome.worst_y = static_cast<int>(repaired->second.front() / width);
@@ -255,7 +256,7 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
         drawn.truth.lit = litOfSurfaces(renderer, pushed.settings);
         Spoilt other;
         if (fault_.scene) other.make(device_, pushed, fault_, pipelines_);
-        std::vector<int> channels{litOf, idsOf, depthOf};
+        std::vector<Channel> channels{Channel::lit, Channel::material_id, Channel::depth};
         channels.insert(channels.end(), fault_.channels.begin(), fault_.channels.end());
         for (const Series& one : series) {
             Frame& frame = drawn.frames.emplace_back();
@@ -289,8 +290,8 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
         std::optional<Truth> same;
         if (quantity && quantity->same_picture) {
             same = original(pushed.settings.size);
-            if (quantity->light) multiply(same->lit.channels.at(litOf), magnitude);
-            if (quantity->lengths) multiply(same->rays.channels.at(depthOf), magnitude);
+            if (quantity->light) multiply(same->lit.channels.at(Channel::lit), magnitude);
+            if (quantity->lengths) multiply(same->rays.channels.at(Channel::depth), magnitude);
             step.reference_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
         const Truth& truth = same ? *same : drawn.truth;

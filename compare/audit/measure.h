@@ -85,7 +85,7 @@ public:
     struct Fault {
         std::function<void(Case&)> scene{};
         std::function<void(const Case&, Frame&)> picture{};
-        std::vector<int> channels{};
+        std::vector<Channel> channels{};
     };
     void plant(Fault fault) { fault_ = std::move(fault); }
 

@@ -26,8 +26,6 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr auto relatedLit = static_cast<int>(gpu::DEBUG_lit);
-
 // Roundings of a term of lit from the vertex on, without those of the sum: transform, interpolation,
 // normalisation, D, V, F, attenuation, each of some ten operations.
 constexpr double roundingsOfATerm = 128;
@@ -46,7 +44,7 @@ constexpr double roundoff = 0x1p-24;   // of one float32 operation
 RenderOptions drawingRelated(bool packed = false) {
     RenderOptions options;
     options.channels.assign(relatedChannels().begin(), relatedChannels().end());
-    if (packed) options.channels = {relatedLit};
+    if (packed) options.channels = {Channel::lit};
     options.requested = options.channels;
     options.through_gbuffer = packed;
     options.runs = 0;
@@ -64,13 +62,13 @@ bool anyBlends(const Scene& scene) {
 
 // Error bound of a channel's component decoded from the G-buffer; emission and a film's thickness: relative
 // to the largest component.
-std::map<int, double> packedBounds(const Settings& settings) {
+std::map<Channel, double> packedBounds(const Settings& settings) {
     if (!hasGBuffer(settings.path)) return {};
     Requirements needs;
     needs.emission = true;
     needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
-    std::map<int, double> bounds;
-    for (const int mode : relatedChannels())
+    std::map<Channel, double> bounds;
+    for (const Channel mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))
             bounds[mode] =
                 isAngle(debugMode(mode).metric) ? glm::radians(field->largestBound()) : field->largestBound();
@@ -173,8 +171,8 @@ Frame RelationMeasurer::packedLight(const Case& of) {
     SceneViews views(of.scene);
     Renderer renderer(device_, views, pipelines_);
     Frame frame = renderer.draw(withoutReference(settings), drawingRelated(true));
-    const Image& through = frame.through_gbuffer.at(relatedLit);
-    Image& own = frame.channels.at(relatedLit);
+    const Image& through = frame.through_gbuffer.at(Channel::lit);
+    Image& own = frame.channels.at(Channel::lit);
     Image change(own.width, own.height, 1);
     for (std::size_t i = 0; i < own.pixels(); ++i)
         *change.pixel(i) = static_cast<float>(
@@ -185,11 +183,11 @@ Frame RelationMeasurer::packedLight(const Case& of) {
 
 Image RelationMeasurer::packedLight(const Related& related) {
     Image sum = related.own_base || packed_light_.empty()
-                    ? std::move(packedLight(related.base).channels.at(relatedLit))
+                    ? std::move(packedLight(related.base).channels.at(Channel::lit))
                     : packed_light_;
     if (!related.own_base) packed_light_ = sum;
     const Frame changed = mappedBack(packedLight(related.changed), related.map);
-    const Image& other = changed.channels.at(relatedLit);
+    const Image& other = changed.channels.at(Channel::lit);
     std::ranges::transform(sum.data, other.data, sum.data.begin(), std::plus());
     return sum;
 }

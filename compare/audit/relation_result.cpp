@@ -23,17 +23,6 @@ namespace diptych::audit {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr auto lightMode = static_cast<int>(gpu::DEBUG_lit),
-               idMode = static_cast<int>(gpu::DEBUG_material_id),
-               viewDepth = static_cast<int>(gpu::DEBUG_depth),
-               facet = static_cast<int>(gpu::DEBUG_geometric_normal);
-constexpr auto normalMode = static_cast<int>(gpu::DEBUG_normals),
-               roughnessMode = static_cast<int>(gpu::DEBUG_roughness),
-               coatNormalMode = static_cast<int>(gpu::DEBUG_clearcoat_normal),
-               coatRoughnessMode = static_cast<int>(gpu::DEBUG_clearcoat_roughness),
-               sheenMode = static_cast<int>(gpu::DEBUG_sheen_color),
-               sheenRoughnessMode = static_cast<int>(gpu::DEBUG_sheen_roughness),
-               filmMode = static_cast<int>(gpu::DEBUG_iridescence);
 constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any pixel
 // Largest relative change per radian of a thin film's colours, two terms cos(2.24e6 p) exp(-4.5e9 p^2) with p
 // = 2 pi OPD: as p changes by its own size at most, each changes by at most 14.
@@ -104,12 +93,12 @@ public:
         if (tolerance_.reorders) setTiesAside(result);
         if (tolerance_.equality == Equality::rounding) findFiltered(result);
         double most = -1;
-        for (const int mode : relatedChannels()) {
+        for (const Channel mode : relatedChannels()) {
             if (!isKnown(mode)) continue;
             Image used;
             result.channels.push_back(channel(mode, used));
             const ChannelResult& of = result.channels.back();
-            if (of.used > most && (most <= 1 || mode == lightMode)) {
+            if (of.used > most && (most <= 1 || mode == Channel::lit)) {
                 most = of.used;
                 result.used = std::move(used);
             }
@@ -118,21 +107,21 @@ public:
     }
 
 private:
-    const Image& given(int mode) const { return given_.channels.at(mode); }
-    const Image& changed(int mode) const { return changed_.channels.at(mode); }
+    const Image& given(Channel mode) const { return given_.channels.at(mode); }
+    const Image& changed(Channel mode) const { return changed_.channels.at(mode); }
 
     // Scenes without a layer lack its channels.
-    bool isKnown(int mode) const {
+    bool isKnown(Channel mode) const {
         return given_.channels.contains(mode) && changed_.channels.contains(mode);
     }
 
     // Largest change of a channel, in either image, to neighbouring pixels of the same material, or to all
     // if none has it.
-    double variation(int mode, std::size_t pixel) const {
+    double variation(Channel mode, std::size_t pixel) const {
         double alike = 0, any = 0;
         bool found = false;
         for (const Frame* frame : {&given_, &changed_}) {
-            const Image &image = frame->channels.at(mode), &ids = frame->channels.at(idMode);
+            const Image &image = frame->channels.at(mode), &ids = frame->channels.at(Channel::material_id);
             around(image, pixel, [&](std::size_t other) {
                 const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
                 if (change == unbounded) return;
@@ -146,70 +135,70 @@ private:
     }
 
     bool isTextured(std::size_t pixel) const {
-        const float id = given(idMode).data[pixel];
+        const float id = given(Channel::material_id).data[pixel];
         return id >= 0 && static_cast<std::size_t>(id) < tolerance_.textured.size() &&
                tolerance_.textured[static_cast<std::size_t>(id)];
     }
 
     // Difference of normals of a lobe, radians, beyond the packing error; normals are compared separately.
-    double normalApart(int mode, std::size_t pixel) const {
+    double normalApart(Channel mode, std::size_t pixel) const {
         const auto packed = tolerance_.packed.find(mode);
         return std::max(0.0, apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), 3) -
                                  (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
     }
     // Largest relative change of a lobe's light by the change of its normal. Per radian ln D of GGX changes
     // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
-    double lightByNormal(int normals, int roughnesses, std::size_t pixel) const {
+    double lightByNormal(Channel normals, Channel roughnesses, std::size_t pixel) const {
         const double roughness = given(roughnesses).data[pixel];
         return (2 / std::max(roughness * roughness, leastAlpha) + 4) * normalApart(normals, pixel);
     }
     // A sheen's ln D changes by cot(theta_h) / alpha, which is less than 2 / alpha where D is not small. The
     // sheen has a least roughness, and the normal of the base.
     double lightBySheen(std::size_t pixel) const {
-        if (!isKnown(sheenMode) || !isKnown(sheenRoughnessMode) ||
-            largest(given(sheenMode).pixel(pixel), 3) == 0)
+        if (!isKnown(Channel::sheen_color) || !isKnown(Channel::sheen_roughness) ||
+            largest(given(Channel::sheen_color).pixel(pixel), 3) == 0)
             return 0;
-        const double roughness =
-            std::max(double{given(sheenRoughnessMode).data[pixel]}, double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
-        return (2 / (roughness * roughness) + 4) * normalApart(normalMode, pixel);
+        const double roughness = std::max(double{given(Channel::sheen_roughness).data[pixel]},
+                                          double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
+        return (2 / (roughness * roughness) + 4) * normalApart(Channel::normals, pixel);
     }
     double lightByFilm(std::size_t pixel) const {
-        return isKnown(filmMode) && given(filmMode).data[pixel] > 0
-                   ? filmSlope * normalApart(normalMode, pixel)
+        return isKnown(Channel::iridescence) && given(Channel::iridescence).data[pixel] > 0
+                   ? filmSlope * normalApart(Channel::normals, pixel)
                    : 0;
     }
     double lightByNormals(std::size_t pixel) const {
-        const bool coated = isKnown(coatNormalMode) && isKnown(coatRoughnessMode);
-        return lightByNormal(normalMode, roughnessMode, pixel) +
-               (coated ? lightByNormal(coatNormalMode, coatRoughnessMode, pixel) : 0) + lightBySheen(pixel) +
-               lightByFilm(pixel);
+        const bool coated = isKnown(Channel::clearcoat_normal) && isKnown(Channel::clearcoat_roughness);
+        return lightByNormal(Channel::normals, Channel::roughness, pixel) +
+               (coated ? lightByNormal(Channel::clearcoat_normal, Channel::clearcoat_roughness, pixel) : 0) +
+               lightBySheen(pixel) + lightByFilm(pixel);
     }
 
     // Tolerance of `rounding` for the largest component, without steps of a texture filter.
-    double allowedByRounding(int mode, std::size_t pixel) const {
+    double allowedByRounding(Channel mode, std::size_t pixel) const {
         const Image &a = given(mode), &b = changed(mode);
         const double size =
             std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
-        if (mode == idMode) return 0;
+        if (mode == Channel::material_id) return 0;
         // A light's end cancels: the remainder has rounding errors relative to the whole.
-        double allowed = tolerance_.relative * (mode == lightMode ? std::max(size, light_floor_) : size) +
+        double allowed = tolerance_.relative * (mode == Channel::lit ? std::max(size, light_floor_) : size) +
                          std::numeric_limits<float>::min();
-        if (mode == facet) allowed += tolerance_.facet;
+        if (mode == Channel::geometric_normal) allowed += tolerance_.facet;
         if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
         if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
             allowed += 2 * packed->second * (debugMode(mode).metric == Metric::relative ? size : 1);
-        if (mode == lightMode) allowed += size * lightByNormals(pixel);
-        if (mode == lightMode && tolerance_.packed_light)
+        if (mode == Channel::lit) allowed += size * lightByNormals(pixel);
+        if (mode == Channel::lit && tolerance_.packed_light)
             allowed += double{tolerance_.packed_light->data[pixel]};
         return allowed;
     }
-    bool isWithinRounding(int mode, std::size_t pixel) const {
+    bool isWithinRounding(Channel mode, std::size_t pixel) const {
         return apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), given(mode).components) <=
                allowedByRounding(mode, pixel);
     }
 
     // For a textured surface, whose light follows its channels: without the change to the next pixel.
-    bool isFilteredAlike(int mode, std::size_t pixel) const {
+    bool isFilteredAlike(Channel mode, std::size_t pixel) const {
         const Image &a = given(mode), &b = changed(mode);
         const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
         const auto packed = tolerance_.packed.find(mode);
@@ -222,8 +211,9 @@ private:
     // Whether another surface is visible beside the pixel: another material, another triangle's normal, or
     // a step in depth.
     static bool isBesideEdge(const Frame& frame, std::size_t pixel) {
-        const Image &ids = frame.channels.at(idMode), &depth = frame.channels.at(viewDepth),
-                    &facets = frame.channels.at(facet);
+        const Image &ids = frame.channels.at(Channel::material_id),
+                    &depth = frame.channels.at(Channel::depth),
+                    &facets = frame.channels.at(Channel::geometric_normal);
         bool found = false;
         around(ids, pixel, [&](std::size_t other) {
             const double far = std::max(depth.data[pixel], depth.data[other]);
@@ -247,9 +237,11 @@ private:
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             const bool beside = isBesideEdge(given_, i), blended = isBesideBlended(i);
             edges += beside || blended;
-            aside_[i] = (beside && (given(idMode).data[i] != changed(idMode).data[i] ||
-                                    !isWithinRounding(viewDepth, i) || !isWithinRounding(facet, i))) ||
-                        (blended && !isWithinRounding(lightMode, i));
+            aside_[i] =
+                (beside &&
+                 (given(Channel::material_id).data[i] != changed(Channel::material_id).data[i] ||
+                  !isWithinRounding(Channel::depth, i) || !isWithinRounding(Channel::geometric_normal, i))) ||
+                (blended && !isWithinRounding(Channel::lit, i));
             result.aside += aside_[i];
         }
         result.most_aside = std::max(fewPixels, edges / edgesForOneAside);
@@ -257,9 +249,9 @@ private:
 
     void setTiesAside(FrameResult& result) {
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            if (given(viewDepth).data[i] != changed(viewDepth).data[i]) continue;
-            aside_[i] = std::ranges::any_of(relatedChannels(), [&](int mode) {
-                return mode != lightMode && isKnown(mode) &&
+            if (given(Channel::depth).data[i] != changed(Channel::depth).data[i]) continue;
+            aside_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
+                return mode != Channel::lit && isKnown(mode) &&
                        apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
             });
             result.aside += aside_[i];
@@ -272,9 +264,9 @@ private:
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
             ++textured;
-            filtered_[i] = std::ranges::any_of(relatedChannels(), [&](int mode) {
-                return mode != lightMode && mode != idMode && mode != viewDepth && mode != facet &&
-                       isKnown(mode) && !isFilteredAlike(mode, i);
+            filtered_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
+                return mode != Channel::lit && mode != Channel::material_id && mode != Channel::depth &&
+                       mode != Channel::geometric_normal && isKnown(mode) && !isFilteredAlike(mode, i);
             });
             result.filtered += filtered_[i];
         }
@@ -282,19 +274,20 @@ private:
             fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * tolerance_.filtered_share));
     }
 
-    double errorAt(int mode, std::size_t pixel, double& allowed) const {
+    double errorAt(Channel mode, std::size_t pixel, double& allowed) const {
         const Image &a = given(mode), &b = changed(mode);
         const float *p = a.pixel(pixel), *q = b.pixel(pixel);
         allowed = 0;
         if (tolerance_.equality == Equality::bits ||
-            (tolerance_.equality == Equality::sums && mode != lightMode)) {
+            (tolerance_.equality == Equality::sums && mode != Channel::lit)) {
             allowed = tolerance_.ulps;
             return ulpsApart(p, q, a.components);
         }
         if (tolerance_.equality == Equality::rounding) {
             allowed = allowedByRounding(mode, pixel);
             if (isTextured(pixel))
-                allowed += tolerance_.filter_step * (mode == normalMode || mode == coatNormalMode ? 2 : 1) *
+                allowed += tolerance_.filter_step *
+                           (mode == Channel::normals || mode == Channel::clearcoat_normal ? 2 : 1) *
                            std::max({1.0, largest(p, a.components), largest(q, a.components)});
             return apart(p, q, a.components);
         }
@@ -313,12 +306,12 @@ private:
         return error;
     }
 
-    ChannelResult channel(int mode, Image& used) {
+    ChannelResult channel(Channel mode, Image& used) {
         const Image& image = given(mode);
         used = Image(image.width, image.height, 1);
         ChannelResult result{.mode = mode};
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            if (aside_[i] || (filtered_[i] && mode == lightMode)) continue;
+            if (aside_[i] || (filtered_[i] && mode == Channel::lit)) continue;
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
@@ -339,7 +332,7 @@ private:
     const RelationTolerance& tolerance_;
     const Coverage where_;
     const double light_floor_ =
-        PixelError(Metric::relative, ChannelKind::color, given(lightMode), where_).floor();
+        PixelError(Metric::relative, ChannelKind::color, given(Channel::lit), where_).floor();
     std::vector<bool> aside_, filtered_;
 };
 
@@ -367,12 +360,12 @@ Image cut(const Image& image, const PictureMap& map) {
 
 }  // namespace
 
-std::span<const int> relatedChannels() {
-    static const std::vector<int> related = [] {
-        std::vector<int> modes;
+std::span<const Channel> relatedChannels() {
+    static const std::vector<Channel> related = [] {
+        std::vector<Channel> modes;
         for (const DebugMode& mode : debugModes())
-            if (mode.related != 0) modes.push_back(mode.number);
-        std::ranges::sort(modes, {}, [](int mode) { return debugMode(mode).related; });
+            if (mode.related != 0) modes.push_back(mode.channel);
+        std::ranges::sort(modes, {}, [](Channel mode) { return debugMode(mode).related; });
         return modes;
     }();
     return related;
@@ -408,15 +401,16 @@ Frame mappedBack(const Frame& changed, const PictureMap& map) {
     back.settings.size.width -= 2 * map.border;
     back.settings.size.height -= 2 * map.border;
     back.background = changed.background;
-    for (const int mode : relatedChannels()) {
+    for (const Channel mode : relatedChannels()) {
         const auto found = changed.channels.find(mode);
         if (found == changed.channels.end()) continue;
         Image image = cut(found->second, map);
-        if (mode == lightMode || mode == static_cast<int>(gpu::DEBUG_emission)) divide(image, map.light);
-        if (mode == viewDepth) divide(image, map.length);
-        if (mode == normalMode || mode == facet || mode == coatNormalMode)
+        if (mode == Channel::lit || mode == Channel::emission) divide(image, map.light);
+        if (mode == Channel::depth) divide(image, map.length);
+        if (mode == Channel::normals || mode == Channel::geometric_normal ||
+            mode == Channel::clearcoat_normal)
             if (map.turn != glm::dmat3(1)) turnBack(image, glm::transpose(map.turn));
-        if (mode == idMode && !map.ids.empty())
+        if (mode == Channel::material_id && !map.ids.empty())
             for (float& id : image.data)
                 if (id >= 0) id = static_cast<float>(map.ids.at(static_cast<std::size_t>(id)));
         back.channels.emplace(mode, std::move(image));

@@ -15,7 +15,7 @@
 namespace diptych::audit {
 
 // Channels that are compared.
-std::span<const int> relatedChannels();
+std::span<const Channel> relatedChannels();
 
 // Tolerances between two images, each derived from a known property.
 struct RelationTolerance {
@@ -40,7 +40,7 @@ struct RelationTolerance {
     const Image* blended = nullptr;
     // rounding: error bounds of a packed G-buffer in each image, by channel, in units of its components;
     // and their effect on lit of both (W x H x 1, W/(sr m^2); nullptr: none).
-    std::map<int, double> packed;
+    std::map<Channel, double> packed;
     const Image* packed_light = nullptr;
 
     std::string inWords() const;
@@ -48,7 +48,7 @@ struct RelationTolerance {
 
 // Worst pixel of a channel: the one with the largest error relative to its tolerance.
 struct ChannelResult {
-    int mode = 0;
+    Channel mode = Channel::lit;
     double error = 0, allowed = 0;  // at that pixel, of the largest component (bits: ulps)
     double used = 0;                // error / allowed; infinite if no error is allowed
     int x = -1, y = -1;             // in the original image, from the top left; -1: no difference

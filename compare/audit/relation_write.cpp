@@ -17,9 +17,9 @@ namespace {
 
 // lit with the original image's exposure.
 Image8 shownLit(const Frame& frame, const Frame& given) {
-    const DebugMode& mode = debugMode(static_cast<int>(gpu::DEBUG_lit));
+    const DebugMode& mode = debugMode(Channel::lit);
     PictureScale scale;
-    scale.exposure = exposureFor({}, &given.channels.at(mode.number), coverage(given, given));
+    scale.exposure = exposureFor({}, &given.channels.at(mode.channel), coverage(given, given));
     return channelPicture(mode, frame, scale);
 }
 

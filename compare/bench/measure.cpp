@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/page/text.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/renderer.h"
 #include "compare/render/sample_counts.h"
 #include "shared/text/counted.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/registers.h"
 
+#include "compare/frames/frame_facts.h"
 #include "compare/render/compiled_plan.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/prepared_view.h"
 
 #include <algorithm>

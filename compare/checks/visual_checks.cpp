@@ -264,12 +264,12 @@ std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const Pose& pose, 
 }
 
 std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const SceneView& view, const Frame& frame) {
-    const auto channel = [&](gpu::uint mode) {
-        const auto found = frame.channels.find(static_cast<int>(mode));
+    const auto channel = [&](Channel mode) {
+        const auto found = frame.channels.find(mode);
         return found == frame.channels.end() ? nullptr : &found->second;
     };
-    return visualChecksOf(scene, view.pose, view.view, channel(gpu::DEBUG_material_id),
-                          channel(gpu::DEBUG_position));
+    return visualChecksOf(scene, view.pose, view.view, channel(Channel::material_id),
+                          channel(Channel::position));
 }
 
 }  // namespace diptych

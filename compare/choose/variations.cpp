@@ -2,7 +2,7 @@
 #include "compare/choose/variations.h"
 
 #include "compare/experiment/evaluator.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
 #include "forward_plus/prepass.h"
@@ -18,9 +18,6 @@
 namespace diptych::choose {
 
 namespace {
-
-constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
-              materialId = static_cast<int>(gpu::DEBUG_material_id);
 
 // The references' cameras only. Automatic cameras become explicit, so that variations use the same view.
 experiment::ReferenceFrames viewpointsOf(const Scene& scene, const experiment::ReferenceFrames& references) {
@@ -79,11 +76,12 @@ Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
         figures.covered += static_cast<double>(overdraw.covered);
         figures.triangles += static_cast<double>(overdraw.triangles);
         RenderOptions drawing;
-        drawing.channels = {materialId, lightCount};
+        drawing.channels = {Channel::material_id, Channel::light_count};
         drawing.requested = drawing.channels;
         drawing.runs = 0;
         const Frame frame = renderer.draw(seen, drawing);
-        const Image &ids = frame.channels.at(materialId), &lights = frame.channels.at(lightCount);
+        const Image &ids = frame.channels.at(Channel::material_id),
+                    &lights = frame.channels.at(Channel::light_count);
         for (std::size_t i = 0; i < ids.pixels(); ++i) {
             if (ids.pixel(i)[0] < 0) continue;
             figures.surface += 1;

@@ -26,7 +26,7 @@ AuditOpening::AuditOpening(const Options& options, const Settings& settings, con
     // An audit keeps up to six reference Frames at a time.
     const std::vector<Settings> references(6, referenceSettings(settings));
     RenderOptions drawing;
-    drawing.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};
+    drawing.channels = {Channel::lit, Channel::material_id};
     SceneViews views(scene_);
     checkHostMemory(views, references, drawing, device_.profile().software);
 }

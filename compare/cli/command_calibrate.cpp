@@ -27,9 +27,8 @@ external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const exter
     SceneViews views(scene);
     external::Attempt attempt =
         external::drawExternally(renderer, scene, views.at(viewRequest(settings)), settings);
-    const auto lit = static_cast<int>(gpu::DEBUG_lit);
-    if (attempt.frame && attempt.frame->channels.contains(lit))
-        shown.picture = std::move(attempt.frame->channels.at(lit));
+    if (attempt.frame && attempt.frame->channels.contains(Channel::lit))
+        shown.picture = std::move(attempt.frame->channels.at(Channel::lit));
     else
         shown.problem = attempt.frame ? "its picture has no R, G, B" : attempt.problem;
     if (lamp == external::Lamp::none && shown.picture.empty())

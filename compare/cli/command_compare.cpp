@@ -6,7 +6,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/report.h"

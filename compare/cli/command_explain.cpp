@@ -153,7 +153,7 @@ int explainScene(const Options& options) {
     RenderOptions drawing = renderOptions(options);
     drawing.channels = explainedChannels();
     if (other)
-        for (const int mode : deviceShareChannels())
+        for (const Channel mode : deviceShareChannels())
             if (std::ranges::count(drawing.channels, mode) == 0) drawing.channels.push_back(mode);
     drawing.runs = 0;
     drawing.progress = stage.part(0.1, 0.25);

@@ -114,7 +114,7 @@ private:
     void chooseExposure(const Frame& first) {
         exposure_line_ = exposureLine(first, picture_);
         if (picture_.exposure || picture_.ev100) return;
-        const auto lit = first.channels.find(static_cast<int>(gpu::DEBUG_lit));
+        const auto lit = first.channels.find(Channel::lit);
         if (output_.kind == OutputKind::exr || lit == first.channels.end()) return;
         picture_.exposure = exposureFor(picture_, &lit->second, coverage(first, first)).factor;
         exposure_line_ += "; chosen from the first image, used for all";

@@ -2,7 +2,7 @@
 #include "compare/bench/estimate.h"
 #include "compare/cli/commands.h"
 #include "compare/cli/compiled_words.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/path_plan.h"
 #include "compare/run/print.h"
 #include "shared/text/counted.h"

@@ -2,7 +2,7 @@
 #include "compare/cli/render_output.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/output_folder.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/run/print.h"

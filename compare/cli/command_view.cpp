@@ -46,8 +46,8 @@ bool fails(const Place& of) {
     return of.at("verdict").text() == "fail";
 }
 
-bool isOf(const Place& channel, int number) {
-    return channel.at("number").json() == number;
+bool isOf(const Place& channel, Channel shown) {
+    return channel.at("number").json() == channelNumber(shown);
 }
 
 // Whether the comparison fails; with --debug, whether that channel fails.
@@ -77,7 +77,7 @@ Place chosenChannel(const Place& channels, const Options& options) {
     for (const Place& channel : channels.each()) {
         if (options.debug_given && isOf(channel, options.shown)) return channel;
         if (fails(channel) && (!best || !fails(*best))) best = channel;
-        if (!best && isOf(channel, 0)) best = channel;
+        if (!best && isOf(channel, Channel::lit)) best = channel;
     }
     if (options.debug_given) fail(fmt::format("has no channel {}", debugMode(options.shown).name));
     return best ? *best : channels[0];
@@ -113,7 +113,7 @@ Options reported(const Options& given) {
     Options options =
         named("--report " + given.view.report.string(), [&] { return parseReported(of.command); });
     checkAsked("--report " + given.view.report.string(), options.scenes.front(), options.settings);
-    options.shown = findDebugMode(of.channel)->number;
+    options.shown = findDebugMode(of.channel)->channel;
     options.pixel = given.pixel ? given.pixel : of.pixel;
     options.size_given = true;
     options.view = given.view;

@@ -24,7 +24,7 @@ int listChannels(const Options& options) {
     if (options.json) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const DebugMode& mode : debugModes())
-            list.push_back({{"number", mode.number},
+            list.push_back({{"number", channelNumber(mode.channel)},
                             {"name", mode.name},
                             {"metric", nameOf(mode.metric)},
                             {"shows", mode.shows}});
@@ -32,7 +32,8 @@ int listChannels(const Options& options) {
         return 0;
     }
     for (const DebugMode& mode : debugModes())
-        printOut("{:>3}  {:<20} {:<9} {}\n", mode.number, mode.name, nameOf(mode.metric), mode.shows);
+        printOut("{:>3}  {:<20} {:<9} {}\n", channelNumber(mode.channel), mode.name, nameOf(mode.metric),
+                 mode.shows);
     return 0;
 }
 
@@ -94,7 +95,7 @@ RenderOptions renderOptions(const Options& options) {
     render.channels = options.channels;
     render.named = !options.channels.empty();
     if (render.channels.empty())
-        for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.number);
+        for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.channel);
     render.requested = render.channels;
     render.runs = options.runs;
     render.on_step = [&options](const std::string& step) { say(options, step); };

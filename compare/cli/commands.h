@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/cli/options.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
 #include "compare/render/shown_scene.h"

@@ -4,8 +4,8 @@
 
 #include "compare/bench/cases.h"
 #include "compare/external/renderer_file.h"
+#include "compare/frames/render_options.h"
 #include "compare/picture/picture.h"
-#include "compare/render/render_options.h"
 #include "compare/report/report_options.h"
 #include "compare/run/color.h"
 #include "compare/verdict/picture_diff.h"
@@ -76,10 +76,10 @@ struct Options {
     bool scene_given = false;                        // by a scene argument
     bool size_given = false, shadows_given = false;  // also by --settings
     Path baseline = Path::deferred;                  // compare: the left panel
-    int shown = 0;                                   // debug mode of the image
+    Channel shown = Channel::lit;                    // of the image
     bool debug_given = false;                        // by --debug
     bool heat = false;                               // --heat: shows the light count, overriding --debug
-    std::vector<int> channels;                       // debug modes, ascending; empty: all supported
+    std::vector<Channel> channels;                   // debug modes, ascending; empty: all supported
     int runs = 5;                                    // timed frames; default: defaultRuns()
     Twice twice = Twice::lit;                        // compare
     PictureChoice picture;

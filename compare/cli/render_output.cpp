@@ -43,27 +43,25 @@ void checkChannels(const Options& options) {
         if (const std::string_view why = notMadeBecause(options.settings, mode); !why.empty())
             throw std::runtime_error(fmt::format("{} {}: {}", option, mode.name, why));
     };
-    for (const int channel : options.channels) check(debugMode(channel), "--channels");
+    for (const Channel channel : options.channels) check(debugMode(channel), "--channels");
     check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
 }
 
 ShownChannels shownChannels(const Options& options) {
     ShownChannels shown;
-    for (const int channel : options.channels) shown.push_back(&debugMode(channel));
+    for (const Channel channel : options.channels) shown.push_back(&debugMode(channel));
     if ((shown.empty() || options.debug_given || options.heat) &&
         std::ranges::count(options.channels, options.shown) == 0)
         shown.push_back(&debugMode(options.shown));
     return shown;
 }
 
-std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested) {
-    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit),
-                   background = static_cast<int>(gpu::DEBUG_material_id);
+std::vector<Channel> channelsFor(OutputKind kind, const Options& options, std::vector<Channel> requested) {
     if (kind == OutputKind::exr) return requested;
     if (kind == OutputKind::png) requested.clear();
     for (const DebugMode* mode : shownChannels(options))
-        if (std::ranges::count(requested, mode->number) == 0) requested.push_back(mode->number);
-    for (const int needed : {lit, background})
+        if (std::ranges::count(requested, mode->channel) == 0) requested.push_back(mode->channel);
+    for (const Channel needed : {Channel::lit, Channel::material_id})
         if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);
     return requested;
 }

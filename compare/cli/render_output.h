@@ -35,7 +35,7 @@ void checkChannels(const Options& options);
 ShownChannels shownChannels(const Options& options);
 // Channels to render. An EXR needs the requested ones. Images need the shown ones, lit for the exposure,
 // and material_id for the background.
-std::vector<int> channelsFor(OutputKind kind, const Options& options, std::vector<int> requested);
+std::vector<Channel> channelsFor(OutputKind kind, const Options& options, std::vector<Channel> requested);
 // Notes options that the path ignores.
 void noteIgnored(const Options& options);
 

@@ -28,26 +28,26 @@ using namespace bench;
 
 namespace {
 
-int channelNumber(const std::string& word, const std::string& option) {
-    if (const DebugMode* mode = findDebugMode(word)) return mode->number;
+Channel channelNamed(const std::string& word, const std::string& option) {
+    if (const DebugMode* mode = findDebugMode(word)) return mode->channel;
     std::string all;
     std::vector<std::string> names;
     for (const DebugMode& mode : debugModes()) {
         names.emplace_back(mode.name);
-        all += fmt::format("{}{} {}", all.empty() ? "" : ", ", mode.number, mode.name);
+        all += fmt::format("{}{} {}", all.empty() ? "" : ", ", channelNumber(mode.channel), mode.name);
     }
     throw std::runtime_error(
         fmt::format("{} {}: no such channel{}; there are {}", option, word, didYouMean(word, names), all));
 }
 
-std::vector<int> channelNumbers(const std::string& list) {
-    std::vector<int> numbers;
+std::vector<Channel> channelsNamed(const std::string& list) {
+    std::vector<Channel> channels;
     std::istringstream words(list);
     for (std::string word; std::getline(words, word, ',');)
-        numbers.push_back(channelNumber(word, "--channels"));
-    std::ranges::sort(numbers);
-    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-    return numbers;
+        channels.push_back(channelNamed(word, "--channels"));
+    std::ranges::sort(channels);
+    channels.erase(std::ranges::unique(channels).begin(), channels.end());
+    return channels;
 }
 
 Settings settingsFromFile(const std::string& file) {
@@ -284,9 +284,9 @@ void resolve(Options& options, const ParsedOptions& parsed) {
     options.size_given = isGiven("size") || !parsed.settings_file.empty();
     options.shadows_given = isGiven("shadows") || !parsed.settings_file.empty();
     options.debug_given = !parsed.debug.empty();
-    if (options.debug_given) options.shown = channelNumber(parsed.debug, "--debug");
-    if (options.heat) options.shown = static_cast<int>(gpu::DEBUG_light_count);
-    if (parsed.channels != "all") options.channels = channelNumbers(parsed.channels);
+    if (options.debug_given) options.shown = channelNamed(parsed.debug, "--debug");
+    if (options.heat) options.shown = Channel::light_count;
+    if (parsed.channels != "all") options.channels = channelsNamed(parsed.channels);
     options.scene_given = !options.scenes.empty();
     for (const std::string& scene : options.scenes) refuseLineBreak(scene);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};

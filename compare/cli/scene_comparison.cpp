@@ -42,8 +42,7 @@ void checkSamples(const Options& options, const std::vector<Settings>& settings,
         if (isReference(s.path) || s.msaa == 1) continue;
         if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
             throw std::runtime_error(problem);
-        if (!options.channels.empty() &&
-            std::ranges::count(options.channels, static_cast<int>(gpu::DEBUG_lit)) == 0)
+        if (!options.channels.empty() && std::ranges::count(options.channels, Channel::lit) == 0)
             throw std::runtime_error(fmt::format(
                 "--msaa {}: only lit is compared with the reference; add it to --channels", s.msaa));
     }

@@ -4,8 +4,8 @@
 
 #include "compare/checks/visual_checks.h"
 #include "compare/external/renderer_file.h"
+#include "compare/frames/render_options.h"
 #include "compare/render/render_many.h"
-#include "compare/render/render_options.h"
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/frame/frame.h"

@@ -12,8 +12,6 @@
 namespace diptych::experiment {
 namespace {
 
-constexpr auto judgedMode = static_cast<int>(gpu::DEBUG_lit);
-
 HdrFlipOptions flipOver(const Coverage& coverage) {
     HdrFlipOptions options;
     options.covered = coverage.covered;
@@ -45,9 +43,9 @@ RelativeErrors relativeErrors(std::vector<double> errors) {
 
 ErrorsAgainst::ErrorsAgainst(const Frame& reference)
     : coverage_(coverage(reference, reference)),  // the same pixels for all rows
-      reference_(reference.channels.at(judgedMode)),
+      reference_(reference.channels.at(Channel::lit)),
       covered_(covered(reference_)),
-      relative_(debugMode(judgedMode).metric, debugMode(judgedMode).kind, reference_, coverage_) {}
+      relative_(debugMode(Channel::lit).metric, debugMode(Channel::lit).kind, reference_, coverage_) {}
 
 const HdrFlipAgainst& ErrorsAgainst::flip() const {
     if (!flip_) flip_.emplace(covered_, flipOver(coverage_));

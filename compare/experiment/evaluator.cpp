@@ -70,8 +70,7 @@ Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
         Frame frame = renderer_.draw(seenFrom(reference, settings), drawing);
         judged.bytes = std::max(judged.bytes, frame.bytes.images + frame.bytes.buffers);
         frame = upsampled(std::move(frame), reference.settings.size);
-        const FrameErrors errors =
-            (*references_.errors[camera])(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)));
+        const FrameErrors errors = (*references_.errors[camera])(frame.channels.at(Channel::lit));
         all.add(errors);
         judged.error = errors.errors.at(figure_);
     }

@@ -9,18 +9,16 @@
 namespace diptych::experiment {
 namespace {
 
-constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), IDS = static_cast<int>(gpu::DEBUG_material_id);
 // Channels that evaluate shadows.
-constexpr auto SEEN = static_cast<int>(gpu::DEBUG_shadow_visibility),
-               DEPTH = static_cast<int>(gpu::DEBUG_depth), LEVEL = static_cast<int>(gpu::DEBUG_cascade),
-               COARSER = static_cast<int>(gpu::DEBUG_page_residency);
 
 }  // namespace
 
 RenderOptions litOptions(const RenderOptions& options, bool shadows) {
     RenderOptions drawing = options;
-    drawing.channels = {LIT, IDS};
-    if (shadows) drawing.channels.insert(drawing.channels.end(), {SEEN, DEPTH, LEVEL, COARSER});
+    drawing.channels = {Channel::lit, Channel::material_id};
+    if (shadows)
+        drawing.channels.insert(drawing.channels.end(), {Channel::shadow_visibility, Channel::depth,
+                                                         Channel::cascade, Channel::page_residency});
     drawing.requested = drawing.channels;
     drawing.twice = Twice::none;
     drawing.through_gbuffer = false;
@@ -48,7 +46,7 @@ ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
         references.errors.push_back(std::make_shared<ErrorsAgainst>(references.frames.back()));
     }
     const Frame& first = references.frames.front();
-    references.exposure = exposureFor(choice, &first.channels.at(LIT), coverage(first, first));
+    references.exposure = exposureFor(choice, &first.channels.at(Channel::lit), coverage(first, first));
     return references;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/two_devices.h"
 
+#include "compare/frames/frame_facts.h"
 #include "compare/render/channel_shading.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"
@@ -84,22 +85,22 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
     return across;
 }
 
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there) {
+std::map<Channel, Image> relit(Device& device, Renderer& renderer, const Frame& there) {
     SurfaceImages surfaces(device, there.settings.size);
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) surfaces.set(0, c, there);
     Settings settings = there.settings;
     settings.transparency = Transparency::off;
     settings.assign = Assignment::every;
     ChannelShading shading = renderer.shadeChannels(settings, surfaces);
-    std::map<int, Image> images;
-    images[gpu::DEBUG_lit] = shading.shade(0);
+    std::map<Channel, Image> images;
+    images[Channel::lit] = shading.shade(0);
     ChannelTerms terms = shading.terms(0);
-    images[gpu::DEBUG_lit_diffuse] = std::move(terms.diffuse);
-    images[gpu::DEBUG_lit_specular] = std::move(terms.specular);
-    images[gpu::DEBUG_lit_ambient] = std::move(terms.ambient);
-    images[gpu::DEBUG_lit_environment] = std::move(terms.environment);
-    images[gpu::DEBUG_shadow_visibility] = std::move(terms.shadow_visibility);
-    images[gpu::DEBUG_local_visibility] = std::move(terms.local_visibility);
+    images[Channel::lit_diffuse] = std::move(terms.diffuse);
+    images[Channel::lit_specular] = std::move(terms.specular);
+    images[Channel::lit_ambient] = std::move(terms.ambient);
+    images[Channel::lit_environment] = std::move(terms.environment);
+    images[Channel::shadow_visibility] = std::move(terms.shadow_visibility);
+    images[Channel::local_visibility] = std::move(terms.local_visibility);
     for (auto& [mode, image] : images) keepInFile(image.data);
     return images;
 }

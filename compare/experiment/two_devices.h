@@ -22,6 +22,6 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
 // AcrossDevices::relit: relights the surfaces of `there`, a Frame of another device with one sample per
 // pixel, on `device`. Evaluates every light, because a position may fall into a neighbouring cell's list;
 // omits blended surfaces. Throws std::runtime_error, one line, if a channel is missing.
-std::map<int, Image> relit(Device& device, Renderer& renderer, const Frame& there);
+std::map<Channel, Image> relit(Device& device, Renderer& renderer, const Frame& there);
 
 }  // namespace diptych::experiment

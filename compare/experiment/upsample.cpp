@@ -34,11 +34,11 @@ std::vector<Between> betweenCentres(int from, int to) {
     return all;
 }
 
-const Image& channelOf(const Frame& frame, gpu::uint mode) {
-    const auto found = frame.channels.find(static_cast<int>(mode));
+const Image& channelOf(const Frame& frame, Channel mode) {
+    const auto found = frame.channels.find(mode);
     if (found == frame.channels.end())
-        throw std::runtime_error(frame.name + ": has no channel " +
-                                 std::string(debugMode(static_cast<int>(mode)).name) + " to resize");
+        throw std::runtime_error(frame.name + ": has no channel " + std::string(debugMode(mode).name) +
+                                 " to resize");
     return found->second;
 }
 
@@ -77,7 +77,7 @@ private:
 }  // namespace
 
 Frame upsampled(Frame frame, const Size& size) {
-    const Image lit = channelOf(frame, gpu::DEBUG_lit), ids = channelOf(frame, gpu::DEBUG_material_id);
+    const Image lit = channelOf(frame, Channel::lit), ids = channelOf(frame, Channel::material_id);
     if (frame.settings.size == size) return frame;
     const Coverage shown = coverage(frame, frame);
     const std::vector<Between> columns = betweenCentres(lit.width, size.width),
@@ -97,8 +97,8 @@ Frame upsampled(Frame frame, const Size& size) {
             newIds.data[i] = ids.at(columns[x].nearest, rows[y].nearest);
     frame.unblended = enlarged(frame.unblended);
     frame.channels.clear();
-    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = enlarged(lit);
-    frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = std::move(newIds);
+    frame.channels[Channel::lit] = enlarged(lit);
+    frame.channels[Channel::material_id] = std::move(newIds);
     frame.settings.size = size;
     return frame;
 }

@@ -2,6 +2,7 @@
 #include "compare/explain/ablation.h"
 
 #include "compare/explain/frame_images.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -118,7 +119,7 @@ const LightingComponents::Component* Ablation::componentOf(const AblationCause& 
 }
 
 Image Ablation::lit(Subset subset) {
-    if (subset == 0) return channelOf(sides_.frame(1), gpu::DEBUG_lit);
+    if (subset == 0) return channelOf(sides_.frame(1), Channel::lit);
     std::uint32_t channels = allChannelsOf(1);
     std::vector<bool> components(components_ ? components_->components().size() : 0);
     std::size_t residual = 1;

@@ -2,6 +2,7 @@
 #include "compare/explain/channel_lighting.h"
 
 #include "compare/explain/frame_images.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -10,10 +11,6 @@
 namespace diptych {
 
 namespace {
-
-constexpr int lightmapMode = static_cast<int>(gpu::DEBUG_lightmap),
-              lightmappedMode = static_cast<int>(gpu::DEBUG_lightmapped),
-              emissionMode = static_cast<int>(gpu::DEBUG_emission);
 
 // clang-format off
 constexpr std::string_view carried[] = {
@@ -24,7 +21,7 @@ constexpr std::string_view carried[] = {
 // clang-format on
 
 // A channel of a layer that neither Frame has is 0 in both.
-bool isSame(const Frame& baseline, const Frame& test, int mode) {
+bool isSame(const Frame& baseline, const Frame& test, Channel mode) {
     if (layerOf(mode) != 0) {
         const bool known = baseline.channels.contains(mode);
         if (known != test.channels.contains(mode)) return false;
@@ -42,9 +39,9 @@ std::span<const std::string_view> settingsInChannels() {
 ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Frame& baseline, const Frame& test)
     : renderer_(renderer), frames_{&baseline, &test}, images_(device, baseline.settings.size) {
     for (std::size_t c = 0; c < surfaceChannels().size(); ++c) {
-        const int mode = surfaceChannels()[c];
-        const auto same = [&](int of) { return isSame(baseline, test, of); };
-        const bool alike = same(mode) && (mode != lightmapMode || same(lightmappedMode));
+        const Channel mode = surfaceChannels()[c];
+        const auto same = [&](Channel of) { return isSame(baseline, test, of); };
+        const bool alike = same(mode) && (mode != Channel::lightmap || same(Channel::lightmapped));
         for (std::size_t side = 0; side < (alike ? 1u : 2u); ++side) images_.set(side, c, *frames_.at(side));
         if (!alike) differing_.push_back(c);
     }
@@ -72,9 +69,9 @@ Image ChannelLighting::lit(const Settings& settings, std::uint32_t sides) {
 
 LitSurfaces ChannelLighting::surfaces(const Settings& settings, std::uint32_t sides) {
     LitSurfaces made{lit(settings, sides), shading_->terms(sides), nullptr, {}};
-    const auto channel = static_cast<std::size_t>(std::ranges::find(surfaceChannels(), emissionMode) -
+    const auto channel = static_cast<std::size_t>(std::ranges::find(surfaceChannels(), Channel::emission) -
                                                   surfaceChannels().begin());
-    made.emission = &channelOf(*frames_.at(sides >> channel & 1u), emissionMode);
+    made.emission = &channelOf(*frames_.at(sides >> channel & 1u), Channel::emission);
     return made;
 }
 

@@ -2,6 +2,7 @@
 #include "compare/explain/device_shares.h"
 
 #include "compare/explain/lighting_components.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/channel.h"
 #include "compare/render/channel_shading.h"
 #include "compare/verdict/surface_grid.h"
@@ -28,7 +29,7 @@ Part partOf(const std::string& cause, bool textured) {
     if (seen.contains(cause)) return shadows;
     if (cause == "light_count") return lists;
     const DebugMode* const mode = findDebugMode(cause);
-    if (mode && std::ranges::count(surfaceChannels(), mode->number) > 0)
+    if (mode && std::ranges::count(surfaceChannels(), mode->channel) > 0)
         return textured ? textures : vertices;
     return rounding;
 }
@@ -49,12 +50,11 @@ std::string measured(const AcrossDevices& across) {
 
 }  // namespace
 
-std::vector<int> deviceShareChannels() {
-    std::vector<int> modes = surfacePixelChannels();
-    for (const int term : termChannels()) modes.push_back(term);
-    for (const gpu::uint mode :
-         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
-        modes.push_back(static_cast<int>(mode));
+std::vector<Channel> deviceShareChannels() {
+    std::vector<Channel> modes = surfacePixelChannels();
+    for (const Channel term : termChannels()) modes.push_back(term);
+    for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count})
+        modes.push_back(mode);
     return modes;
 }
 
@@ -69,7 +69,7 @@ std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Fram
     std::vector<double> sums(partCount);
     const auto add = [&](const std::string& cause, const Image& map) {
         const DebugMode* const mode = findDebugMode(cause);
-        const auto texels = mode ? across.texels.find(mode->number) : across.texels.end();
+        const auto texels = mode ? across.texels.find(mode->channel) : across.texels.end();
         for (std::size_t i = 0; i < map.pixels(); ++i) {
             const bool textured = texels != across.texels.end() && *texels->second.pixel(i) > 0;
             sums[surfaces.others[i] != 0 ? edges : partOf(cause, textured)] +=

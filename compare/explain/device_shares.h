@@ -12,7 +12,7 @@
 namespace diptych {
 
 // The channels needed beside explainedChannels().
-std::vector<int> deviceShareChannels();
+std::vector<Channel> deviceShareChannels();
 
 // Sums the maps of an explanation's causes; the results sum to its distance. Descending. `baseline`,
 // `test`: the explained Frames.

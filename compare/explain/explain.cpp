@@ -8,6 +8,7 @@
 #include "compare/explain/light_shares.h"
 #include "compare/explain/shapley.h"
 #include "compare/explain/undeclared_settings.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/flip.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -34,10 +35,10 @@ constexpr double namedPair = 0.05;
 
 // Throws if two Frames have different views or lack a channel.
 void checkExplained(const Frame& baseline, const Frame& test) {
-    const Image& lit = channelOf(baseline, gpu::DEBUG_lit);
-    channelOf(test, gpu::DEBUG_lit);
+    const Image& lit = channelOf(baseline, Channel::lit);
+    channelOf(test, Channel::lit);
     for (const Frame* const frame : {&baseline, &test})
-        for (const int mode : explainedChannels()) {
+        for (const Channel mode : explainedChannels()) {
             if (layerOf(mode) != 0 && !frame->channels.contains(mode)) continue;
             const Image& image = channelOf(*frame, mode);
             if (image.width != lit.width || image.height != lit.height)
@@ -150,7 +151,7 @@ Cause sharedCause(const AblationCause& cause, const AblationResults& results, st
     const auto worst = static_cast<std::size_t>(
         std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
     const auto width = static_cast<std::size_t>(lit.width);
-    const Image& ids = channelOf(sides.frame(0), gpu::DEBUG_material_id);
+    const Image& ids = channelOf(sides.frame(0), Channel::material_id);
     return {cause.title(),
             cause.shows,
             shares.share[i],
@@ -215,11 +216,11 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
 
 }  // namespace
 
-std::vector<int> explainedChannels() {
-    std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
-    modes.push_back(static_cast<int>(gpu::DEBUG_lit));
-    modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
-    modes.push_back(static_cast<int>(gpu::DEBUG_lightmapped));  // beside lightmap
+std::vector<Channel> explainedChannels() {
+    std::vector<Channel> modes(surfaceChannels().begin(), surfaceChannels().end());
+    modes.push_back(Channel::lit);
+    modes.push_back(Channel::material_id);
+    modes.push_back(Channel::lightmapped);  // beside lightmap
     std::ranges::sort(modes);
     return modes;
 }
@@ -227,7 +228,7 @@ std::vector<int> explainedChannels() {
 Explanation explain(Device& device, Renderer& renderer, const Scene& scene, const Frame& baseline,
                     const Frame& test, const Stage& progress) {
     checkExplained(baseline, test);
-    const Image &a = channelOf(baseline, gpu::DEBUG_lit), &b = channelOf(test, gpu::DEBUG_lit);
+    const Image &a = channelOf(baseline, Channel::lit), &b = channelOf(test, Channel::lit);
     const std::vector<double> errors = errorsOf(b, a);
     Explanation found;
     found.distance = meanOf(errors);

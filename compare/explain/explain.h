@@ -17,7 +17,7 @@
 namespace diptych {
 
 // Channels of a Frame that explain() needs. A Frame may lack those of layers (layerOf()), which are then 0.
-std::vector<int> explainedChannels();
+std::vector<Channel> explainedChannels();
 
 // `baseline`, `test`: of one view of the renderer's scene, with these channels. Throws std::runtime_error,
 // one line, otherwise.

@@ -31,7 +31,7 @@ ExplainedSides::ExplainedSides(const Frame& baseline, const Frame& test, Channel
 }
 
 const Image& ExplainedSides::lit(std::size_t side) const {
-    return side == 1 && exposure_ != 1 ? unexposed_ : channelOf(frame(side), gpu::DEBUG_lit);
+    return side == 1 && exposure_ != 1 ? unexposed_ : channelOf(frame(side), Channel::lit);
 }
 
 bool ExplainedSides::residualsDiffer() const {

@@ -5,7 +5,7 @@
 #include "compare/explain/explained.h"
 #include "compare/explain/substitute.h"
 #include "compare/explain/write.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
@@ -23,8 +23,7 @@ namespace {
 
 bool isWanted(bool all, const Comparison& comparison) {
     return all || std::ranges::any_of(comparison.channels, [](const ChannelDiff& channel) {
-               return channel.mode->number == static_cast<int>(gpu::DEBUG_lit) &&
-                      channel.verdict == Verdict::fail;
+               return channel.mode->channel == Channel::lit && channel.verdict == Verdict::fail;
            });
 }
 
@@ -43,9 +42,9 @@ struct ShownScene {
 };
 
 // `layers`: those of the scene (Requirements::layers); the channels of others are not needed.
-bool hasAll(const Frame& frame, const std::vector<int>& channels, std::uint32_t layers) {
+bool hasAll(const Frame& frame, const std::vector<Channel>& channels, std::uint32_t layers) {
     return std::ranges::all_of(
-        channels, [&](int mode) { return frame.channels.contains(mode) || !mayShow(mode, layers); });
+        channels, [&](Channel mode) { return frame.channels.contains(mode) || !mayShow(mode, layers); });
 }
 
 // Another renderer's file declares no lighting Settings: assume ours.
@@ -57,7 +56,7 @@ Frame asOurs(const Frame& file, const Frame& drawn) {
 
 Explained explained(const ExplanationQuestion& question, Device& device, ShownScene& drawing,
                     const Frame& left, const Frame& right, const Stage& progress) {
-    const std::vector<int> channels = explainedChannels();
+    const std::vector<Channel> channels = explainedChannels();
     const bool file = !left.origin.file.empty(), external = right.origin.external;
     if (file && external)
         throw std::runtime_error("Diptych rendered neither image, so it cannot explain their lighting");

@@ -15,7 +15,7 @@
 
 namespace diptych {
 
-const Image& channelOf(const Frame& frame, int mode) {
+const Image& channelOf(const Frame& frame, Channel mode) {
     const auto found = frame.channels.find(mode);
     if (found == frame.channels.end())
         throw std::runtime_error(fmt::format("{} has no channel {}, which an explanation needs", frame.name,

@@ -11,11 +11,8 @@
 
 namespace diptych {
 
-// A channel by debug mode number. Throws std::runtime_error, one line, if the Frame lacks it.
-const Image& channelOf(const Frame& frame, int mode);
-inline const Image& channelOf(const Frame& frame, gpu::uint mode) {
-    return channelOf(frame, static_cast<int>(mode));
-}
+// Throws std::runtime_error, one line, if the Frame lacks it.
+const Image& channelOf(const Frame& frame, Channel mode);
 
 // The scene index of the material in a pixel of channel material_id; -1: none, or an invalid number from a
 // file.

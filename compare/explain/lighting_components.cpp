@@ -18,9 +18,8 @@ namespace {
 
 constexpr std::size_t diffuseTerm = 0, specularTerm = 1, ambientTerm = 2, hazeTerm = 3, transmittanceTerm = 4,
                       wholeTerm = 5;
-constexpr std::array<gpu::uint, 5> termModes{gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular,
-                                             gpu::DEBUG_lit_ambient, gpu::DEBUG_lit_haze,
-                                             gpu::DEBUG_transmittance};
+constexpr std::array termModes{Channel::lit_diffuse, Channel::lit_specular, Channel::lit_ambient,
+                               Channel::lit_haze, Channel::transmittance};
 
 using Terms = std::array<const Image*, 5>;
 
@@ -30,13 +29,12 @@ Terms termsOf(const ChannelTerms& terms) {
 
 Terms termsOf(const Frame& frame) {
     Terms terms{};
-    for (std::size_t t = 0; t < termModes.size(); ++t)
-        terms.at(t) = &frame.channels.at(static_cast<int>(termModes.at(t)));
+    for (std::size_t t = 0; t < termModes.size(); ++t) terms.at(t) = &frame.channels.at(termModes.at(t));
     return terms;
 }
 
-const Image* channelIn(const Frame& frame, gpu::uint mode) {
-    const auto found = frame.channels.find(static_cast<int>(mode));
+const Image* channelIn(const Frame& frame, Channel mode) {
+    const auto found = frame.channels.find(mode);
     return found == frame.channels.end() ? nullptr : &found->second;
 }
 
@@ -184,12 +182,12 @@ bool isNothing(const Image& image) {
 
 }  // namespace
 
-std::vector<int> termChannels() {
+std::vector<Channel> termChannels() {
     return {termModes.begin(), termModes.end()};
 }
 
 bool haveTerms(const Frame& baseline, const Frame& test) {
-    return std::ranges::all_of(termModes, [&](gpu::uint mode) {
+    return std::ranges::all_of(termModes, [&](Channel mode) {
         const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
         return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
                b->components == 3;
@@ -204,8 +202,8 @@ Image sumOfLobes(const LightChannels& of) {
 
 Image sumOfTerms(const Frame& frame) {
     const Terms terms = termsOf(frame);
-    const Image &emission = *channelIn(frame, gpu::DEBUG_emission),
-                &ids = *channelIn(frame, gpu::DEBUG_material_id);
+    const Image &emission = *channelIn(frame, Channel::emission),
+                &ids = *channelIn(frame, Channel::material_id);
     Image sum(terms[0]->width, terms[0]->height, 3);
     float* const out = sum.data.data();
     forEach(sum.data.size(), [&](std::size_t i) {
@@ -227,20 +225,19 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
                                        const std::array<LitSurfaces, 2>& own) {
     const std::array<Terms, 2> terms{termsOf(baseline), termsOf(test)};
     residual_ = residualOf(lit, terms[1], own[1]);
-    TermImages change =
-        changeOf(residualOf(*channelIn(baseline, gpu::DEBUG_lit), terms[0], own[0]), residual_);
+    TermImages change = changeOf(residualOf(*channelIn(baseline, Channel::lit), terms[0], own[0]), residual_);
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
-    const auto share = [&](std::string name, std::string shows, gpu::uint mode, LightChange how,
+    const auto share = [&](std::string name, std::string shows, Channel mode, LightChange how,
                            const auto& part) {
         add({std::move(name), std::move(shows),
              takeDirectLight(change, terms[1], channelIn(baseline, mode), channelIn(test, mode), part), how});
     };
     share("shadow_visibility", "direct light that changes with the visibility of the sun",
-          gpu::DEBUG_shadow_visibility, LightChange::seen, shadowPart);
+          Channel::shadow_visibility, LightChange::seen, shadowPart);
     share("local_visibility", "direct light that changes with the visibility of point and spot lights",
-          gpu::DEBUG_local_visibility, LightChange::seen, shadowPart);
-    share("light_count", "direct light where the number of evaluated lights differs", gpu::DEBUG_light_count,
+          Channel::local_visibility, LightChange::seen, shadowPart);
+    share("light_count", "direct light where the number of evaluated lights differs", Channel::light_count,
           LightChange::whole, [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
     const auto term = [&](std::string name, std::string shows, std::initializer_list<std::size_t> of,
                           std::optional<LightChange> how = {}) {
@@ -257,7 +254,7 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
     const std::vector<std::uint8_t> blended = blendedIn(own);
     ChangeBeyond beyond =
         changeBeyond(change.at(wholeTerm),
-                     {channelIn(baseline, gpu::DEBUG_material_id), channelIn(test, gpu::DEBUG_material_id)},
+                     {channelIn(baseline, Channel::material_id), channelIn(test, Channel::material_id)},
                      blended, changesWithEmission(change.at(wholeTerm), blended, own, terms));
     const auto whole = [&](std::string name, std::string shows, Image& of) {
         change.at(wholeTerm) = std::move(of);

@@ -17,7 +17,7 @@
 namespace diptych {
 
 // Channels that both Frames must have: lit_diffuse, lit_specular, lit_ambient, lit_haze and transmittance.
-std::vector<int> termChannels();
+std::vector<Channel> termChannels();
 bool haveTerms(const Frame& baseline, const Frame& test);
 // Direct light of both lobes, W x H x 3.
 Image sumOfLobes(const LightChannels& of);

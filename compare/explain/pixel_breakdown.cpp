@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/pixel_breakdown.h"
 
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
 #include "compare/reference/pixel.h"
-#include "compare/render/frame_facts.h"
 #include "compare/verdict/channel_diff.h"
 #include "compare/verdict/encoding_use.h"
 #include "shared/contract/debug_mode.h"
@@ -28,10 +28,6 @@ namespace diptych {
 namespace {
 
 using Rgb3 = std::array<double, 3>;
-
-constexpr int numberOf(gpu::uint mode) {
-    return static_cast<int>(mode);
-}
 
 constexpr std::array<std::pair<PixelTerm::Kind, std::string_view>, 11> kindNames{
     {{PixelTerm::Kind::light, "light"},
@@ -57,7 +53,7 @@ double largest(const Rgb3& a) {
     return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
 }
 
-const Image* imageOf(const Frame& frame, int mode) {
+const Image* imageOf(const Frame& frame, Channel mode) {
     const auto found = frame.channels.find(mode);
     return found == frame.channels.end() ? nullptr : &found->second;
 }
@@ -66,7 +62,7 @@ const Image* imageOf(const Frame& frame, int mode) {
 RenderOptions drawingOf(const Requirements& needs, const Stage& progress) {
     RenderOptions drawing;
     for (const DebugMode& mode : debugModes())
-        if (mayShow(mode.number, needs.layers)) drawing.channels.push_back(mode.number);
+        if (mayShow(mode.channel, needs.layers)) drawing.channels.push_back(mode.channel);
     drawing.runs = 0;
     drawing.through_gbuffer = true;
     drawing.progress = progress;
@@ -99,7 +95,7 @@ public:
                  static_cast<std::size_t>(query.x)) {
         query.progress.at(0.6, "reference: the pixel");
         reference_ = renderer.referencePixel(query.reference, query.x, query.y);
-        lit_floor_ = floorOf(debugMode(numberOf(gpu::DEBUG_lit)));
+        lit_floor_ = floorOf(debugMode(Channel::lit));
     }
 
     PixelBreakdown build() {
@@ -114,7 +110,7 @@ public:
         findSurface();
         const std::array<Rgb3, 3> blended = blendedOver();
         breakdown_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
-        for (const int mode : pixelSteps()) takeStep(debugMode(mode));
+        for (const Channel mode : pixelSteps()) takeStep(debugMode(mode));
         takeFacts();
         if (breakdown_.shown) takeTerms();
         return std::move(breakdown_);
@@ -122,31 +118,30 @@ public:
 
 private:
     PixelValue valueOf(const Frame& frame, const DebugMode& mode) const {
-        const Image* const image = imageOf(frame, mode.number);
+        const Image* const image = imageOf(frame, mode.channel);
         if (!image) return {};
         const float* const p = image->pixel(pixel_);
         return {p, p + image->components};
     }
     // Value of a channel that both paths have.
-    Rgb3 colorOf(std::size_t side, gpu::uint mode) const {
-        const float* const p = frames_.at(side).channels.at(numberOf(mode)).pixel(pixel_);
+    Rgb3 colorOf(std::size_t side, Channel mode) const {
+        const float* const p = frames_.at(side).channels.at(mode).pixel(pixel_);
         return {double{p[0]}, double{p[1]}, double{p[2]}};
     }
-    Rgb3 referenceOf(gpu::uint mode) const { return rgb(reference_.channels.at(numberOf(mode))); }
+    Rgb3 referenceOf(Channel mode) const { return rgb(reference_.channels.at(mode)); }
     double floorOf(const DebugMode& mode) const {
-        return PixelError(mode.metric, mode.kind, frames_[0].channels.at(mode.number), covered_).floor();
+        return PixelError(mode.metric, mode.kind, frames_[0].channels.at(mode.channel), covered_).floor();
     }
 
     void findSurface() {
         for (const Frame& frame : frames_) {
-            const int id =
-                static_cast<int>(valueOf(frame, debugMode(numberOf(gpu::DEBUG_material_id))).at(0));
+            const int id = static_cast<int>(valueOf(frame, debugMode(Channel::material_id)).at(0));
             if (id < 0) continue;
             breakdown_.shown = true;
             breakdown_.material = id;
             if (static_cast<std::size_t>(id) < scene_.materials.size())
                 breakdown_.material_name = oneLine(scene_.materials[static_cast<std::size_t>(id)].name);
-            const PixelValue place = valueOf(frame, debugMode(numberOf(gpu::DEBUG_position)));
+            const PixelValue place = valueOf(frame, debugMode(Channel::position));
             const glm::dvec3 eye = view_.view.eye();
             breakdown_.position = {eye.x + place.at(0), eye.y + place.at(1), eye.z + place.at(2)};
             return;
@@ -175,10 +170,10 @@ private:
     void takeStep(const DebugMode& mode) {
         PixelStep step;
         step.mode = &mode;
-        const std::array images{imageOf(frames_[0], mode.number), imageOf(frames_[1], mode.number)};
+        const std::array images{imageOf(frames_[0], mode.channel), imageOf(frames_[1], mode.channel)};
         if (!images[0] && !images[1]) return;
         for (std::size_t side = 0; side < 2; ++side) step.values.at(side) = valueOf(frames_.at(side), mode);
-        if (const auto found = reference_.channels.find(mode.number); found != reference_.channels.end())
+        if (const auto found = reference_.channels.find(mode.channel); found != reference_.channels.end())
             for (int c = 0; c < mode.width; ++c) step.reference.push_back(found->second[c]);
         if (!step.isCompared()) {
             const Path lacking = frames_.at(images[0] ? 1 : 0).settings.path;
@@ -258,10 +253,10 @@ private:
 
     void takeLists(std::array<LightTerms, 2>& alone) {
         for (std::size_t side = 0; side < 2; ++side) {
-            const float depth = frames_.at(side).channels.at(numberOf(gpu::DEBUG_depth)).pixel(pixel_)[0];
+            const float depth = frames_.at(side).channels.at(Channel::depth).pixel(pixel_)[0];
             const std::optional<std::vector<std::size_t>> list =
                 alone.at(side).listAt(query_.x, query_.y, depth);
-            const double count = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count))).at(0);
+            const double count = valueOf(frames_.at(side), debugMode(Channel::light_count)).at(0);
             // The list is only valid if its length equals the pixel's own light count.
             if (!list || static_cast<double>(list->size()) != count) continue;
             breakdown_.lists_known.at(side) = true;
@@ -316,7 +311,7 @@ private:
         std::array<Rgb3, 2> values{};
         for (std::size_t side = 0; side < 2; ++side)
             values.at(side) =
-                plus(plus(colorOf(side, gpu::DEBUG_lit_diffuse), colorOf(side, gpu::DEBUG_lit_specular)),
+                plus(plus(colorOf(side, Channel::lit_diffuse), colorOf(side, Channel::lit_specular)),
                      environment.at(side), -1);
         std::vector<std::size_t> all(view_.lights.size());
         std::iota(all.begin(), all.end(), std::size_t{0});
@@ -339,7 +334,7 @@ private:
         const bool together = isByObject(query_.baseline) || isByObject(query_.test);
         if (!together) takeLightTerms(alone);
         std::array<Rgb3, 2> environment{};
-        const auto both = [&](gpu::uint mode) { return std::array{colorOf(0, mode), colorOf(1, mode)}; };
+        const auto both = [&](Channel mode) { return std::array{colorOf(0, mode), colorOf(1, mode)}; };
         const reference::Shading& rest = reference_.without_lights;
         if (view_.environment && query_.baseline.ibl_intensity > 0) {
             for (std::size_t side = 0; side < 2; ++side) {
@@ -354,16 +349,16 @@ private:
             add(PixelTerm::Kind::environment, {}, environment, rgb(rest.reflected.sum()), rest.uncertainty);
         }
         if (together && !view_.lights.empty()) takeLightsTogether(environment);
-        const auto takeChannel = [&](PixelTerm::Kind kind, gpu::uint mode, const Rgb3& nothing) {
+        const auto takeChannel = [&](PixelTerm::Kind kind, Channel mode, const Rgb3& nothing) {
             const std::array<Rgb3, 2> values = both(mode);
             const Rgb3 reference = referenceOf(mode);
             if (values[0] != nothing || values[1] != nothing || reference != nothing)
                 add(kind, {}, values, reference);
         };
-        takeChannel(PixelTerm::Kind::ambient, gpu::DEBUG_lit_ambient, {});
-        takeChannel(PixelTerm::Kind::emission, gpu::DEBUG_emission, {});
-        takeChannel(PixelTerm::Kind::transmittance, gpu::DEBUG_transmittance, {1, 1, 1});
-        takeChannel(PixelTerm::Kind::haze, gpu::DEBUG_lit_haze, {});
+        takeChannel(PixelTerm::Kind::ambient, Channel::lit_ambient, {});
+        takeChannel(PixelTerm::Kind::emission, Channel::emission, {});
+        takeChannel(PixelTerm::Kind::transmittance, Channel::transmittance, {1, 1, 1});
+        takeChannel(PixelTerm::Kind::haze, Channel::lit_haze, {});
         takeBlended();
         takeSum();
     }
@@ -374,10 +369,10 @@ private:
         std::array<Rgb3, 3> values{};
         for (std::size_t side = 0; side < 2; ++side) {
             const float* const before = frames_.at(side).unblended.pixel(pixel_);
-            values.at(side) = plus(colorOf(side, gpu::DEBUG_lit),
+            values.at(side) = plus(colorOf(side, Channel::lit),
                                    {double{before[0]}, double{before[1]}, double{before[2]}}, -1);
         }
-        values[2] = plus(referenceOf(gpu::DEBUG_lit), rgb(reference_.unblended), -1);
+        values[2] = plus(referenceOf(Channel::lit), rgb(reference_.unblended), -1);
         return values;
     }
 
@@ -400,8 +395,8 @@ private:
                     sizes.at(side) += largest(value);
                 }
             }
-        const std::array lit{colorOf(0, gpu::DEBUG_lit), colorOf(1, gpu::DEBUG_lit)};
-        const Rgb3 truth = referenceOf(gpu::DEBUG_lit);
+        const std::array lit{colorOf(0, Channel::lit), colorOf(1, Channel::lit)};
+        const Rgb3 truth = referenceOf(Channel::lit);
         add(PixelTerm::Kind::sum, {}, {sums[0], sums[1]}, sums[2]);
         add(PixelTerm::Kind::lit, {}, lit, truth, reference_.uncertainty);
         add(PixelTerm::Kind::residual, {}, {plus(lit[0], sums[0], -1), plus(lit[1], sums[1], -1)},
@@ -409,7 +404,7 @@ private:
         // Each addition, one for each evaluated light and a few more, rounds a sum no larger than all
         // summands together.
         for (std::size_t side = 0; side < 2; ++side) {
-            const PixelValue lights = valueOf(frames_.at(side), debugMode(numberOf(gpu::DEBUG_light_count)));
+            const PixelValue lights = valueOf(frames_.at(side), debugMode(Channel::light_count));
             breakdown_.residual_rounding.at(side) = (lights.at(0) + 8) * 0x1p-23 * sizes.at(side);
         }
         breakdown_.residual_rounding[2] = std::max(2 * reference_.uncertainty, 1e-9 * sizes[2]);
@@ -436,15 +431,15 @@ std::string_view nameOf(PixelTerm::Kind kind) {
     return "?";
 }
 
-bool isAfterTerms(int mode) {
+bool isAfterTerms(Channel mode) {
     return isLit(mode) || isOfHaze(mode);
 }
 
-std::span<const int> pixelSteps() {
-    static const std::vector<int> steps = [] {
-        std::vector<int> modes;
-        for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
-        std::ranges::sort(modes, {}, [](int mode) { return debugMode(mode).step; });
+std::span<const Channel> pixelSteps() {
+    static const std::vector<Channel> steps = [] {
+        std::vector<Channel> modes;
+        for (const DebugMode& mode : debugModes()) modes.push_back(mode.channel);
+        std::ranges::sort(modes, {}, [](Channel mode) { return debugMode(mode).step; });
         return modes;
     }();
     return steps;
@@ -452,7 +447,7 @@ std::span<const int> pixelSteps() {
 
 PixelBreakdown::First PixelBreakdown::first() const {
     for (const PixelStep& step : steps)
-        if (step.differs && !isAfterTerms(step.mode->number)) return {&step, nullptr};
+        if (step.differs && !isAfterTerms(step.mode->channel)) return {&step, nullptr};
     for (const PixelTerm& term : terms)
         if (term.differs && term.kind != PixelTerm::Kind::lit) return {nullptr, &term};
     for (const PixelStep& step : steps)

@@ -118,9 +118,9 @@ struct PixelBreakdown {
 };
 
 // Whether a channel is computed after the light terms: from them, or from what is in front of the surface.
-bool isAfterTerms(int mode);
+bool isAfterTerms(Channel mode);
 // Every channel's number, in order of computation.
-std::span<const int> pixelSteps();
+std::span<const Channel> pixelSteps();
 
 // Renders the view by both paths, the pixel by the reference, and up to `lightsDrawnAlone` lights alone.
 // `views`: those of the renderer. Throws std::runtime_error, one line, like Renderer.

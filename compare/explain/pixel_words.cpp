@@ -251,9 +251,9 @@ std::string howTermsWereMade(const PixelBreakdown& breakdown) {
     return text + (alone < all ? fmt::format("; the other {} together\n", all - alone) : "\n");
 }
 
-const PixelStep* stepOf(const PixelBreakdown& breakdown, gpu::uint mode) {
+const PixelStep* stepOf(const PixelBreakdown& breakdown, Channel mode) {
     for (const PixelStep& step : breakdown.steps)
-        if (step.mode->number == static_cast<int>(mode)) return &step;
+        if (step.mode->channel == mode) return &step;
     return nullptr;
 }
 
@@ -265,7 +265,7 @@ std::string headline(const PixelBreakdown& breakdown) {
     if (!breakdown.shown)
         return text + (breakdown.blended ? "background: no opaque surface, only blended fragments\n"
                                          : "background: no surface\n");
-    const PixelStep* const ids = stepOf(breakdown, gpu::DEBUG_material_id);
+    const PixelStep* const ids = stepOf(breakdown, Channel::material_id);
     text +=
         fmt::format("material {}{}", breakdown.material,
                     breakdown.material_name.empty() ? "" : fmt::format(", \"{}\"", breakdown.material_name));
@@ -305,9 +305,12 @@ Json stepsJson(const PixelBreakdown& breakdown) {
     };
     Json steps = Json::array();
     for (const PixelStep& step : breakdown.steps) {
-        Json one{{"number", step.mode->number},         {"name", step.mode->name},
-                 {"metric", nameOf(step.mode->metric)}, {"baseline", orNull(step.values[0])},
-                 {"test", orNull(step.values[1])},      {"reference", orNull(step.reference)}};
+        Json one{{"number", channelNumber(step.mode->channel)},
+                 {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->metric)},
+                 {"baseline", orNull(step.values[0])},
+                 {"test", orNull(step.values[1])},
+                 {"reference", orNull(step.reference)}};
         if (step.isCompared()) {
             one["difference"] = finiteOrNull(step.difference);
             one["differs"] = step.differs;
@@ -376,10 +379,9 @@ std::string inWords(const PixelBreakdown& breakdown) {
         {"step", breakdown.names[0], breakdown.names[1], "reference", "difference", "tolerance", "because"});
     std::size_t before = 1;  // lines before the lights
     for (const PixelStep& step : breakdown.steps) {
-        const int mode = step.mode->number;
+        const Channel mode = step.mode->channel;
         // In the background only lit and material_id have meaning.
-        if (!breakdown.shown && !isAfterTerms(mode) && mode != static_cast<int>(gpu::DEBUG_material_id))
-            continue;
+        if (!breakdown.shown && !isAfterTerms(mode) && mode != Channel::material_id) continue;
         steps.rows.push_back(stepRow(step));
         before += !isAfterTerms(mode);
     }

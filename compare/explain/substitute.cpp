@@ -34,13 +34,11 @@ const std::vector<std::vector<SurfaceChange>> otherSurfaces{
 // undeclared_settings.h.
 std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
                                  const RenderOptions& options) {
-    const auto lit = [](const Frame& frame) -> const Image& {
-        return frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
-    };
+    const auto lit = [](const Frame& frame) -> const Image& { return frame.channels.at(Channel::lit); };
     const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
     // Find the renderer's lighting conventions first: their effect would hide that of the surfaces.
     RenderOptions light = options;
-    light.channels = {static_cast<int>(gpu::DEBUG_lit)};
+    light.channels = {Channel::lit};
     const ConventionTrial trial{[&](const Settings& settings) { return lit(renderer.draw(settings, light)); },
                                 [&](const Image& ours) { return meanOf(errorsOf(ours, lit(external))); }};
     Frame shown =
@@ -79,7 +77,7 @@ Frame substituteChannels(const Frame& external, const Frame& plain, Renderer& re
     frame.settings = ours.settings;
     frame.requested.clear();
     // Only explained channels: our lighting sums describe our own image.
-    for (const int mode : explainedChannels())
+    for (const Channel mode : explainedChannels())
         if (const auto found = ours.channels.find(mode); found != ours.channels.end())
             frame.channels.try_emplace(mode, found->second);
     return frame;

@@ -154,21 +154,21 @@ private:
     TermFactors factorsOfTerms() {
         if (!sides_.haveTerms()) return {};
         const ChannelTerms terms = lighting_.under(said_).terms(allChannelsOf(1));
-        const auto theirs = [&](gpu::uint mode) -> const Image& { return channelOf(sides_.frame(1), mode); };
-        const Image& ids = theirs(gpu::DEBUG_material_id);
-        Image depth = theirs(gpu::DEBUG_transmittance), our_depth = terms.transmittance;
+        const auto theirs = [&](Channel mode) -> const Image& { return channelOf(sides_.frame(1), mode); };
+        const Image& ids = theirs(Channel::material_id);
+        Image depth = theirs(Channel::transmittance), our_depth = terms.transmittance;
         bool hazy = false, dark = true;
         for (std::size_t i = 0; i < depth.data.size(); ++i) {
             const bool surface = ids.pixel(i / 3)[0] >= 0;
             // Density is proportional to the logarithm of the transmittance.
             depth.data[i] = surface ? -std::log(depth.data[i]) : 0;
             our_depth.data[i] = surface ? -std::log(our_depth.data[i]) : 0;
-            hazy = hazy || depth.data[i] != 0 || theirs(gpu::DEBUG_lit_haze).data[i] != 0;
-            dark = dark && theirs(gpu::DEBUG_lit_ambient).data[i] == 0;
+            hazy = hazy || depth.data[i] != 0 || theirs(Channel::lit_haze).data[i] != 0;
+            dark = dark && theirs(Channel::lit_ambient).data[i] == 0;
         }
         return {true, !hazy,
                 dark ? std::optional(0.0)
-                     : exposureBetween(1.0, commonFactor(theirs(gpu::DEBUG_lit_ambient), terms.ambient)),
+                     : exposureBetween(1.0, commonFactor(theirs(Channel::lit_ambient), terms.ambient)),
                 exposureBetween(1.0, commonFactor(depth, our_depth))};
     }
 
@@ -177,7 +177,7 @@ private:
     Image comparable(const Settings& settings, std::size_t side) {
         if (!sides_.haveTerms()) return lighting_.lit(settings, allChannelsOf(side));
         return sumOfTerms(lighting_.under(settings).terms(allChannelsOf(side)),
-                          channelOf(sides_.frame(side), gpu::DEBUG_emission));
+                          channelOf(sides_.frame(side), Channel::emission));
     }
     // A side's residual beyond that image.
     Image beyond(const Image& ours, std::size_t side) const {
@@ -185,7 +185,7 @@ private:
     }
     bool bringsHazeNearer(const Settings& tried) {
         if (!sides_.haveTerms()) return true;
-        const Image& theirs = channelOf(sides_.frame(1), gpu::DEBUG_lit_haze);
+        const Image& theirs = channelOf(sides_.frame(1), Channel::lit_haze);
         const auto off = [&](const Settings& settings) {
             return meanOf(errorsOf(lighting_.under(settings).terms(allChannelsOf(1)).haze, theirs));
         };

@@ -16,9 +16,9 @@
 namespace diptych {
 
 Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice) {
-    const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
+    const DebugMode& lit = debugMode(Channel::lit);
     const Exposure exposure =
-        exposureFor(choice, &baseline.channels.at(lit.number), coverage(baseline, baseline));
+        exposureFor(choice, &baseline.channels.at(lit.channel), coverage(baseline, baseline));
     const Frame* const shown = &frame;
     return channelPicture(lit, frame, scaleFor(lit, exposure, std::span(&shown, 1)));
 }

@@ -343,14 +343,13 @@ ChartReference referenceUnder(const Scene& charts, Lamp lamp) {
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     RenderOptions options;
-    options.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};
+    options.channels = {Channel::lit, Channel::material_id};
     options.runs = 0;
     // lightFrom() gives the exact irradiance of faces; rendering the sky takes seconds.
     const Scene scene = chartsUnder(charts, lamp == Lamp::environment ? Lamp::none : lamp);
     settings.scene_lights = lamp != Lamp::environment && settings.scene_lights;
     Frame frame = std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
-    return {std::move(frame.channels.at(static_cast<int>(gpu::DEBUG_lit))),
-            std::move(frame.channels.at(static_cast<int>(gpu::DEBUG_material_id)))};
+    return {std::move(frame.channels.at(Channel::lit)), std::move(frame.channels.at(Channel::material_id))};
 }
 
 std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> pictures) {

@@ -4,7 +4,7 @@
 #include "compare/external/child_process.h"
 #include "compare/external/job.h"
 #include "compare/files/frame_exr.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/srgb.h"
@@ -85,7 +85,7 @@ void correctFrame(Frame& frame, const InputCorrections& corrections) {
         if (corrections.upside_down || corrections.mirrored)
             turnRound(image, corrections.upside_down, corrections.mirrored);
         // Transfer curve and primaries apply to radiance only.
-        if (mode != static_cast<int>(gpu::DEBUG_lit)) continue;
+        if (mode != Channel::lit) continue;
         if (corrections.transfer == Transfer::srgb)
             for (float& value : image.data)
                 value = static_cast<float>(linearFromSrgb(std::max(0.0, double{value})));

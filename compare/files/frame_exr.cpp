@@ -74,8 +74,8 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
                                          {"scene", frame.scene},
                                          {"settings", toJson(frame.settings, -1)},
                                          {"software", softwareName}};
-    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
-    if (!frame.uncertainty.empty() && frame.channels.contains(lit) && frame.isRequested(lit)) {
+    if (!frame.uncertainty.empty() && frame.channels.contains(Channel::lit) &&
+        frame.isRequested(Channel::lit)) {
         layers.push_back({{uncertainty_channel}, &frame.uncertainty});
         attributes.push_back({"relative_uncertainty", fmt::format("{}", frame.relative_uncertainty)});
     }
@@ -101,7 +101,7 @@ Frame frameFromExr(const std::filesystem::path& path) {
         for (PictureChannel& channel : channelsOf(std::move(file), {})) {
             const DebugMode* mode = findDebugMode(channel.name);
             if (mode && mode->name == channel.name && mode->width == channel.image.components)
-                frame.channels[mode->number] = std::move(channel.image);
+                frame.channels[mode->channel] = std::move(channel.image);
             else
                 frame.origin.left_out.push_back(oneLine(channel.name));
         }

@@ -165,9 +165,8 @@ void checkAlike(const PictureRows& a, const PictureRows& b, std::size_t covered)
 }
 
 // The channel that identifies background, and its value there.
-std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Frame& b) {
-    for (const auto& [mode, value] : {std::pair{static_cast<int>(gpu::DEBUG_material_id), -1.0f},
-                                      {static_cast<int>(gpu::DEBUG_depth), 0.0f}})
+std::optional<std::pair<Channel, float>> backgroundChannel(const Frame& a, const Frame& b) {
+    for (const auto& [mode, value] : {std::pair{Channel::material_id, -1.0f}, {Channel::depth, 0.0f}})
         if (a.channels.contains(mode) && b.channels.contains(mode)) return std::pair{mode, value};
     return {};
 }
@@ -176,7 +175,7 @@ std::optional<std::pair<int, float>> backgroundChannel(const Frame& a, const Fra
 // counts as surface.
 bool showsBlended(const Frame& frame, std::size_t pixel) {
     if (!frame.blended.empty()) return *frame.blended.pixel(pixel) > 0;
-    const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+    const auto lit = frame.channels.find(Channel::lit);
     if (frame.unblended.empty() || lit == frame.channels.end()) return false;
     return distance(lit->second.pixel(pixel), frame.unblended.pixel(pixel), lit->second.components) != 0;
 }

@@ -42,19 +42,18 @@ bool isRadiance(const DebugMode& mode) {
 }
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;
-    return mode.number == gpu::DEBUG_depth || mode.number == gpu::DEBUG_position ||
-           mode.number == gpu::DEBUG_shaded_samples || mode.number == gpu::DEBUG_iridescence_ior ||
-           mode.number == gpu::DEBUG_iridescence_thickness ||
-           mode.number == gpu::DEBUG_transmission_thickness ||
-           mode.number == gpu::DEBUG_attenuation_distance || mode.number == gpu::DEBUG_dispersion ||
-           isHeat(mode);
+    return mode.channel == Channel::depth || mode.channel == Channel::position ||
+           mode.channel == Channel::shaded_samples || mode.channel == Channel::iridescence_ior ||
+           mode.channel == Channel::iridescence_thickness ||
+           mode.channel == Channel::transmission_thickness || mode.channel == Channel::attenuation_distance ||
+           mode.channel == Channel::dispersion || isHeat(mode);
 }
 // Unit of a normalised channel, after a space; empty if it has none.
 const char* normalisedUnit(const DebugMode& mode) {
-    if (mode.shown != Shown::by_metric || mode.number == gpu::DEBUG_iridescence_ior ||
-        mode.number == gpu::DEBUG_dispersion)
+    if (mode.shown != Shown::by_metric || mode.channel == Channel::iridescence_ior ||
+        mode.channel == Channel::dispersion)
         return "";
-    return mode.number == gpu::DEBUG_iridescence_thickness ? " nm" : " m";
+    return mode.channel == Channel::iridescence_thickness ? " nm" : " m";
 }
 
 Rgb8 display(Color radiance, const Exposure& exposure) {
@@ -106,7 +105,7 @@ Image8 blank(const Image& like) {
 }  // namespace
 
 bool isHeat(const DebugMode& mode) {
-    return mode.shown == Shown::by_metric && mode.number == gpu::DEBUG_light_count;
+    return mode.shown == Shown::by_metric && mode.channel == Channel::light_count;
 }
 
 double srgbFromLinear(double linear) {
@@ -167,7 +166,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
     if (isNormalised(mode)) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const Frame* frame : frames) {
-            const Image& image = frame->channels.at(mode.number);
+            const Image& image = frame->channels.at(mode.channel);
             const Coverage seen = coverage(*frame, *frame);
             for (std::size_t i = 0; i < image.pixels(); ++i)
                 for (int c = 0; seen.covered[i] && c < image.components; ++c)
@@ -179,7 +178,7 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
         if (!(low <= high)) low = high = 0;
         if (isHeat(mode))
             return {0, heatTop(high), exposure, fmt::format("heat map, 0 to {:g} lights", heatTop(high))};
-        if (mode.number == gpu::DEBUG_shaded_samples)
+        if (mode.channel == Channel::shaded_samples)
             return {0, std::max(high, 1.0), exposure, fmt::format("grey, 0 to {:g} per pixel", high)};
         const std::string range = fmt::format("{:.4g} to {:.4g}{}", low, high, normalisedUnit(mode));
         if (low == high) high = low + 1;
@@ -201,12 +200,11 @@ PictureScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span
 }
 
 Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureScale& scale) {
-    const Image& image = frame.channels.at(mode.number);
+    const Image& image = frame.channels.at(mode.channel);
     const Coverage seen = coverage(frame, frame);
-    const Rgb8 background =
-        mode.number == gpu::DEBUG_lit ? display(frame.background, scale.exposure) : Rgb8{};
+    const Rgb8 background = mode.channel == Channel::lit ? display(frame.background, scale.exposure) : Rgb8{};
     Image8 result = blank(image);
-    const auto found = frame.repaired.find(mode.number);
+    const auto found = frame.repaired.find(mode.channel);
     const std::span<const std::uint32_t> repaired =
         found == frame.repaired.end() ? std::span<const std::uint32_t>() : std::span(found->second);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -216,7 +214,7 @@ Image8 channelPicture(const DebugMode& mode, const Frame& frame, const PictureSc
             continue;
         }
         // Background: the environment, if the frame shows one.
-        if (!seen.covered[i] && (mode.number != gpu::DEBUG_lit ||
+        if (!seen.covered[i] && (mode.channel != Channel::lit ||
                                  std::all_of(p, p + image.components, [](float v) { return v == 0; })))
             put(result, i, background);
         else if (!std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); }))

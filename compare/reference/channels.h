@@ -5,6 +5,7 @@
 #include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/frame/channel.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
 
@@ -16,28 +17,28 @@ namespace diptych::reference {
 
 // The part of Picture::rounding that belongs to a channel, from the four components of a pixel, W/(sr m^2); 0
 // if the channel is no light.
-double roundingOf(int mode, const float* rounding);
+double roundingOf(Channel mode, const float* rounding);
 
 // The components of a channel (shared/contract/debug_mode.h).
-glm::dvec3 channelValue(int mode, const Pixel& pixel);
+glm::dvec3 channelValue(Channel mode, const Pixel& pixel);
 
 // Decodes surfaces from a path's captured channels. Without the channels of a layer (layerOf() of
 // shared/frame/debug_modes.h) no surface has it.
 class Captured {
 public:
-    Captured(const std::map<int, Image>& channels, const std::vector<Material>& materials)
+    Captured(const std::map<Channel, Image>& channels, const std::vector<Material>& materials)
         : channels_(channels), materials_(materials) {}
 
-    bool isSurface(std::size_t pixel) const { return value(gpu::DEBUG_material_id, pixel).x >= 0; }
-    double depth(std::size_t pixel) const { return value(gpu::DEBUG_depth, pixel).x; }
-    int material(std::size_t pixel) const { return static_cast<int>(value(gpu::DEBUG_material_id, pixel).x); }
+    bool isSurface(std::size_t pixel) const { return value(Channel::material_id, pixel).x >= 0; }
+    double depth(std::size_t pixel) const { return value(Channel::depth, pixel).x; }
+    int material(std::size_t pixel) const { return static_cast<int>(value(Channel::material_id, pixel).x); }
     Surface surface(std::size_t pixel, const PixelRays& rays, int material) const;
 
 private:
-    bool isCaptured(gpu::uint mode) const { return channels_.contains(static_cast<int>(mode)); }
-    glm::dvec3 value(gpu::uint mode, std::size_t pixel) const;
+    bool isCaptured(Channel mode) const { return channels_.contains(mode); }
+    glm::dvec3 value(Channel mode, std::size_t pixel) const;
 
-    const std::map<int, Image>& channels_;
+    const std::map<Channel, Image>& channels_;
     const std::vector<Material>& materials_;
 };
 

@@ -5,6 +5,7 @@
 #include "compare/reference/haze.h"
 #include "compare/reference/lighting.h"
 #include "compare/reference/surface.h"
+#include "shared/frame/channel.h"
 
 #include <limits>
 #include <map>
@@ -35,9 +36,9 @@ struct Pixel {
 
 // One pixel, and the contribution of each light to it.
 struct PixelLight {
-    std::map<int, glm::dvec3> channels;  // by debug mode number, as in Picture::channels
-    double uncertainty = 0;              // as in Picture::uncertainty
-    glm::dvec3 unblended{0};             // lit without blended surfaces, W/(sr m^2)
+    std::map<Channel, glm::dvec3> channels;  // as in Picture::channels
+    double uncertainty = 0;                  // as in Picture::uncertainty
+    glm::dvec3 unblended{0};                 // lit without blended surfaces, W/(sr m^2)
     // At the pixel's centre, before haze; empty in the background. `lights` is indexed like
     // Request::lights: each light with its shadow, without environment and ambient light. `without_lights`
     // is the rest.

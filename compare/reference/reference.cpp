@@ -42,9 +42,8 @@ glm::dvec4 beyondEverywhere(const Shading& s) {
     return glm::max(s.rounding - everywhereRounded * light, glm::dvec4(0));
 }
 
-bool isOfShadows(int mode) {
-    return mode == static_cast<int>(gpu::DEBUG_shadow_visibility) ||
-           mode == static_cast<int>(gpu::DEBUG_local_visibility);
+bool isOfShadows(Channel mode) {
+    return mode == Channel::shadow_visibility || mode == Channel::local_visibility;
 }
 
 class Drawing {
@@ -55,11 +54,11 @@ public:
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
             if (!isMadeByReference(mode)) continue;
-            if (!request.shadow_edges && isOfShadows(mode.number)) continue;
-            const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.number);
-            Image& image = picture_.channels[mode.number];
-            if (copied && request.surfaces->contains(mode.number)) {
-                image = request.surfaces->at(mode.number);
+            if (!request.shadow_edges && isOfShadows(mode.channel)) continue;
+            const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.channel);
+            Image& image = picture_.channels[mode.channel];
+            if (copied && request.surfaces->contains(mode.channel)) {
+                image = request.surfaces->at(mode.channel);
                 continue;
             }
             image = Image(request.view.width, request.view.height, mode.width);
@@ -68,7 +67,7 @@ public:
             floats_ += mode.width;
         }
         if (request.decoded)
-            for (const int mode : litModes) {
+            for (const Channel mode : litModes) {
                 picture_.decoded[mode] = Image(request.view.width, request.view.height, 3);
                 floats_ += 3;
             }
@@ -161,11 +160,11 @@ private:
         std::vector<float> values{0};
         eachPixel(tile, [&](int x, int y) {
             const Pixel pixel = renderer.render(x, y);
-            const auto takeChannel = [&](int mode, int width, const Pixel& of) {
+            const auto takeChannel = [&](Channel mode, int width, const Pixel& of) {
                 const glm::dvec3 value = channelValue(mode, of);
                 for (int c = 0; c < width; ++c) values.push_back(static_cast<float>(value[c]));
             };
-            for (const auto& [mode, image] : drawn_) takeChannel(mode->number, mode->width, pixel);
+            for (const auto& [mode, image] : drawn_) takeChannel(mode->channel, mode->width, pixel);
             if (request_.decoded) {
                 const Pixel decoded = renderer.withDecoded(x, y, pixel);
                 for (const auto& [mode, image] : picture_.decoded)
@@ -216,11 +215,11 @@ private:
 
 }  // namespace
 
-std::vector<int> surfaceChannels(std::uint32_t layers) {
-    std::vector<int> modes;
+std::vector<Channel> surfaceChannels(std::uint32_t layers) {
+    std::vector<Channel> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isShaded(mode.number) && isMadeByReference(mode) && mayShow(mode.number, layers))
-            modes.push_back(mode.number);
+        if (!isShaded(mode.channel) && isMadeByReference(mode) && mayShow(mode.channel, layers))
+            modes.push_back(mode.channel);
     return modes;
 }
 
@@ -232,11 +231,11 @@ PixelLight drawPixel(const Request& request, int x, int y) {
                               static_cast<std::size_t>(x);
     for (const DebugMode& mode : debugModes()) {
         if (!isMadeByReference(mode)) continue;
-        glm::dvec3& value = result.channels[mode.number] = channelValue(mode.number, pixel);
-        if (request.mode == ReferenceMode::scene || isShaded(mode.number)) continue;
+        glm::dvec3& value = result.channels[mode.channel] = channelValue(mode.channel, pixel);
+        if (request.mode == ReferenceMode::scene || isShaded(mode.channel)) continue;
         // Not shaded: copied from the capture, or 0 of a layer that no surface has.
-        if (!request.surfaces->contains(mode.number)) continue;
-        const Image& image = request.surfaces->at(mode.number);
+        if (!request.surfaces->contains(mode.channel)) continue;
+        const Image& image = request.surfaces->at(mode.channel);
         for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(place)[c]};
     }
     result.uncertainty = pixel.shading.uncertainty + pixel.blended.uncertainty;

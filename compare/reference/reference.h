@@ -5,6 +5,7 @@
 
 #include "compare/reference/pixel.h"
 #include "compare/reference/request.h"
+#include "shared/frame/channel.h"
 #include "shared/image/image.h"
 
 #include <cstdint>
@@ -15,10 +16,10 @@ namespace diptych::reference {
 
 struct Picture {
     // by debug mode number, all supported channels; background as in a Frame
-    std::map<int, Image> channels;
+    std::map<Channel, Image> channels;
     // litModes of the surfaces of Request::decoded; positions, visibility and blended surfaces as in
     // `channels`.
-    std::map<int, Image> decoded;
+    std::map<Channel, Image> decoded;
     // Uncertainty of lit, in its unit: half the 95 % confidence interval of sampling, plus the quadrature
     // error. Empty if 0 everywhere.
     Image uncertainty;
@@ -50,7 +51,7 @@ struct Picture {
 
 // The channels that mode surface takes as input: captured by a path without any encoding, at one sample.
 // `layers`: of the scene's materials, Requirements::layers; the channels of other layers are not needed.
-std::vector<int> surfaceChannels(std::uint32_t layers);
+std::vector<Channel> surfaceChannels(std::uint32_t layers);
 
 // Renders the image, multithreaded. The result does not depend on the number of threads or on
 // interruptions. Throws std::runtime_error, one line, if finished tiles cannot be saved.

@@ -4,6 +4,7 @@
 
 #include "compare/reference/haze.h"
 #include "compare/reference/punctual.h"
+#include "shared/frame/channel.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
@@ -54,11 +55,11 @@ struct Request {
     }
     // In both modes rays hit the skinned and morphed geometry.
     ReferenceMode mode = ReferenceMode::surface;
-    int samples = 1;                                 // per pixel; mode scene only
-    Resolve resolve = Resolve::linear;               // how the samples are combined; mode scene only
-    const std::map<int, Image>* surfaces = nullptr;  // mode surface only: the surfaceChannels()
+    int samples = 1;                                     // per pixel; mode scene only
+    Resolve resolve = Resolve::linear;                   // how the samples are combined; mode scene only
+    const std::map<Channel, Image>* surfaces = nullptr;  // mode surface only: the surfaceChannels()
     // Mode surface only: the same channels as deferred decodes them, for Picture::decoded; or nullptr.
-    const std::map<int, Image>* decoded = nullptr;
+    const std::map<Channel, Image>* decoded = nullptr;
     // Called once, with the image's key and the number of floats in a tile; returns the Checkpoint for
     // finished tiles. The caller owns it and removes it once the image has been written. Empty: nothing is
     // saved. `program` is this program's version; tiles saved by another version are not used.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/channel_shading.h"
 
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "deferred/channel_lighting.h"
 #include "shared/contract/gbuffer.h"
@@ -20,13 +21,10 @@ namespace diptych {
 
 namespace {
 
-#define DIPTYCH_CHANNEL_MODE(number, name) static_cast<int>(gpu::DEBUG_##name),
-constexpr std::array channelModes{SURFACE_CHANNELS(DIPTYCH_CHANNEL_MODE)};
-#undef DIPTYCH_CHANNEL_MODE
 #define DIPTYCH_CHANNEL_PLACE(number, name) gpu::SURFACE_CHANNEL_##name,
 constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_PLACE)};
 #undef DIPTYCH_CHANNEL_PLACE
-constexpr std::size_t channelCount = channelModes.size();
+constexpr std::size_t channelCount = channelBindings.size();
 
 // Settings of the frame whose depth, light lists and shadows light the surfaces.
 Settings litBy(Settings settings) {
@@ -38,11 +36,10 @@ Settings litBy(Settings settings) {
     return settings;
 }
 
-const Image& channelOf(const Frame& frame, gpu::uint mode) {
-    const auto found = frame.channels.find(static_cast<int>(mode));
+const Image& channelOf(const Frame& frame, Channel mode) {
+    const auto found = frame.channels.find(mode);
     if (found == frame.channels.end())
-        throw std::logic_error(
-            fmt::format("{} has no {} to light", frame.name, debugMode(static_cast<int>(mode)).name));
+        throw std::logic_error(fmt::format("{} has no {} to light", frame.name, debugMode(mode).name));
     return found->second;
 }
 
@@ -66,24 +63,20 @@ std::vector<float> texelsOf(const Image& image, const Fourth& fourth) {
     return texels;
 }
 
-std::vector<float> texelsOf(const Frame& frame, int mode) {
+std::vector<float> texelsOf(const Frame& frame, Channel mode) {
     // A frame of a scene without the layer.
     if (layerOf(mode) != 0 && !frame.channels.contains(mode))
-        return std::vector<float>(4 * channelOf(frame, gpu::DEBUG_albedo).pixels());
-    const Image& image = channelOf(frame, static_cast<gpu::uint>(mode));
-    if (mode == static_cast<int>(gpu::DEBUG_lightmap)) {
-        const Image& has = channelOf(frame, gpu::DEBUG_lightmapped);
+        return std::vector<float>(4 * channelOf(frame, Channel::albedo).pixels());
+    const Image& image = channelOf(frame, mode);
+    if (mode == Channel::lightmap) {
+        const Image& has = channelOf(frame, Channel::lightmapped);
         return texelsOf(image, [&](std::size_t i) { return *has.pixel(i); });
     }
-    const float bits = mode == static_cast<int>(gpu::DEBUG_geometric_normal) ? quantisedTo(frame) : 0;
+    const float bits = mode == Channel::geometric_normal ? quantisedTo(frame) : 0;
     return texelsOf(image, [&](std::size_t) { return bits; });
 }
 
 }  // namespace
-
-std::span<const int> surfaceChannels() {
-    return channelModes;
-}
 
 struct SurfaceImages::State {
     Device& device;
@@ -105,7 +98,7 @@ SurfaceImages::SurfaceImages(SurfaceImages&&) noexcept = default;
 SurfaceImages::~SurfaceImages() = default;
 
 void SurfaceImages::set(std::size_t side, std::size_t channel, const Frame& frame) {
-    const int mode = channelModes.at(channel);
+    const Channel mode = surfaceChannels()[channel];
     const std::vector<float> texels = texelsOf(frame, mode);
     if (texels.size() != 4 * static_cast<std::size_t>(state_->size.width) * state_->size.height)
         throw std::logic_error("a channel of surfaces has another size");

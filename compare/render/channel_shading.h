@@ -18,9 +18,6 @@ namespace diptych {
 class Device;
 struct SharedResources;
 
-// Debug modes of SURFACE_CHANNELS, in the order of the bits below.
-std::span<const int> surfaceChannels();
-
 // The channels of two Frames on the device. A channel that is equal in both is stored once.
 class SurfaceImages {
 public:

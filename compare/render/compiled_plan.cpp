@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/compiled_plan.h"
 
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/frame/debug_modes.h"
@@ -23,10 +23,10 @@ namespace {
 CaptureRequest everyChannel(const Settings& settings, gpu::uint layers) {
     CaptureRequest request;
     for (const DebugMode& mode : debugModes()) {
-        if (!notMadeBecause(settings, mode).empty() || !mayShow(mode.number, layers)) continue;
-        request.modes.push_back(mode.number);
-        if (shadesFragments(settings.path) && isLit(mode.number))
-            request.through_gbuffer.push_back(mode.number);
+        if (!notMadeBecause(settings, mode).empty() || !mayShow(mode.channel, layers)) continue;
+        request.modes.push_back(mode.channel);
+        if (shadesFragments(settings.path) && isLit(mode.channel))
+            request.through_gbuffer.push_back(mode.channel);
     }
     return request;
 }

@@ -2,7 +2,7 @@
 // Estimates the host memory that Frames need, before anything is rendered.
 #pragma once
 
-#include "compare/render/render_options.h"
+#include "compare/frames/render_options.h"
 #include "shared/frame/settings.h"
 #include "shared/image/free_memory.h"
 #include "shared/scene/scene_view.h"

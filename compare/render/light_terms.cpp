@@ -28,8 +28,7 @@ struct LightTerms::State {
           lights(frame.view.lights.lights) {
         frame.passes.run();
         first = frame.passes.size();
-        const CaptureRequest request{
-            {static_cast<int>(gpu::DEBUG_lit_diffuse), static_cast<int>(gpu::DEBUG_lit_specular)}, {}, {}};
+        const CaptureRequest request{{Channel::lit_diffuse, Channel::lit_specular}, {}, {}};
         captured = frame.path.capture(frame.passes, frame.view.inputs, frame.images, request);
     }
 

@@ -2,9 +2,9 @@
 #include "compare/render/reference_frame.h"
 
 #include "compare/files/output.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/host_memory.h"
 #include "compare/render/left_out.h"
 #include "compare/run/interruption.h"
@@ -29,8 +29,6 @@ namespace diptych {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), background = static_cast<int>(gpu::DEBUG_material_id);
 
 // 99.9th percentile of the relative uncertainty over pixels that show a surface.
 double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverage& covered) {
@@ -127,7 +125,7 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
 
 // Moves the picture's images into the Frame, with notes on what they show.
 void takePicture(reference::Picture& picture, Frame& frame) {
-    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(lit));
+    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(Channel::lit));
     frame.channels = std::move(picture.channels);
     for (auto& [mode, image] : frame.channels)
         if (auto repaired = repairNonfinite(image); !repaired.empty())
@@ -145,7 +143,7 @@ void takePicture(reference::Picture& picture, Frame& frame) {
     }
     if (!picture.uncertainty.empty()) {
         frame.relative_uncertainty =
-            uncertaintyOf(picture.uncertainty, frame.channels.at(lit), coverage(frame, frame));
+            uncertaintyOf(picture.uncertainty, frame.channels.at(Channel::lit), coverage(frame, frame));
         frame.uncertainty = std::move(picture.uncertainty);
         frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
     }
@@ -185,11 +183,12 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     Frame frame = describedFrame(scene, view, settings);
     frame.requested = options.requested;
     takePicture(picture, frame);
-    const auto isUnwanted = [&](int mode) {
+    const auto isUnwanted = [&](Channel mode) {
         return std::ranges::count(options.channels, mode) == 0 || isLeftOut(options, view.needs.layers, mode);
     };
-    std::erase_if(frame.channels,
-                  [&](const auto& entry) { return isUnwanted(entry.first) && entry.first != background; });
+    std::erase_if(frame.channels, [&](const auto& entry) {
+        return isUnwanted(entry.first) && entry.first != Channel::material_id;
+    });
     std::erase_if(frame.through_gbuffer, [&](const auto& entry) { return isUnwanted(entry.first); });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (picture.kept_share > 0)

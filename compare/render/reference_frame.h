@@ -2,9 +2,9 @@
 // Makes a Frame with the reference renderer (compare/reference).
 #pragma once
 
+#include "compare/frames/render_options.h"
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/reference.h"
-#include "compare/render/render_options.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/render/render_options.h"
+#include "compare/frames/render_options.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"

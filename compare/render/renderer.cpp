@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/renderer.h"
 
+#include "compare/frames/frame_facts.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/host_memory.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/reference_frame.h"
@@ -60,10 +60,10 @@ public:
         if (auto cut = overflowInWords(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
         if (auto repaired = repairNonfinite(lit_); !repaired.empty()) {
             frame_.counters.nonfinite_pixels = repaired.size();
-            if (isRequested(lit)) frame_.repaired[lit] = std::move(repaired);
+            if (isRequested(Channel::lit)) frame_.repaired[Channel::lit] = std::move(repaired);
         }
         if (!options_.channels.empty()) capture();
-        if (!rechecks() && isRequested(lit)) frame_.channels[lit] = std::move(lit_);
+        if (!rechecks() && isRequested(Channel::lit)) frame_.channels[Channel::lit] = std::move(lit_);
         frame_.requested = options_.requested;
         frame_.made_in_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -86,19 +86,19 @@ private:
     }
     // Whether the capture also renders lit: to verify other channels, or for light through surfaces.
     bool rechecks() const {
-        const auto isOther = [](int mode) { return mode != lit; };
+        const auto isOther = [](Channel mode) { return mode != Channel::lit; };
         if (isThroughRequested()) return true;
         return options_.recheck && (std::ranges::any_of(options_.channels, isOther) ||
                                     options_.through_gbuffer || options_.twice != Twice::none);
     }
-    bool isRequested(int mode) const {
+    bool isRequested(Channel mode) const {
         return std::find(options_.channels.begin(), options_.channels.end(), mode) != options_.channels.end();
     }
 
     // Light through surfaces is that of the capture's lit.
     bool isThroughRequested() const {
-        constexpr auto through = static_cast<int>(gpu::DEBUG_lit_transmission);
-        return isRequested(through) && !isLeftOut(options_, prepared_.view.scene.needs.layers, through);
+        return isRequested(Channel::lit_transmission) &&
+               !isLeftOut(options_, prepared_.view.scene.needs.layers, Channel::lit_transmission);
     }
 
     // Renders with the timed pipelines, which contain no debug code.
@@ -114,15 +114,15 @@ private:
     // supports.
     CaptureRequest captureRequest() const {
         CaptureRequest request;
-        if (rechecks()) request.modes = {lit};
-        for (const int mode : options_.channels)
-            if (mode != lit && notMadeBecause(settings_, debugMode(mode)).empty() &&
+        if (rechecks()) request.modes = {Channel::lit};
+        for (const Channel mode : options_.channels)
+            if (mode != Channel::lit && notMadeBecause(settings_, debugMode(mode)).empty() &&
                 !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && shadesFragments(settings_.path))
-            for (const int mode : litModes)
-                if ((isRequested(mode) || (mode == lit && isThroughRequested())) &&
+            for (const Channel mode : litModes)
+                if ((isRequested(mode) || (mode == Channel::lit && isThroughRequested())) &&
                     !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                     request.through_gbuffer.push_back(mode);
         return request;
@@ -130,7 +130,7 @@ private:
 
     // Keeps lit from before blending, if lit was requested.
     void takeUnblended(const CapturedImage& read, Image image) {
-        if (!isRequested(lit)) return;
+        if (!isRequested(Channel::lit)) return;
         keepInFile(image.data);
         (read.through_gbuffer ? frame_.unblended_through_gbuffer : frame_.unblended) = std::move(image);
     }
@@ -156,12 +156,13 @@ private:
                 frame_.through_gbuffer[read.mode] = std::move(image);
                 return;
             }
-            if (read.mode == lit) {
+            if (read.mode == Channel::lit) {
                 frame_.counters.unreproduced_pixels =
                     unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
                 image = std::move(lit_);
             }
-            if (read.mode != lit && !repaired.empty()) frame_.repaired[read.mode] = std::move(repaired);
+            if (read.mode != Channel::lit && !repaired.empty())
+                frame_.repaired[read.mode] = std::move(repaired);
             keepInFile(image.data);
             frame_.channels[read.mode] = std::move(image);
         });
@@ -173,7 +174,7 @@ private:
                 if (hash != kernels_.at(buffer)) frame_.changed_buffers.push_back(buffer);
             Image again = readLit(prepared_);
             repairNonfinite(again);
-            addNoise(lit, again);
+            addNoise(Channel::lit, again);
         }
         if (options_.twice == Twice::all) {
             step("second capture", captureFrames);
@@ -182,12 +183,12 @@ private:
             std::erase_if(captured, [](const CapturedImage& read) { return read.sample > 0; });
             readCaptured(first, captured,
                          [this](const CapturedImage& read, const Image& image, const Repaired&) {
-                             if (read.mode != lit) addNoise(read.mode, image);
+                             if (read.mode != Channel::lit) addNoise(read.mode, image);
                          });
         }
-        if (isRequested(lit)) return;
-        frame_.channels.erase(lit);
-        frame_.through_gbuffer.erase(lit);
+        if (isRequested(Channel::lit)) return;
+        frame_.channels.erase(Channel::lit);
+        frame_.through_gbuffer.erase(Channel::lit);
     }
 
     // Runs the capture's passes group by group, beginning at pass `first`. Passes each group's channels to
@@ -222,17 +223,15 @@ private:
     }
 
     // Stores the difference of a channel's second run from its first.
-    void addNoise(int number, const Image& again) {
-        const Image& first = frame_.channels.at(number);
+    void addNoise(Channel channel, const Image& again) {
+        const Image& first = frame_.channels.at(channel);
         ChannelNoise noise{unequalPixels(first, again, 0), 0};
-        const DebugMode& mode = debugMode(number);
+        const DebugMode& mode = debugMode(channel);
         if (noise.pixels > 0)
             noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
-        frame_.noise[number] = noise;
+        frame_.noise[channel] = noise;
         letGo(first.data);
     }
-
-    static constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
 
     Device& device_;
     SharedResources& shared_;

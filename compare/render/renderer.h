@@ -2,10 +2,10 @@
 // Renders Frames of a scene with Settings, on one device.
 #pragma once
 
+#include "compare/frames/render_options.h"
 #include "compare/render/channel_shading.h"
 #include "compare/render/light_terms.h"
 #include "compare/render/prepared_frames.h"
-#include "compare/render/render_options.h"
 #include "compare/render/timing.h"
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
@@ -73,5 +73,8 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
                              const RenderOptions& options);
 std::vector<Frame> renderAll(Device& device, const Scene& scene, const std::vector<Settings>& settings,
                              const RenderOptions& options);
+
+// Cost of one Frame relative to rendering one frame; for progress lines.
+double framesIn(const RenderOptions& options);
 
 }  // namespace diptych

@@ -2,7 +2,7 @@
 // Loads a scene with the material variant and the environment that its Settings request.
 #pragma once
 
-#include "compare/render/render_options.h"
+#include "compare/frames/render_options.h"
 #include "compare/run/progress.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"

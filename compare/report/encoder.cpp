@@ -82,7 +82,7 @@ private:
             if (!a.data.empty()) write(pictures.baseline, a);
             if (!b.data.empty()) write(pictures.test, b);
         }
-        for (const Frame* frame : {&left, &right}) letGo(*frame, mode.number);
+        for (const Frame* frame : {&left, &right}) letGo(*frame, mode.channel);
     }
 
     // Writes the error image, its histogram and worst pixels, and the values script, which includes the
@@ -91,7 +91,7 @@ private:
         const DebugMode& mode = *channel.mode;
         const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);
         const auto imageOf = [&](const Frame& frame) {
-            const auto found = frame.channels.find(mode.number);
+            const auto found = frame.channels.find(mode.channel);
             return found == frame.channels.end() ? nullptr : &found->second;
         };
         const Image *left = imageOf(baseline), *right = imageOf(test);
@@ -107,7 +107,7 @@ private:
         }
         writeValues(pictures.values, left ? left : right, left ? right : nullptr,
                     errors.empty() ? nullptr : &errors);
-        for (const Frame* frame : {&baseline, &test}) letGo(*frame, mode.number);
+        for (const Frame* frame : {&baseline, &test}) letGo(*frame, mode.channel);
     }
 
     void writeValues(const std::string& name, const Image* first, const Image* second, const Image* errors) {

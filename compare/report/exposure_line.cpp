@@ -15,7 +15,7 @@ namespace diptych {
 namespace {
 
 Exposure exposureOf(const Frame& frame, const Coverage& coverage, const PictureChoice& choice) {
-    const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+    const auto lit = frame.channels.find(Channel::lit);
     return exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage);
 }
 
@@ -54,7 +54,7 @@ double exposureOfFile(const std::filesystem::path& file) {
                         file.string(), picture.format));
     try {
         const Frame frame = frameFromExr(file);
-        if (frame.channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+        if (frame.channels.contains(Channel::lit))
             return exposureOf(frame, coverage(frame, frame), {}).factor;
     } catch (const std::runtime_error&) {
         // Not one of our files: its first colours are radiance.

@@ -20,13 +20,13 @@ namespace {
 
 void writePicture(const std::filesystem::path& file, const Frame& frame, const DebugMode& shown,
                   const PictureChoice& choice) {
-    if (!frame.channels.contains(shown.number))
+    if (!frame.channels.contains(shown.channel))
         throw std::runtime_error(
             fmt::format("--debug {}: the {} path does not have this channel{}", shown.name, frame.name,
                         shown.maker == MadeBy::forward_only    ? "; forward_plus has it"
                         : shown.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
                                                                : ""));
-    const auto lit = frame.channels.find(gpu::DEBUG_lit);
+    const auto lit = frame.channels.find(Channel::lit);
     const Exposure exposure =
         exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
     const Frame* frames[] = {&frame};

@@ -47,8 +47,8 @@ public:
             "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "
             "\u00b7 {5} \u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div "
             "class=\"body\">\n",
-            nameOf(channel_.verdict), id_, open ? " open" : "", markup(mode.name), mode.number,
-            nameOf(mode.metric), markup(mode.shows));
+            nameOf(channel_.verdict), id_, open ? " open" : "", markup(mode.name),
+            channelNumber(mode.channel), nameOf(mode.metric), markup(mode.shows));
         if (!channel_.warning.empty())
             out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
         if (!compared) return out + single() + "</div></details>\n";
@@ -319,7 +319,7 @@ private:
         if (x < 0) return {};
         const auto values = [&](const Frame& frame) {
             std::string out;
-            const Image& pixels = frame.channels.at(channel_.mode->number);
+            const Image& pixels = frame.channels.at(channel_.mode->channel);
             for (int c = 0; c < pixels.components; ++c) out += fmt::format(" {:.6g}", pixels.at(x, y, c));
             return out;
         };

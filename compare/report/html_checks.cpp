@@ -43,8 +43,8 @@ public:
           layout_(layout),
           pictures_(layout.pictures[index]),
           id_(layout.ids[index]),
-          lit_(channelOr(gpu::DEBUG_lit, anyChannel())),
-          dark_(channelOr(gpu::DEBUG_albedo, lit_)) {}
+          lit_(channelOr(Channel::lit, anyChannel())),
+          dark_(channelOr(Channel::albedo, lit_)) {}
 
     std::string html() const {
         if (comparison_.visual_checks.empty()) return {};
@@ -76,9 +76,9 @@ private:
         return !pictures_[channel].baseline.empty() && !pictures_[channel].test.empty();
     }
     // The channel with this number, or `other` if it was not compared.
-    std::size_t channelOr(gpu::uint mode, std::size_t other) const {
+    std::size_t channelOr(Channel mode, std::size_t other) const {
         for (std::size_t i = 0; i < pictures_.size(); ++i)
-            if (comparison_.channels[i].mode->number == static_cast<int>(mode) && hasBoth(i)) return i;
+            if (comparison_.channels[i].mode->channel == mode && hasBoth(i)) return i;
         return other;
     }
     std::size_t anyChannel() const {
@@ -92,7 +92,7 @@ private:
 
     // Whether less than a tenth of the box reaches a hundredth of white in the image of lit.
     bool isDark(const PixelBox& box) const {
-        const auto lit = left_.channels.find(gpu::DEBUG_lit);
+        const auto lit = left_.channels.find(Channel::lit);
         if (lit == left_.channels.end()) return false;
         const double least = 0.01 / pictures_[lit_].scale.exposure.factor;
         // About a thousand pixels suffice

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
     Json values = Json::array();
-    const Image& image = frame.channels.at(channel.mode->number);
+    const Image& image = frame.channels.at(channel.mode->channel);
     for (int c = 0; c < image.components; ++c)
         values.push_back(finiteOrNull(double{image.at(channel.stats.worst_x, channel.stats.worst_y, c)}));
     return values;
@@ -39,7 +39,7 @@ Json jsonOf(const std::vector<Granted>& granted) {
 }
 
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
-    Json json{{"number", channel.mode->number},
+    Json json{{"number", channelNumber(channel.mode->channel)},
               {"name", channel.mode->name},
               {"metric", nameOf(channel.mode->metric)}};
     const ChannelStats& s = channel.stats;

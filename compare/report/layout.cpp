@@ -60,7 +60,7 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
     const std::string files = prefix + nameOfFile(mode.name);
     std::vector<const Frame*> shown;
     const auto add = [&](const Frame& frame, std::string& name) {
-        if (!frame.channels.contains(mode.number)) return;
+        if (!frame.channels.contains(mode.channel)) return;
         name = fmt::format("{}.{}.png", files, frame.name);
         shown.push_back(&frame);
     };
@@ -75,8 +75,8 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
         pictures.differ = true;
         pictures.difference = files + ".difference.png";
         pictures.error_limit = errorLimit(channel);
-        pictures.error_top = errorTop(channel, pictures.error_limit, left.channels.at(mode.number),
-                                      right.channels.at(mode.number), comparison.coverage);
+        pictures.error_top = errorTop(channel, pictures.error_limit, left.channels.at(mode.channel),
+                                      right.channels.at(mode.channel), comparison.coverage);
     }
     return pictures;
 }
@@ -141,7 +141,7 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
             if (kept && !options.single_file &&
                 (report.frames[frame].origin.file.empty() || report.frames[frame].origin.external))
                 layout.exr[frame] = folders.frames[frame] + report.frames[frame].name + ".exr";
-        const auto lit = left.channels.find(gpu::DEBUG_lit);
+        const auto lit = left.channels.find(Channel::lit);
         const Exposure exposure = exposureFor(
             options.picture, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
         layout.cause_maps.push_back(kept && comparison.explained && comparison.explained->map
@@ -153,7 +153,7 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
             if (!kept) leaveOut(channels.back());
             if (options.single_file) channels.back().values.clear();
             for (const std::size_t frame : {comparison.baseline, comparison.test})
-                letGo(report.frames[frame], channel.mode->number);
+                letGo(report.frames[frame], channel.mode->channel);
         }
         if (layout.part || (!options.single_file && places[i] >= comparisonsInPage))
             layout.sections[i] = folders.comparisons[i] + "comparison.section.js";

@@ -84,7 +84,7 @@ constexpr Verdict verdicts[] = {Verdict::pass, Verdict::fail, Verdict::forward_o
 Json summaryOf(const Comparison& comparison) {
     Json channels = Json::array(), checks = Json::array();
     for (const ChannelDiff& channel : comparison.channels)
-        channels.push_back({channel.mode->number, nameOf(channel.verdict), channel.reason, channel.warning});
+        channels.push_back({channel.mode->channel, nameOf(channel.verdict), channel.reason, channel.warning});
     for (const FeatureChecks& feature : comparison.visual_checks)
         checks.push_back({feature.feature, feature.found});
     return {{"frames", {comparison.baseline, comparison.test}},

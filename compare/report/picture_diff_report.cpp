@@ -28,7 +28,7 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
         const MatchedChannel& pair = channel->pair;
         const DebugMode* known = findDebugMode(pair.name);
         const bool ours = known && known->name == pair.name && known->width == pair.reference.components();
-        DebugMode mode{.number = ours ? known->number : 1000 + static_cast<int>(modes.size()),
+        DebugMode mode{.channel = ours ? known->channel : foreignChannel(static_cast<int>(modes.size())),
                        .name = pair.name,
                        .width = pair.reference.components(),
                        .metric = pair.metric,
@@ -59,7 +59,7 @@ Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test)
     for (std::size_t i = 0; i < modes.size(); ++i) {
         diff.channels[i]->measurement.reset();
         MatchedChannel& pair = diff.channels[i]->pair;
-        Image& channel = frame.channels[modes[i].number];
+        Image& channel = frame.channels[modes[i].channel];
         channel = (test ? pair.test : pair.reference).takeImage();
         keepInFile(channel.data);
     }

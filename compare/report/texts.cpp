@@ -42,7 +42,7 @@ std::string firstCause(const Comparison& comparison) {
 }
 
 double noiseOf(const Frame& frame, const ChannelDiff& channel) {
-    const auto found = frame.noise.find(channel.mode->number);
+    const auto found = frame.noise.find(channel.mode->channel);
     return found == frame.noise.end() ? 0 : sortable(found->second.max);
 }
 
@@ -80,7 +80,7 @@ Json jsonOf(const IndexRow& row) {
     for (const IndexChannel& c : row.channels)
         channels.push_back(
             {c.name, c.verdict, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip, c.noise});
-    return {{"worst", row.worst ? Json(row.worst->number) : Json(nullptr)},
+    return {{"worst", row.worst ? Json(channelNumber(row.worst->channel)) : Json(nullptr)},
             {"used", row.used},
             {"ms", {row.left_ms, row.right_ms}},
             {"timed", {row.left_timed, row.right_timed}},

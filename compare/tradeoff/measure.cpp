@@ -18,7 +18,6 @@ using page::cameraTitle;
 
 namespace {
 
-constexpr auto LIT = static_cast<int>(gpu::DEBUG_lit), SHADED = static_cast<int>(gpu::DEBUG_shaded_samples);
 constexpr int widestThumbnail = 480;  // pixels; width of a card on the page
 
 // Compares the row with --msaa-edges exact; empty without a choice of samples. `options`: used to render
@@ -56,7 +55,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
 void addCamera(MeasuredRow& measured, CameraRow camera, const Frame& frame,
                const experiment::ReferenceFrames& references, experiment::ErrorsOfCameras& all) {
     const std::size_t i = measured.row.cameras.size();
-    const experiment::FrameErrors errors = (*references.errors[i])(frame.channels.at(LIT));
+    const experiment::FrameErrors errors = (*references.errors[i])(frame.channels.at(Channel::lit));
     camera.errors = errors.errors;
     camera.pixels = errors.pixels.size();
     measured.row.cameras.push_back(std::move(camera));
@@ -71,7 +70,8 @@ void addCamera(MeasuredRow& measured, CameraRow camera, const Frame& frame,
 
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
-    return small(channelPicture(debugMode(LIT), frame, scaleFor(debugMode(LIT), exposure, frames)));
+    return small(
+        channelPicture(debugMode(Channel::lit), frame, scaleFor(debugMode(Channel::lit), exposure, frames)));
 }
 
 MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFrames& references) {
@@ -107,7 +107,7 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings,
         drawing.progress = options.progress.part(from / count, (from + 1) / count);
         const Settings seen = experiment::seenFrom(reference, settings);
         RenderOptions with_samples = drawing;
-        if (exactEdges(seen)) with_samples.channels.push_back(SHADED);
+        if (exactEdges(seen)) with_samples.channels.push_back(Channel::shaded_samples);
         with_samples.requested = with_samples.channels;
         Frame frame = renderer.draw(seen, with_samples);
         row.drawing_ms += frame.made_in_ms;

@@ -15,13 +15,13 @@ std::optional<Settings> exactEdges(const Settings& settings) {
 }
 
 std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame) {
-    const auto find = [](const Frame& of, gpu::uint mode) {
-        const auto found = of.channels.find(static_cast<int>(mode));
+    const auto find = [](const Frame& of, Channel mode) {
+        const auto found = of.channels.find(mode);
         return found == of.channels.end() ? nullptr : &found->second;
     };
-    const Image *lit = find(frame, gpu::DEBUG_lit), *exact_lit = find(exact, gpu::DEBUG_lit),
-                *shaded = find(frame, gpu::DEBUG_shaded_samples),
-                *exact_shaded = find(exact, gpu::DEBUG_shaded_samples);
+    const Image *lit = find(frame, Channel::lit), *exact_lit = find(exact, Channel::lit),
+                *shaded = find(frame, Channel::shaded_samples),
+                *exact_shaded = find(exact, Channel::shaded_samples);
     if (!lit || !exact_lit || !shaded || !exact_shaded || lit->pixels() != exact_lit->pixels()) return {};
     double pixels = 0, surfaces = 0, edges = 0, differing = 0, elsewhere = 0;
     for (std::size_t i = 0; i < lit->pixels(); ++i) {

@@ -13,7 +13,6 @@
 namespace diptych::tradeoff {
 namespace {
 
-constexpr auto visibilityMode = static_cast<int>(gpu::DEBUG_shadow_visibility);
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 double share(std::size_t part, std::size_t all) {
@@ -23,7 +22,8 @@ double share(std::size_t part, std::size_t all) {
 }  // namespace
 
 std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& frame) {
-    const auto seen = frame.channels.find(visibilityMode), is = reference.channels.find(visibilityMode);
+    const auto seen = frame.channels.find(Channel::shadow_visibility),
+               is = reference.channels.find(Channel::shadow_visibility);
     if (reference.shadow_edge.empty() || seen == frame.channels.end() || is == reference.channels.end() ||
         seen->second.pixels() != is->second.pixels())
         return {};

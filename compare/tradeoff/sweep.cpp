@@ -4,7 +4,7 @@
 #include "compare/experiment/kept.h"
 #include "compare/experiment/sensitivity.h"
 #include "compare/external/external_frame.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/shown_scene.h"
 #include "compare/tradeoff/measure.h"
 #include "shared/contract/debug_mode.h"
@@ -197,7 +197,7 @@ std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer
             external::Attempt attempt =
                 external::drawExternally(renderer, scene_, views_.at(viewRequest(settings)), settings);
             problem = attempt.problem;
-            if (attempt.frame && !attempt.frame->channels.contains(static_cast<int>(gpu::DEBUG_lit)))
+            if (attempt.frame && !attempt.frame->channels.contains(Channel::lit))
                 problem = "its picture has no R, G, B";
             if (!problem.empty()) break;
             for (const std::string& line : attempt.frame->notes)

@@ -2,7 +2,8 @@
 // Further inputs for comparing one path on two devices, beside the channels.
 #pragma once
 
-#include "compare/render/device_precision.h"
+#include "compare/frames/device_precision.h"
+#include "shared/frame/channel.h"
 #include "shared/image/image.h"
 
 #include <array>
@@ -14,7 +15,7 @@ namespace diptych {
 struct AcrossDevices {
     std::array<DevicePrecision, 2> devices;  // of the baseline and of the test
     // By surface channel, the range of texels that may be visible at a pixel (texel_ranges.h).
-    std::map<int, Image> texels;
+    std::map<Channel, Image> texels;
     // Texture coordinates of forward+ on both devices; they reveal seams, which a deferred Frame does not
     // show. nullptr: unknown.
     std::array<const Image*, 2> texcoords{};
@@ -24,7 +25,7 @@ struct AcrossDevices {
     std::function<bool(int material, const float* place, double near, bool several)> surface_at{};
     // Lit channels and visibilities of the test's surfaces, shaded on the baseline's device from their
     // channels.
-    std::map<int, Image> relit;
+    std::map<Channel, Image> relit;
 };
 
 }  // namespace diptych

@@ -16,8 +16,6 @@
 namespace diptych {
 namespace {
 
-constexpr int litNumber = static_cast<int>(gpu::DEBUG_lit);
-
 // lit before and after blending, W x H x 3.
 struct Blending {
     const Image* before = nullptr;
@@ -25,7 +23,7 @@ struct Blending {
 };
 
 Blending blendingOf(const Frame& frame) {
-    const auto lit = frame.channels.find(litNumber);
+    const auto lit = frame.channels.find(Channel::lit);
     if (lit == frame.channels.end() || frame.unblended.empty()) return {};
     return {&frame.unblended, &lit->second};
 }
@@ -33,7 +31,7 @@ Blending blendingOf(const Frame& frame) {
 // The same after the G-buffer's encoding if that is lossy: in a pair of both paths, only differences that
 // the encoding does not explain count.
 Blending encodedBlendingOf(const Frame& forward, const Frame& other) {
-    const auto lit = forward.through_gbuffer.find(litNumber);
+    const auto lit = forward.through_gbuffer.find(Channel::lit);
     if (!shadesFragments(forward.settings.path) || !hasGBuffer(other.settings.path) ||
         other.settings.gbuffer == GBufferEncoding::full ||
         forward.settings.gbuffer != other.settings.gbuffer || lit == forward.through_gbuffer.end() ||
@@ -55,7 +53,7 @@ void take(AfterBlending& found, double error, std::size_t pixel, int width) {
 
 AfterBlending ofPaths(const FramePair& pair, const Blending& a, const Blending& b) {
     AfterBlending found;
-    const DebugMode& lit = debugMode(litNumber);
+    const DebugMode& lit = debugMode(Channel::lit);
     const PixelError error(lit.metric, lit.kind, *a.after, pair.coverage);
     for (std::size_t i = 0; i < a.after->pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
@@ -77,7 +75,7 @@ AfterBlending ofPaths(const FramePair& pair, const Blending& a, const Blending& 
 
 AfterBlending ofReference(const FramePair& pair, const Blending& a, const Blending& b) {
     AfterBlending found;
-    const DebugMode& lit = debugMode(litNumber);
+    const DebugMode& lit = debugMode(Channel::lit);
     const double most = derivedTolerance(lit, pair).max;
     const std::vector<double> before = openErrors(lit, pair, *a.before, *b.before),
                               after = openErrors(lit, pair, *a.after, *b.after);

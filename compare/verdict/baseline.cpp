@@ -4,7 +4,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/output_folder.h"
 
-#include "compare/render/reference_frame.h"
+#include "compare/reference/reference.h"
 #include "compare/run/version.h"
 #include "compare/verdict/comparison.h"
 #include "shared/image/atomic_file.h"

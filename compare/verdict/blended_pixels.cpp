@@ -32,13 +32,13 @@ BlendedPixels::BlendedPixels(const FramePair& pair) : pair_(pair) {
 }
 
 const Image* BlendedPixels::imageOf(const DebugMode& mode) const {
-    const bool moved = mode.number == static_cast<int>(gpu::DEBUG_lit) ||
-                       mode.number == static_cast<int>(gpu::DEBUG_lit_transmission) || isOfGlass(mode);
-    return reference_ && moved ? &reference_->channels.at(mode.number) : nullptr;
+    const bool moved =
+        mode.channel == Channel::lit || mode.channel == Channel::lit_transmission || isOfGlass(mode);
+    return reference_ && moved ? &reference_->channels.at(mode.channel) : nullptr;
 }
 
 double BlendedPixels::throughGlass(const DebugMode& mode, std::size_t pixel) const {
-    if (!isLit(mode.number) || !imageOf(mode)) return 0;
+    if (!isLit(mode.channel) || !imageOf(mode)) return 0;
     const Image& glass = reference_->blended;
     double share = 0;
     within(glass, pixel, 1, [&](std::size_t i) { share = std::max(share, double{glass.pixel(i)[1]}); });

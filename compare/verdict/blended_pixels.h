@@ -34,7 +34,7 @@ public:
 
     // Whether the channel describes glass, which no path captures for the reference.
     static bool isOfGlass(const DebugMode& mode) {
-        return sourceOf(mode.number).part == MaterialPart::transmission;
+        return sourceOf(mode.channel).part == MaterialPart::transmission;
     }
 
 private:

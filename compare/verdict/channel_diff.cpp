@@ -122,7 +122,7 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
 void showExcess(ChannelDiff& channel, const FramePair& pair) {
     const std::optional<std::vector<double>> excess = certainErrors(*channel.mode, pair);
     if (!excess) return;
-    const Image& like = pair.baseline.channels.at(channel.mode->number);
+    const Image& like = pair.baseline.channels.at(channel.mode->channel);
     auto shown = std::make_shared<Image>(like.width, like.height, 1);
     std::size_t next = 0;
     for (std::size_t i = 0; i < shown->pixels(); ++i)
@@ -138,7 +138,7 @@ void showExcess(ChannelDiff& channel, const FramePair& pair) {
 }
 
 // Sum of both paths' differences between two runs.
-double noiseOf(const FramePair& pair, int mode) {
+double noiseOf(const FramePair& pair, Channel mode) {
     double sum = 0;
     for (const Frame* frame : {&pair.baseline, &pair.test})
         if (const auto noise = frame->noise.find(mode); noise != frame->noise.end()) sum += noise->second.max;
@@ -154,7 +154,7 @@ void setShare(Criterion& criterion, const Coverage& coverage) {
 void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
-    const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.number) : 0;
+    const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.channel) : 0;
     if (noise > 0) {
         channel.tolerance.max += noise;
         channel.tolerance.because +=
@@ -162,7 +162,7 @@ void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     }
     channel.unexplained_pixels = unexplainedPixels(mode, pair);
     channel.encoding_use = encodingUse(
-        mode, pair, noise + (pair.cpu ? 0 : gpuSlack(mode, pair.baseline.channels.at(mode.number))));
+        mode, pair, noise + (pair.cpu ? 0 : gpuSlack(mode, pair.baseline.channels.at(mode.channel))));
     channel.footprints = footprints(mode, pair);
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
     channel.certain_p999 = certainP999(mode, pair);
@@ -189,8 +189,8 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
     // This program's images must be in their valid range, whatever they are compared with.
     for (const Frame* frame : {&pair.baseline, &pair.test}) {
         if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
-        const auto ids = frame->channels.find(static_cast<int>(gpu::DEBUG_material_id));
-        const std::string fault = outsideDomain(mode, frame->channels.at(mode.number), pair.coverage,
+        const auto ids = frame->channels.find(Channel::material_id);
+        const std::string fault = outsideDomain(mode, frame->channels.at(mode.channel), pair.coverage,
                                                 ids == frame->channels.end() ? nullptr : &ids->second);
         if (!fault.empty()) channel.reason = frame->name + ": " + fault;
     }
@@ -226,7 +226,7 @@ std::string_view nameOf(Verdict verdict) {
 
 bool isInformative(const DebugMode& mode, const FramePair& pair) {
     // Light lists, shadows, terms of lit, haze.
-    return !pair.light_differs.empty() && sourceOf(mode.number).stage >= ChannelStage::list;
+    return !pair.light_differs.empty() && sourceOf(mode.channel).stage >= ChannelStage::list;
 }
 
 Tolerance informativeTolerance(const FramePair& pair) {
@@ -247,17 +247,17 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
                         bool allowNoise) {
     ChannelDiff channel;
     channel.mode = &mode;
-    channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.number),
-                                 pair.test.channels.at(mode.number), pair.coverage);
-    if (mode.number == static_cast<int>(gpu::DEBUG_lit)) channel.granted = grantedIn(mode, pair);
+    channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.channel),
+                                 pair.test.channels.at(mode.channel), pair.coverage);
+    if (mode.channel == Channel::lit) channel.granted = grantedIn(mode, pair);
     ChannelPair images{mode.metric,
                        mode.kind,
                        false,
-                       pair.baseline.channels.at(mode.number),
-                       pair.test.channels.at(mode.number),
+                       pair.baseline.channels.at(mode.channel),
+                       pair.test.channels.at(mode.channel),
                        &pair.coverage,
                        &channel.stats};
-    if (isPathAgainstReference(pair) && mode.number == static_cast<int>(gpu::DEBUG_lit))
+    if (isPathAgainstReference(pair) && mode.channel == Channel::lit)
         images.granted = grantedMean(channel.granted);
     const Measurement measurement(images);
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});

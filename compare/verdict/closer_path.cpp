@@ -72,17 +72,17 @@ double meanUncertainty(const Frame& referenceFrame, const Image& reference, cons
 CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
                             const std::array<const Frame*, 2>& paths, const Coverage& covered,
                             const std::vector<std::string>& names) {
-    const Image& reference = referenceFrame.channels.at(mode.number);
+    const Image& reference = referenceFrame.channels.at(mode.channel);
     CloserPathChannel channel;
     channel.mode = &mode;
     std::array<Image, 2> errors;
     for (std::size_t k = 0; k < 2; ++k) {
-        const Image& image = paths[k]->channels.at(mode.number);
+        const Image& image = paths[k]->channels.at(mode.channel);
         channel.paths[k] = pathErrorOf(mode, reference, image, covered);
         errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
     }
     channel.between =
-        pathErrorOf(mode, paths[0]->channels.at(mode.number), paths[1]->channels.at(mode.number), covered);
+        pathErrorOf(mode, paths[0]->channels.at(mode.channel), paths[1]->channels.at(mode.channel), covered);
     channel.apart = Image(reference.width, reference.height, 1);
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
@@ -101,7 +101,7 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
         const double least = std::min(first, second);
         channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
     }
-    const auto ids = referenceFrame.channels.find(static_cast<int>(gpu::DEBUG_material_id));
+    const auto ids = referenceFrame.channels.find(Channel::material_id);
     if (ids != referenceFrame.channels.end())
         channel.materials = materialsOf(ids->second, errors, covered, names);
     return channel;
@@ -121,8 +121,8 @@ CloserPath closerPathOf(const std::vector<Frame>& frames, std::size_t reference,
     CloserPath closer{reference, paths, {}};
     const std::array<const Frame*, 3> all{&frames[reference], &frames[paths[0]], &frames[paths[1]]};
     const bool sampled = all[1]->settings.msaa > 1;  // other channels are of one sample, not of the pixel
-    for (const int mode : litModes) {
-        if (sampled && mode != static_cast<int>(gpu::DEBUG_lit)) continue;
+    for (const Channel mode : litModes) {
+        if (sampled && mode != Channel::lit) continue;
         if (std::ranges::all_of(
                 all, [&](const Frame* f) { return f->channels.contains(mode) && f->isRequested(mode); }))
             closer.channels.push_back(channelOf(debugMode(mode), *all[0], {all[1], all[2]}, coverage, names));

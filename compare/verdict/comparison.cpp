@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/comparison.h"
 
-#include "compare/render/frame_facts.h"
-#include "compare/render/reference_frame.h"
+#include "compare/frames/frame_facts.h"
+#include "compare/reference/reference.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
@@ -28,14 +28,14 @@ namespace {
 // Planes that distinguish objects in two Frames.
 ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
     ObjectPlanes objects;
-    const auto find = [](const Frame& frame, gpu::uint mode) {
-        const auto found = frame.channels.find(static_cast<int>(mode));
+    const auto find = [](const Frame& frame, Channel mode) {
+        const auto found = frame.channels.find(mode);
         return found == frame.channels.end() ? nullptr : &found->second;
     };
     for (const int side : {0, 1}) {
         const Frame& frame = side == 0 ? reference : test;
-        objects.ids[side] = find(frame, gpu::DEBUG_material_id);
-        objects.depth[side] = find(frame, gpu::DEBUG_depth);
+        objects.ids[side] = find(frame, Channel::material_id);
+        objects.depth[side] = find(frame, Channel::depth);
     }
     return objects;
 }
@@ -103,8 +103,8 @@ void readNoise(const Frame& frame, bool cpu, bool allowed, Comparison& compariso
 // If lit was requested, checks whether blending adds a difference. If a rule covers lit, the rule decides
 // and this is only a note.
 void readBlending(const FramePair& pair, std::span<const Rule> rules, Comparison& comparison) {
-    const DebugMode& lit = debugMode(static_cast<int>(gpu::DEBUG_lit));
-    if (!pair.baseline.isRequested(lit.number) || !pair.test.isRequested(lit.number)) return;
+    const DebugMode& lit = debugMode(Channel::lit);
+    if (!pair.baseline.isRequested(lit.channel) || !pair.test.isRequested(lit.channel)) return;
     if (isInformative(lit, pair) && !ruleFor(rules, lit.name)) return;
     comparison.after_blending = afterBlending(pair);
     if (!comparison.after_blending) return;
@@ -139,21 +139,21 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
 
 // Surface channels that were not requested but on which a compared lit channel depends. If deferred
 // decodes them within their bounds, lit differs by no more than the bits allow.
-std::vector<int> provingChannels(const Comparison& comparison, const FramePair& pair,
-                                 std::span<const Rule> rules) {
+std::vector<Channel> provingChannels(const Comparison& comparison, const FramePair& pair,
+                                     std::span<const Rule> rules) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || deferred->settings.gbuffer == GBufferEncoding::full) return {};
     const bool judgesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
         const DebugMode& mode = *channel.mode;
-        return isLit(mode.number) && isCompared(channel.verdict) && !isInformative(mode, pair) &&
+        return isLit(mode.channel) && isCompared(channel.verdict) && !isInformative(mode, pair) &&
                !ruleFor(rules, mode.name);
     });
     if (!judgesLit) return {};
-    std::vector<int> modes;
-    for (const int mode : lightingFields())
+    std::vector<Channel> modes;
+    for (const Channel mode : lightingFields())
         if (deferred->channels.contains(mode) && forward->channels.contains(mode) &&
             std::ranges::none_of(comparison.channels,
-                                 [&](const ChannelDiff& c) { return c.mode->number == mode; }))
+                                 [&](const ChannelDiff& c) { return c.mode->channel == mode; }))
             modes.push_back(mode);
     return modes;
 }
@@ -179,7 +179,7 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
     if (coverage.known && shown < least)
         return fmt::format("only {} of the image shows the scene", percentText(shown));
     const auto litOf = [&](const Frame& frame) {
-        const auto lit = frame.channels.find(static_cast<int>(gpu::DEBUG_lit));
+        const auto lit = frame.channels.find(Channel::lit);
         const bool asked = lit != frame.channels.end() && frame.isRequested(lit->first);
         return asked ? litShare(lit->second, coverage) : 1.0;
     };
@@ -273,15 +273,15 @@ std::vector<std::string> pairChannels(const Frame& left, const Frame& right, con
             "the reference's the pixel centre");
     readOrigins(left, right, options.strict, comparison);
     ChannelDemands demands{options.rules, {}, options.strict};
-    for (const int mode : options.required) demands.names.emplace_back(debugMode(mode).name);
+    for (const Channel mode : options.required) demands.names.emplace_back(debugMode(mode).name);
     std::vector<std::string> names,
         lacking_channels;  // missing in another renderer, which need not have them
     for (const DebugMode& mode : debugModes()) {
-        const bool onLeft = left.channels.contains(mode.number) && left.isRequested(mode.number),
-                   onRight = right.channels.contains(mode.number) && right.isRequested(mode.number);
+        const bool onLeft = left.channels.contains(mode.channel) && left.isRequested(mode.channel),
+                   onRight = right.channels.contains(mode.channel) && right.isRequested(mode.channel);
         if (!onLeft && !onRight) continue;
         names.emplace_back(mode.name);
-        if (lit_alone && mode.number != static_cast<int>(gpu::DEBUG_lit)) continue;
+        if (lit_alone && mode.channel != Channel::lit) continue;
         const bool paths = !isMadeByReference(mode);
         if (onLeft && onRight) {
             if (paths && left.settings.assign != right.settings.assign)
@@ -312,22 +312,22 @@ std::vector<std::string> pairChannels(const Frame& left, const Frame& right, con
 
 // Compares the matched channels, and those that prove lit; of these, keeps only the failing ones.
 void diffChannels(const FramePair& pair, const CompareOptions& options, Comparison& comparison) {
-    const std::vector<int> proving = provingChannels(comparison, pair, options.rules);
-    for (const int mode : proving) comparison.channels.emplace_back().mode = &debugMode(mode);
+    const std::vector<Channel> proving = provingChannels(comparison, pair, options.rules);
+    for (const Channel mode : proving) comparison.channels.emplace_back().mode = &debugMode(mode);
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, comparison.channels.size(), [&](std::size_t i) {
         ChannelDiff& channel = comparison.channels[i];
         if (isCompared(channel.verdict))
             channel = diffChannel(*channel.mode, pair, options.rules, options.allow_noise);
         for (const Frame* frame : {&pair.baseline, &pair.test, pair.explaining})
-            if (frame) letGo(*frame, channel.mode->number);
+            if (frame) letGo(*frame, channel.mode->channel);
         options.progress.at(static_cast<double>(++done) / static_cast<double>(comparison.channels.size()),
                             "compare " + std::string(channel.mode->name));
     });
     std::erase_if(comparison.channels, [&](const ChannelDiff& channel) {
-        return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->number) > 0;
+        return channel.verdict == Verdict::pass && std::ranges::count(proving, channel.mode->channel) > 0;
     });
-    std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->number; });
+    std::ranges::sort(comparison.channels, {}, [](const ChannelDiff& c) { return c.mode->channel; });
 }
 
 // Warns if agreement says little; a failure with --strict. `shown` as for emptinessOf().

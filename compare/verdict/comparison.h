@@ -75,7 +75,7 @@ struct CompareOptions {
     // Fail if only one side has a channel: any channel (`strict`) or those requested by name (`required`).
     // `strict` also fails if the images show hardly anything.
     bool strict = false;
-    std::vector<int> required{};
+    std::vector<Channel> required{};
     bool allow_empty = false;  // images that show nothing, or hardly anything, are expected
     // The device's 8-bit texel sampling, which comparisons with a reference in mode scene tolerate.
     std::optional<TextureSampling> texels{};

@@ -79,7 +79,7 @@ double perTexel(const DebugMode& mode, const Requirements& needs) {
     }
 }
 
-const Image* imageOf(const std::map<int, Image>& images, int mode) {
+const Image* imageOf(const std::map<Channel, Image>& images, Channel mode) {
     const auto found = images.find(mode);
     return found == images.end() ? nullptr : &found->second;
 }
@@ -116,9 +116,9 @@ double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) cons
 }
 
 Shadowed::Shadowed(const FramePair& pair) {
-    for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
+    for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility})
         if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b) {
-            const Image* const relit = imageOf(pair.across->relit, static_cast<int>(mode));
+            const Image* const relit = imageOf(pair.across->relit, mode);
             images_.push_back({relit ? relit : a, b, a});
         }
 }
@@ -147,7 +147,7 @@ bool Shadowed::isBesideEdge(std::size_t i) const {
 }
 
 DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
-    switch (sourceOf(mode.number).stage) {
+    switch (sourceOf(mode.channel).stage) {
         case ChannelStage::place:
         case ChannelStage::haze:
             return Kind::place;
@@ -155,7 +155,7 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
             return Kind::facet;
         case ChannelStage::light:
         case ChannelStage::unshadowed:
-            return layerOf(mode.number) != 0 ? Kind::part : Kind::light;
+            return layerOf(mode.channel) != 0 ? Kind::part : Kind::light;
         case ChannelStage::visibility:
             return Kind::seen;
         case ChannelStage::list:
@@ -164,7 +164,7 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
             return Kind::id;
         case ChannelStage::surface:
         case ChannelStage::map:
-            if (sourceOf(mode.number).part == MaterialPart::transmission) return Kind::pane;
+            if (sourceOf(mode.channel).part == MaterialPart::transmission) return Kind::pane;
             return mode.metric == Metric::exact ? Kind::step : Kind::surface;
     }
     return Kind::surface;
@@ -174,29 +174,28 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
     : mode_(mode),
       across_(*pair.across),
       kind_(kindOf(mode)),
-      baseline_(pair.baseline.channels.at(mode.number)),
-      test_(pair.test.channels.at(mode.number)),
+      baseline_(pair.baseline.channels.at(mode.channel)),
+      test_(pair.test.channels.at(mode.channel)),
       error_(mode.metric, mode.kind, baseline_, pair.coverage),
       place_(mode, pair, baseline_, test_),
       facet_(pair),
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
       per_texel_(kind_ == Kind::pane && pair.needs.textures == 0 ? 0 : perTexel(mode, pair.needs)),
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
-      texels_(imageOf(across_.texels, mode.number)),
-      expected_(imageOf(across_.relit, mode.number)),
-      darkens_(mode.number == static_cast<int>(gpu::DEBUG_albedo) && pair.needs.specular_glossiness),
-      f0_(findChannel(pair.baseline, gpu::DEBUG_dielectric_f0)),
+      texels_(imageOf(across_.texels, mode.channel)),
+      expected_(imageOf(across_.relit, mode.channel)),
+      darkens_(mode.channel == Channel::albedo && pair.needs.specular_glossiness),
+      f0_(findChannel(pair.baseline, Channel::dielectric_f0)),
       shadowed_(pair) {
     // Diffuse and specular light round like lit, in integrals over the same lights.
-    if (const Image* lit = findChannel(pair.baseline, gpu::DEBUG_lit);
+    if (const Image* lit = findChannel(pair.baseline, Channel::lit);
         lit && kind_ == Kind::light && pair.needs.areaLights() > 0) {
-        const DebugMode& whole = debugMode(gpu::DEBUG_lit);
+        const DebugMode& whole = debugMode(Channel::lit);
         rounded_as_ =
             std::max(rounded_as_, roundedFloors(pair.needs) *
                                       PixelError(whole.metric, whole.kind, *lit, pair.coverage).floor());
     }
-    if (mode.number == static_cast<int>(gpu::DEBUG_lit) && !pair.baseline.unblended.empty() &&
-        !pair.test.unblended.empty())
+    if (mode.channel == Channel::lit && !pair.baseline.unblended.empty() && !pair.test.unblended.empty())
         unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
     if (!texels_ || !isColor()) return;
     shares_ = decodeShares(across_);
@@ -362,7 +361,7 @@ std::string DeviceBounds::decoding() const {
 
 BoundUse deviceUse(const DebugMode& mode, const FramePair& pair) {
     const DeviceBounds bounds(mode, pair);
-    return boundUse(pair.coverage, pair.baseline.channels.at(mode.number).width,
+    return boundUse(pair.coverage, pair.baseline.channels.at(mode.channel).width,
                     [&](std::size_t i) { return pixelUse(bounds.error(i), bounds(i)); });
 }
 

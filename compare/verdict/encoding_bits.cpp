@@ -36,7 +36,7 @@ unsigned bitsOf(const ChannelCode& stored, GBufferEncoding packed) {
 }
 
 // Whether a packed G-buffer of the scene has the channel in fewer bits than float32.
-bool isQuantised(int mode, GBufferEncoding encoding, const Requirements& needs) {
+bool isQuantised(Channel mode, GBufferEncoding encoding, const Requirements& needs) {
     const GBufferLayout layout = gbufferLayout(encoding, needs);
     switch (sourceOf(mode).part) {
         case MaterialPart::none:
@@ -126,21 +126,21 @@ double StoredField::largestBound() const {
     return 0;
 }
 
-std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs) {
+std::optional<StoredField> storedField(Channel mode, GBufferEncoding encoding, const Requirements& needs) {
     if (encoding == GBufferEncoding::full) return {};
     const ChannelCode& stored = debugMode(mode).stored;
     if (stored.code == FieldCode::exact || !isQuantised(mode, encoding, needs)) return {};
     StoredField field{stored.code, bitsOf(stored, encoding)};
     if (field.code == FieldCode::line)
-        field.normal_bits = bitsOf(debugMode(gpu::DEBUG_normals).stored, encoding);
+        field.normal_bits = bitsOf(debugMode(Channel::normals).stored, encoding);
     return field;
 }
 
-std::span<const int> lightingFields() {
-    static const std::vector<int> fields = [] {
+std::span<const Channel> lightingFields() {
+    static const std::vector<Channel> fields = [] {
         // The fourth component of the lightmap's image.
-        std::vector<int> found{static_cast<int>(gpu::DEBUG_lightmapped)};
-#define DIPTYCH_LIGHTING_FIELD(binding, name) found.push_back(static_cast<int>(gpu::DEBUG_##name));
+        std::vector<Channel> found{Channel::lightmapped};
+#define DIPTYCH_LIGHTING_FIELD(binding, name) found.push_back(Channel::name);
         SURFACE_CHANNELS(DIPTYCH_LIGHTING_FIELD)
 #undef DIPTYCH_LIGHTING_FIELD
         std::ranges::sort(found);

@@ -53,10 +53,10 @@ struct StoredField {
 };
 
 // A channel's field in a G-buffer of this encoding; empty if it is stored exactly or not at all.
-std::optional<StoredField> storedField(int mode, GBufferEncoding encoding, const Requirements& needs);
+std::optional<StoredField> storedField(Channel mode, GBufferEncoding encoding, const Requirements& needs);
 
 // The channels of all fields of Surface that lighting reads: lit is a function of them and of inputs that
 // both paths share.
-std::span<const int> lightingFields();
+std::span<const Channel> lightingFields();
 
 }  // namespace diptych

@@ -70,7 +70,7 @@ PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, do
     return pixelUse(metrics::distance(read, own, mode.width), slack * size);
 }
 
-bool isLightingField(int mode) {
+bool isLightingField(Channel mode) {
     return std::ranges::find(lightingFields(), mode) != lightingFields().end();
 }
 
@@ -79,18 +79,18 @@ bool isLightingField(int mode) {
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward) return {};
-    const auto mine = deferred->channels.find(mode.number), theirs = forward->channels.find(mode.number);
+    const auto mine = deferred->channels.find(mode.channel), theirs = forward->channels.find(mode.channel);
     if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};
-    const auto field = storedField(mode.number, deferred->settings.gbuffer, pair.needs);
+    const auto field = storedField(mode.channel, deferred->settings.gbuffer, pair.needs);
     // Images of each sample that both have: deferred's and forward+'s.
     std::vector<std::pair<const Image*, const Image*>> samples{{&mine->second, &theirs->second}};
-    const auto read = deferred->further_samples.find(mode.number),
-               own = forward->further_samples.find(mode.number);
+    const auto read = deferred->further_samples.find(mode.channel),
+               own = forward->further_samples.find(mode.channel);
     if (read != deferred->further_samples.end() && own != forward->further_samples.end() &&
         read->second.size() == own->second.size())
         for (std::size_t s = 0; s < read->second.size(); ++s)
             samples.emplace_back(&read->second[s], &own->second[s]);
-    if (!field && (samples.size() == 1 || !isLightingField(mode.number))) return {};
+    if (!field && (samples.size() == 1 || !isLightingField(mode.channel))) return {};
     return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
         PixelUse worst;
         for (const auto& [a, b] : samples) {

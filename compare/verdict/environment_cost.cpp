@@ -12,17 +12,15 @@ namespace diptych {
 namespace {
 
 bool isDiffuse(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit_diffuse) ||
-           mode.number == static_cast<int>(gpu::DEBUG_lit_transmission);
+    return mode.channel == Channel::lit_diffuse || mode.channel == Channel::lit_transmission;
 }
 // The costs are sums over the lobes of the base, the sheen and the clear coat, so they bound the parts too.
 bool isSpecular(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit_specular) ||
-           (isLit(mode.number) && layerOf(mode.number) != 0 && !isDiffuse(mode));
+    return mode.channel == Channel::lit_specular ||
+           (isLit(mode.channel) && layerOf(mode.channel) != 0 && !isDiffuse(mode));
 }
 bool isAll(const DebugMode& mode) {
-    return mode.number == static_cast<int>(gpu::DEBUG_lit) ||
-           mode.number == static_cast<int>(gpu::DEBUG_lit_environment);
+    return mode.channel == Channel::lit || mode.channel == Channel::lit_environment;
 }
 
 // Widening of the lobe by sampling, as a fraction of its solid angle, because each sample represents a

@@ -36,12 +36,12 @@ constexpr double sameSurface = 1e-5;
 
 // Channels of a surface's position, which are not filtered.
 bool isGeometry(const DebugMode& mode) {
-    return sourceOf(mode.number).stage == ChannelStage::place;
+    return sourceOf(mode.channel).stage == ChannelStage::place;
 }
 
 // Channels of a surface's material; where they differ, its light may.
 bool isSurface(const DebugMode& mode) {
-    return mode.maker == MadeBy::both && !isLit(mode.number) && !isGeometry(mode);
+    return mode.maker == MadeBy::both && !isLit(mode.channel) && !isGeometry(mode);
 }
 
 // Largest change of the value within `radius` pixels of (x, y).
@@ -60,15 +60,15 @@ public:
     Judge(const DebugMode& mode, const FramePair& pair)
         : mode_(mode),
           pair_(pair),
-          baseline_(pair.baseline.channels.at(mode.number)),
-          test_(pair.test.channels.at(mode.number)),
+          baseline_(pair.baseline.channels.at(mode.channel)),
+          test_(pair.test.channels.at(mode.channel)),
           error_(mode.metric, mode.kind, baseline_, pair.coverage),
           environment_(pair),
           blended_(pair) {
         for (const DebugMode& of : debugModes())
-            if ((of.number == mode.number || (isLit(mode.number) && isSurface(of))) &&
-                pair.baseline.channels.contains(of.number) && pair.test.channels.contains(of.number))
-                bounds_[of.number] = encodingBound(of, pair);
+            if ((of.channel == mode.channel || (isLit(mode.channel) && isSurface(of))) &&
+                pair.baseline.channels.contains(of.channel) && pair.test.channels.contains(of.channel))
+                bounds_[of.channel] = encodingBound(of, pair);
         for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
         if (!pair.texels) return;
         for (std::size_t code = 255; code > 0; --code)
@@ -132,8 +132,8 @@ private:
     // Whether each image shows a single material, or the background, all around. The two materials need
     // not be equal: a difference is an error.
     bool isInside(int x, int y) const {
-        const Image *a = findChannel(pair_.baseline, gpu::DEBUG_material_id),
-                    *b = findChannel(pair_.test, gpu::DEBUG_material_id);
+        const Image *a = findChannel(pair_.baseline, Channel::material_id),
+                    *b = findChannel(pair_.test, Channel::material_id);
         if (!a || !b) return true;
         const std::size_t here = indexOf(*a, x, y);
         bool inside = true;
@@ -150,14 +150,14 @@ private:
     bool isSameSurface(std::size_t i) const {
         for (const DebugMode& mode : debugModes()) {
             if (!isSurface(mode)) continue;
-            const Image *a = findChannel(pair_.baseline, static_cast<gpu::uint>(mode.number)),
-                        *b = findChannel(pair_.test, static_cast<gpu::uint>(mode.number));
+            const Image *a = findChannel(pair_.baseline, mode.channel),
+                        *b = findChannel(pair_.test, mode.channel);
             if (!a && !b) continue;
             if (!a || !b) return false;
             const double size =
                 mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
             const double same = (isAngle(mode.metric) ? degreesPerRadian : size) * sameSurface +
-                                (mode.metric == Metric::relative ? size : 1) * bounds_.at(mode.number);
+                                (mode.metric == Metric::relative ? size : 1) * bounds_.at(mode.channel);
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded =
                 mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) + darkened(mode, *a, i) : 0;
@@ -201,10 +201,8 @@ private:
     // Permitted effect on albedo of the texels of F0, which darkens the base of specular-glossiness: albedo
     // is diffuse times 1 - F0. Without that channel, both may be 1.
     double darkened(const DebugMode& mode, const Image& albedo, std::size_t i) const {
-        if (mode.number != static_cast<int>(gpu::DEBUG_albedo) || !pair_.texels ||
-            !pair_.needs.specular_glossiness)
-            return 0;
-        const Image* const image = findChannel(pair_.baseline, gpu::DEBUG_dielectric_f0);
+        if (mode.channel != Channel::albedo || !pair_.texels || !pair_.needs.specular_glossiness) return 0;
+        const Image* const image = findChannel(pair_.baseline, Channel::dielectric_f0);
         const double f0 = image ? metrics::largestFinite(image->pixel(i), image->components) : 1;
         const double diffuse = metrics::largestFinite(albedo.pixel(i), mode.width) / std::max(1 - f0, 0.0);
         return srgbBound(f0) * (diffuse < 1 ? diffuse : 1);
@@ -212,11 +210,11 @@ private:
 
     // Permitted error of light of `size` by the device's colours: all of it is multiplied by one of them.
     double colours(std::size_t i, double size) const {
-        if (!isLit(mode_.number) || !pair_.texels) return 0;
+        if (!isLit(mode_.channel) || !pair_.texels) return 0;
         double share = 0;
         for (const DebugMode& mode : debugModes()) {
             if (mode.texels != TexelUse::color) continue;
-            const Image* const image = findChannel(pair_.baseline, static_cast<gpu::uint>(mode.number));
+            const Image* const image = findChannel(pair_.baseline, mode.channel);
             const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
             if (value > 0) share = std::max(share, texels(mode, image->pixel(i)) / value);
         }
@@ -243,7 +241,7 @@ private:
         // A fiftieth of the channel's range; two degrees for directions.
         const double smooth = isAngle(mode_.metric) ? 2 : 0.02 * unit;
         if (!(std::max(range, rangeAt(mode_, first ? test_ : baseline_, x, y)) <= smooth)) return -1;
-        if (isLit(mode_.number) && !isSameSurface(i)) return -1;
+        if (isLit(mode_.channel) && !isSameSurface(i)) return -1;
         const double rounding =
             isAngle(mode_.metric) ? shadingRounding * degreesPerRadian : shadingRounding * unit;
         // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
@@ -264,15 +262,15 @@ private:
     double uncertainty(std::size_t i) const {
         const Image& known =
             isReferenceFrame(pair_.baseline) ? pair_.baseline.uncertainty : pair_.test.uncertainty;
-        return isLit(mode_.number) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
+        return isLit(mode_.channel) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
     }
 
     // Quantization error bound, or for light the encoding's effect, in the channel's metric.
     double encoding(std::size_t i, double unit) const {
-        if (!isLit(mode_.number)) return bounds_.at(mode_.number);
+        if (!isLit(mode_.channel)) return bounds_.at(mode_.channel);
         const Frame* const shown = encodingShownBy(mode_, pair_);
-        return shown ? metrics::distance(shown->channels.at(mode_.number).pixel(i),
-                                         shown->through_gbuffer.at(mode_.number).pixel(i), mode_.width) /
+        return shown ? metrics::distance(shown->channels.at(mode_.channel).pixel(i),
+                                         shown->through_gbuffer.at(mode_.channel).pixel(i), mode_.width) /
                            unit
                      : 0;
     }
@@ -322,7 +320,7 @@ private:
     PixelError error_;
     EnvironmentCost environment_;
     BlendedPixels blended_;
-    std::map<int, double> bounds_;  // encodingBound() of the surface's channels
+    std::map<Channel, double> bounds_;  // encodingBound() of the surface's channels
     std::array<double, 256> exact_{};
     // Largest relative decoding error over codes from this one on: a factor may have darkened the texel,
     // never brightened it.
@@ -350,10 +348,10 @@ double Footprints::closeShare() const {
     return all > 0 ? static_cast<double>(smooth) / static_cast<double>(all) : 1;
 }
 
-std::vector<int> footprintChannels() {
-    std::vector<int> channels{static_cast<int>(gpu::DEBUG_material_id)};
+std::vector<Channel> footprintChannels() {
+    std::vector<Channel> channels{Channel::material_id};
     for (const DebugMode& mode : debugModes())
-        if (isSurface(mode) && mode.number != channels.front()) channels.push_back(mode.number);
+        if (isSurface(mode) && mode.channel != channels.front()) channels.push_back(mode.channel);
     return channels;
 }
 

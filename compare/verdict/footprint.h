@@ -40,7 +40,7 @@ inline constexpr double leastCloseShare = 0.01;
 
 // Channels by which footprints() identifies a surface in two images. Both need all of them, whichever are
 // compared.
-std::vector<int> footprintChannels();
+std::vector<Channel> footprintChannels();
 
 // Their tolerance for people: the largest bound, and its reason.
 Tolerance footprintTolerance(const Footprints& footprints);

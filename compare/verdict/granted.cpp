@@ -46,8 +46,8 @@ double p999Of(std::vector<double> values) {
 
 std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
     if (!isPathAgainstReference(pair) || pair.coverage.count == 0) return {};
-    const Image &baseline = pair.baseline.channels.at(mode.number),
-                &test = pair.test.channels.at(mode.number);
+    const Image &baseline = pair.baseline.channels.at(mode.channel),
+                &test = pair.test.channels.at(mode.channel);
     const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
     const Allowances allowances(pair);
     std::array<std::vector<double>, approximations> errors;

@@ -17,8 +17,8 @@ namespace diptych {
 inline constexpr double degreesPerRadian = 180 / std::numbers::pi;
 
 // nullptr: the Frame lacks the channel.
-inline const Image* findChannel(const Frame& frame, gpu::uint mode) {
-    const auto found = frame.channels.find(static_cast<int>(mode));
+inline const Image* findChannel(const Frame& frame, Channel mode) {
+    const auto found = frame.channels.find(mode);
     return found == frame.channels.end() ? nullptr : &found->second;
 }
 
@@ -47,9 +47,9 @@ inline double apart(const DebugMode& mode, const float* a, const float* b) {
 class SurfaceAround {
 public:
     explicit SurfaceAround(const Frame& frame)
-        : ids_(findChannel(frame, gpu::DEBUG_material_id)),
-          normals_(findChannel(frame, gpu::DEBUG_geometric_normal)),
-          positions_(findChannel(frame, gpu::DEBUG_position)) {}
+        : ids_(findChannel(frame, Channel::material_id)),
+          normals_(findChannel(frame, Channel::geometric_normal)),
+          positions_(findChannel(frame, Channel::position)) {}
 
     bool sameMaterial(std::size_t i, std::size_t j) const {
         return !ids_ || *ids_->pixel(i) == *ids_->pixel(j);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/pair_reports.h"
 
-#include "compare/render/channel_shading.h"
-#include "compare/render/reference_frame.h"
+#include "compare/frames/frame_facts.h"
+#include "compare/reference/reference.h"
 #include "compare/run/command_text.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
@@ -29,18 +29,18 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
     render.environment_errors = true;
     // Additional channels: material_id excludes the background from every mean; others decide how light is
     // compared.
-    std::vector<int> helpers{static_cast<int>(gpu::DEBUG_material_id)};
+    std::vector<Channel> helpers{Channel::material_id};
     if (traced) helpers = footprintChannels();
     if (across) {
         helpers = surfacePixelChannels();
         helpers.insert(helpers.end(), surfaceChannels().begin(), surfaceChannels().end());
-        helpers.push_back(static_cast<int>(gpu::DEBUG_texcoords));
-        helpers.push_back(static_cast<int>(gpu::DEBUG_lightmapped));
+        helpers.push_back(Channel::texcoords);
+        helpers.push_back(Channel::lightmapped);
     }
     // The shadow filter's radius at a pixel depends on these.
     if (across)
-        for (const gpu::uint mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility})
-            helpers.push_back(static_cast<int>(mode));
+        for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility})
+            helpers.push_back(mode);
     // Light is compared by the fields from which it is computed (lightingFields()).
     const auto packed = [](const Settings& of) {
         return hasGBuffer(of.path) && of.gbuffer != GBufferEncoding::full;
@@ -48,14 +48,13 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
     const bool shadows =
         std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; });
     if (std::ranges::any_of(render.channels, isLit) && std::ranges::any_of(settings, packed))
-        std::ranges::copy_if(lightingFields(), std::back_inserter(helpers), [&](int mode) {
-            return shadows || mode != static_cast<int>(gpu::DEBUG_geometric_normal);
-        });
+        std::ranges::copy_if(lightingFields(), std::back_inserter(helpers),
+                             [&](Channel mode) { return shadows || mode != Channel::geometric_normal; });
     render.every_sample.assign(lightingFields().begin(), lightingFields().end());
     if (shadows)
-        for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_cascade, gpu::DEBUG_page_residency})
-            helpers.push_back(static_cast<int>(mode));
-    for (const int mode : helpers)
+        for (const Channel mode : {Channel::depth, Channel::cascade, Channel::page_residency})
+            helpers.push_back(mode);
+    for (const Channel mode : helpers)
         if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
     return render;
 }
@@ -131,8 +130,8 @@ Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirement
         const std::size_t view = i / 4;
         const std::size_t left = shadesFragments(options.baseline) ? 1 : 0;
         for (std::size_t path = 0; path < 2; ++path)
-            across.at(2 * view + path).texcoords = {findChannel(report.frames[i + 1], gpu::DEBUG_texcoords),
-                                                    findChannel(report.frames[i + 3], gpu::DEBUG_texcoords)};
+            across.at(2 * view + path).texcoords = {findChannel(report.frames[i + 1], Channel::texcoords),
+                                                    findChannel(report.frames[i + 3], Channel::texcoords)};
         struct Pair {
             std::size_t baseline, test;
             const AcrossDevices* across;
@@ -220,14 +219,14 @@ void showOurBackground(Frame& external, const Frame& ours) {
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             if (covered.covered[i]) continue;
             float* const here = image.pixel(i);
-            if (mode == static_cast<int>(gpu::DEBUG_lit))
+            if (mode == Channel::lit)
                 shown += std::any_of(here, here + image.components, [](float v) { return v != 0; });
             std::copy_n(other->second.pixel(i), image.components, here);
         }
     }
-    for (const gpu::uint mode : {gpu::DEBUG_material_id, gpu::DEBUG_depth})
-        if (const auto found = ours.channels.find(static_cast<int>(mode)); found != ours.channels.end())
-            external.channels.try_emplace(static_cast<int>(mode), found->second);
+    for (const Channel mode : {Channel::material_id, Channel::depth})
+        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
+            external.channels.try_emplace(mode, found->second);
     if (shown > 0)
         external.notes.push_back(
             fmt::format("{} is not black at {} where {} shows no surface: a background or shifted edges; "

@@ -2,7 +2,7 @@
 // Reports from Frames in pairs, with a reference, or with an earlier Frame.
 #pragma once
 
-#include "compare/render/render_options.h"
+#include "compare/frames/render_options.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/comparison.h"
 

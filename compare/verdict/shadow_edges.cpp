@@ -12,13 +12,13 @@ ShadowEdges::ShadowEdges(const FramePair& pair) {
     if (first == isReferenceFrame(pair.test)) return;
     reference_ = first ? &pair.baseline : &pair.test;
     path_ = first ? &pair.test : &pair.baseline;
-    const auto find = [&](gpu::uint mode) {
-        const auto found = path_->channels.find(static_cast<int>(mode));
+    const auto find = [&](Channel mode) {
+        const auto found = path_->channels.find(mode);
         return found == path_->channels.end() ? nullptr : &found->second;
     };
-    depth_ = find(gpu::DEBUG_depth);
-    level_ = find(gpu::DEBUG_cascade);
-    coarser_ = find(gpu::DEBUG_page_residency);
+    depth_ = find(Channel::depth);
+    level_ = find(Channel::cascade);
+    coarser_ = find(Channel::page_residency);
     const bool by_depth = !path_->shadow_reach.empty() && depth_ != nullptr,
                by_level = !path_->shadow_level_reach.empty() && level_ != nullptr && coarser_ != nullptr;
     sun_ = !reference_->shadow_edge.empty() && (by_depth || by_level);
@@ -43,9 +43,9 @@ bool ShadowEdges::isNearLocal(std::size_t pixel) const {
 
 double ShadowEdges::allowed(const DebugMode& mode, std::size_t pixel) const {
     const bool sun = isNear(pixel), local = isNearLocal(pixel);
-    if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility)) return sun ? 1 : 0;
-    if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility)) return local ? 1 : 0;
-    if (sourceOf(mode.number).stage != ChannelStage::light) return 0;
+    if (mode.channel == Channel::shadow_visibility) return sun ? 1 : 0;
+    if (mode.channel == Channel::local_visibility) return local ? 1 : 0;
+    if (sourceOf(mode.channel).stage != ChannelStage::light) return 0;
     return (sun ? double{reference_->shadow_edge.pixel(pixel)[1]} : 0) +
            (local ? double{local_->pixel(pixel)[1]} : 0);
 }

@@ -32,9 +32,9 @@ class Steepness {
 public:
     explicit Steepness(const Frame& frame)
         : frame_(frame),
-          depth_(findChannel(frame, gpu::DEBUG_depth)),
-          position_(findChannel(frame, gpu::DEBUG_position)),
-          normal_(findChannel(frame, gpu::DEBUG_geometric_normal)) {
+          depth_(findChannel(frame, Channel::depth)),
+          position_(findChannel(frame, Channel::position)),
+          normal_(findChannel(frame, Channel::geometric_normal)) {
         const FrameCamera& c = frame.camera;
         for (int i = 0; i < 3; ++i) forward_[i] = c.target[i] - c.eye[i];
         normalize(forward_);
@@ -89,12 +89,12 @@ double pixelsPerRadian(const Frame& frame, std::size_t i) {
     const double height = frame.settings.size.height;
     if (frame.camera.fov_degrees > 0)
         return height / (2 * std::tan(frame.camera.fov_degrees / degreesPerRadian / 2));
-    const Image* const depth = findChannel(frame, gpu::DEBUG_depth);
+    const Image* const depth = findChannel(frame, Channel::depth);
     return depth && frame.camera.ymag > 0 ? *depth->pixel(i) * height / (2 * frame.camera.ymag) : height;
 }
 
 FacetBound::FacetBound(const FramePair& pair)
-    : frame_(pair.baseline), packed_(2 * encodingBound(debugMode(gpu::DEBUG_geometric_normal), pair)) {}
+    : frame_(pair.baseline), packed_(2 * encodingBound(debugMode(Channel::geometric_normal), pair)) {}
 
 double FacetBound::operator()(std::size_t i) const {
     return 2 * operationsOfFacet * roundoff * pixelsPerRadian(frame_, i) * degreesPerRadian + packed_;
@@ -105,12 +105,12 @@ SurfaceGrid::SurfaceGrid(const FramePair& pair)
       material(surface.size()),
       narrow(surface.size()),
       steeper(surface.size(), 1.0f) {
-    const Image* const ids = findChannel(pair.baseline, gpu::DEBUG_material_id);
+    const Image* const ids = findChannel(pair.baseline, Channel::material_id);
     if (!ids) return;
     const std::array sides{SurfaceAround(pair.baseline), SurfaceAround(pair.test)};
     const FacetBound facetOf(pair);
     const Steepness steepness(pair.baseline);
-    const Image* const depth = findChannel(pair.baseline, gpu::DEBUG_depth);
+    const Image* const depth = findChannel(pair.baseline, Channel::depth);
     const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
     tbb::parallel_for(std::size_t{0}, surface.size(), [&](std::size_t i) {
         if (!pair.coverage.covered[i]) return;

@@ -68,7 +68,7 @@ std::uint64_t mostOf(double share, std::uint64_t edges) {
 
 using Planes = std::array<const Image*, 2>;  // of baseline and test; null where missing
 
-Planes planesOf(const FramePair& pair, gpu::uint mode) {
+Planes planesOf(const FramePair& pair, Channel mode) {
     return {findChannel(pair.baseline, mode), findChannel(pair.test, mode)};
 }
 
@@ -77,11 +77,11 @@ class PixelTest {
 public:
     // Both Frames have material_id.
     explicit PixelTest(const FramePair& pair) : pair_(pair) {
-        if (depths_[0] && depths_[1]) depth_.emplace(debugMode(gpu::DEBUG_depth), pair);
+        if (depths_[0] && depths_[1]) depth_.emplace(debugMode(Channel::depth), pair);
         if (uvs_[0] && uvs_[1]) coordinates_.emplace(texcoords_, pair, *uvs_[0], *uvs_[1]);
-        if (findChannel(pair.baseline, gpu::DEBUG_lit) && findChannel(pair.test, gpu::DEBUG_lit) &&
-            pair.across->relit.contains(gpu::DEBUG_lit))
-            light_.emplace(debugMode(gpu::DEBUG_lit), pair);
+        if (findChannel(pair.baseline, Channel::lit) && findChannel(pair.test, Channel::lit) &&
+            pair.across->relit.contains(Channel::lit))
+            light_.emplace(debugMode(Channel::lit), pair);
     }
 
     struct Result {
@@ -139,13 +139,12 @@ private:
     }
 
     const FramePair& pair_;
-    const Planes ids_ = planesOf(pair_, gpu::DEBUG_material_id),
-                 normals_ = planesOf(pair_, gpu::DEBUG_geometric_normal),
-                 depths_ = planesOf(pair_, gpu::DEBUG_depth),
-                 positions_ = planesOf(pair_, gpu::DEBUG_position);
+    const Planes ids_ = planesOf(pair_, Channel::material_id),
+                 normals_ = planesOf(pair_, Channel::geometric_normal),
+                 depths_ = planesOf(pair_, Channel::depth), positions_ = planesOf(pair_, Channel::position);
     const Planes uvs_ = pair_.across->texcoords;
     const bool perspective_ = pair_.baseline.camera.fov_degrees > 0;
-    const DebugMode& texcoords_ = debugMode(gpu::DEBUG_texcoords);
+    const DebugMode& texcoords_ = debugMode(Channel::texcoords);
     const std::array<SurfaceAround, 2> sides_{SurfaceAround(pair_.baseline), SurfaceAround(pair_.test)};
     const FacetBound facetOf_{pair_};
     const Shadowed shadowed_{pair_};
@@ -156,15 +155,14 @@ private:
 
 }  // namespace
 
-std::vector<int> surfacePixelChannels() {
-    return {static_cast<int>(gpu::DEBUG_material_id), static_cast<int>(gpu::DEBUG_depth),
-            static_cast<int>(gpu::DEBUG_position), static_cast<int>(gpu::DEBUG_geometric_normal)};
+std::vector<Channel> surfacePixelChannels() {
+    return {Channel::material_id, Channel::depth, Channel::position, Channel::geometric_normal};
 }
 
 SurfacePixels surfacePixels(const FramePair& pair) {
     SurfacePixels found;
     found.others.assign(pair.coverage.covered.size(), 0);
-    const auto [ids, other_ids] = planesOf(pair, gpu::DEBUG_material_id);
+    const auto [ids, other_ids] = planesOf(pair, Channel::material_id);
     if (!ids || !other_ids) return found;
     const PixelTest test(pair);
     std::uint64_t narrow = 0;

@@ -12,7 +12,7 @@
 namespace diptych {
 
 // Channels by which surfacePixels() identifies a surface; both Frames need them.
-std::vector<int> surfacePixelChannels();
+std::vector<Channel> surfacePixelChannels();
 
 // Pixels that show different surfaces in two images and may: beside an edge, which two devices place a
 // step of their subpixel grids apart, or where two surfaces have equal depth.

@@ -33,7 +33,7 @@ constexpr int texelsSeen = 1;
 
 // Contribution of a texel's components to a channel: `factor` times the component's range.
 struct Use {
-    gpu::uint mode;
+    Channel mode;
     std::array<double, 4> factor;  // of each component
     // Whether texels of 0 take the layer away, so that the channel is 0 there: then `factor` is its largest
     // value, and the difference where such texels and others may be visible.
@@ -97,8 +97,8 @@ Factors factorsOf(const Material& m, std::size_t slot) {
 }
 
 // Units of the channel per unit of the components 2 t - 1 of a direction; 1 for other texels.
-double unitsPer(gpu::uint mode) {
-    const DebugMode& of = debugMode(static_cast<int>(mode));
+double unitsPer(Channel mode) {
+    const DebugMode& of = debugMode(mode);
     constexpr double three = 2 * 1.7320508 * degreesPerRadian, two = 2 * 1.4142136 * degreesPerRadian;
     if (of.texels == TexelUse::line) return two;
     if (of.texels != TexelUse::direction) return 1;
@@ -109,18 +109,18 @@ double unitsPer(gpu::uint mode) {
 enum class Components : unsigned { r = 1, g = 2, b = 4, a = 8, rg = r | g, rgb = r | g | b };
 
 struct Reading {
-    gpu::uint mode;
+    Channel mode;
     std::size_t slot;
     Components components;
 };
 constexpr Reading readings[] = {
 #define DIPTYCH_READING(channel, slot, components) \
-    {gpu::DEBUG_##channel, gpu::SLOT_##slot, Components::components},
+    {Channel::channel, gpu::SLOT_##slot, Components::components},
     CHANNEL_TEXELS(DIPTYCH_READING)
 #undef DIPTYCH_READING
 };
 
-Use scaledUse(gpu::uint mode, Components components, const Factors& factors, double times = 1) {
+Use scaledUse(Channel mode, Components components, const Factors& factors, double times = 1) {
     Use use{mode, {}};
     for (std::size_t c = 0; c < 4; ++c)
         if ((static_cast<unsigned>(components) >> c & 1u) != 0) use.factor.at(c) = times * factors.at(c);
@@ -131,26 +131,25 @@ Use scaledUse(gpu::uint mode, Components components, const Factors& factors, dou
 void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, const Factors& factors) {
     // The direction stays perpendicular to the normal.
     if (slot == gpu::SLOT_normal && m.anisotropy != 0)
-        uses.push_back(scaledUse(gpu::DEBUG_anisotropy_direction, Components::rgb, factors,
-                                 unitsPer(gpu::DEBUG_normals)));
+        uses.push_back(
+            scaledUse(Channel::anisotropy_direction, Components::rgb, factors, unitsPer(Channel::normals)));
     if (slot == gpu::SLOT_specular_color && m.specular_glossiness) {
         // F0 darkens the base, alpha is glossiness.
-        uses.push_back(
-            scaledUse(gpu::DEBUG_albedo, Components::rgb, factors, largestComponent(m.base_color)));
-        uses.push_back(scaledUse(gpu::DEBUG_roughness, Components::a, {0, 0, 0, 1 - double{m.roughness}}));
+        uses.push_back(scaledUse(Channel::albedo, Components::rgb, factors, largestComponent(m.base_color)));
+        uses.push_back(scaledUse(Channel::roughness, Components::a, {0, 0, 0, 1 - double{m.roughness}}));
     }
     if (slot == gpu::SLOT_sheen_color) {
         const double rough = m.sheen_roughness;
-        uses.push_back({gpu::DEBUG_sheen_roughness, {rough, rough, rough, 0}, true});
+        uses.push_back({Channel::sheen_roughness, {rough, rough, rough, 0}, true});
     }
     if (slot == gpu::SLOT_diffuse_transmission)
-        uses.push_back({gpu::DEBUG_diffuse_transmission_color,
+        uses.push_back({Channel::diffuse_transmission_color,
                         {0, 0, 0, largestComponent(m.diffuse_transmission_color)},
                         true});
     if (slot == gpu::SLOT_thickness && diffusesThroughVolume(m)) {
         const glm::vec3& c = m.attenuation_color;  // the steepest change of exp(thickness log(color))
         const double least = std::max(double{std::min({c.x, c.y, c.z})}, 1e-37);
-        uses.push_back({gpu::DEBUG_diffuse_transmission_color,
+        uses.push_back({Channel::diffuse_transmission_color,
                         {0,
                          -std::log(least) * m.thickness / m.attenuation_distance *
                              largestComponent(m.diffuse_transmission_color),
@@ -158,15 +157,15 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
     }
     if (slot == gpu::SLOT_iridescence) {
         const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
-        uses.push_back({gpu::DEBUG_iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});
-        uses.push_back({gpu::DEBUG_iridescence_thickness, {thickest, 0, 0, 0}, true});
+        uses.push_back({Channel::iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});
+        uses.push_back({Channel::iridescence_thickness, {thickest, 0, 0, 0}, true});
     }
 }
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
     const Factors factors = factorsOf(m, slot);
     if (m.unlit && slot == gpu::SLOT_base_color)
-        return {scaledUse(gpu::DEBUG_emission, Components::rgb, factors)};
+        return {scaledUse(Channel::emission, Components::rgb, factors)};
     std::vector<Use> uses;
     for (const Reading& reading : readings)
         if (reading.slot == slot)
@@ -306,11 +305,10 @@ std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& s
 
 }  // namespace
 
-std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
-                                 const std::array<DevicePrecision, 2>& devices) {
-    std::map<int, Image> ranges;
-    const Image *ids = findChannel(frame, gpu::DEBUG_material_id),
-                *uv = findChannel(frame, gpu::DEBUG_texcoords);
+std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
+                                     const std::array<DevicePrecision, 2>& devices) {
+    std::map<Channel, Image> ranges;
+    const Image *ids = findChannel(frame, Channel::material_id), *uv = findChannel(frame, Channel::texcoords);
     if (!ids) return ranges;
     std::vector<std::vector<std::size_t>> pixels(scene.materials.size());
     for (std::size_t i = 0; i < ids->pixels(); ++i)
@@ -332,8 +330,7 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
             const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
             const Levels levels(image, materialSlots[s].srgb, texture.sampler);
             const std::vector<Use> uses = usesOf(material, s);
-            for (const Use& use : uses)
-                ranges.try_emplace(static_cast<int>(use.mode), ids->width, ids->height, 1);
+            for (const Use& use : uses) ranges.try_emplace(use.mode, ids->width, ids->height, 1);
             // An animation may move a texture.
             const bool known =
                 uv && slot.texcoord == 0 && !scene.material_parts.contains(static_cast<int>(id));
@@ -358,8 +355,7 @@ std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
                         weight = std::min(1.0, 2 * (weighed + placed * texels->most));
                 }
                 for (const Use& use : uses)
-                    *ranges.at(static_cast<int>(use.mode)).pixel(i) +=
-                        static_cast<float>(range.differs(use, weight));
+                    *ranges.at(use.mode).pixel(i) += static_cast<float>(range.differs(use, weight));
             });
         }
     return ranges;

@@ -3,7 +3,7 @@
 // weights, and by the level of detail, for which Vulkan permits a range.
 #pragma once
 
-#include "compare/render/device_precision.h"
+#include "compare/frames/device_precision.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
 #include "shared/scene/model/scene.h"
@@ -18,7 +18,7 @@ namespace diptych {
 // range is the bound. If both devices magnify a texture, the steps of its weights are the bound. Uses the
 // scene's own texels, in double. `frame`: of forward+, with texcoords and material_id. Without texcoords,
 // or with second texture coordinates, the whole texture may be visible at a pixel.
-std::map<int, Image> texelRanges(const Scene& scene, const Frame& frame,
-                                 const std::array<DevicePrecision, 2>& devices);
+std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
+                                     const std::array<DevicePrecision, 2>& devices);
 
 }  // namespace diptych

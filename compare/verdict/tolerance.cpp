@@ -3,7 +3,7 @@
 
 #include "compare/metrics/pixel.h"
 #include "compare/reference/channels.h"
-#include "compare/render/reference_frame.h"
+#include "compare/reference/reference.h"
 #include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/environment_cost.h"
@@ -30,7 +30,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 // which is `least`.
 Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tolerance& relative,
                          const Tolerance& least) {
-    const Image& baseline = pair.baseline.channels.at(mode.number);
+    const Image& baseline = pair.baseline.channels.at(mode.channel);
     const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
     const double smallest = floor > 0 ? least.max / floor : 0;
     return smallest > relative.max ? Tolerance{smallest, least.because} : relative;
@@ -40,7 +40,7 @@ Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tol
 // decoded, do not widen it.
 Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& pair) {
     const Frame& own = hasGBuffer(pair.baseline.settings.path) ? pair.test : pair.baseline;
-    const Image& image = own.channels.at(mode.number);
+    const Image& image = own.channels.at(mode.channel);
     double largest = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
         if (pair.coverage.covered[i]) largest = std::max(largest, metrics::largestFinite(image.pixel(i), 1));
@@ -88,12 +88,12 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
 // mix(dielectric F0, albedo, metallic): the larger bound of the two ends, plus metallic's step times their
 // distance.
 Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
-    const auto bound = [&](gpu::uint mode) {
-        const auto field = storedField(static_cast<int>(mode), encoding, pair.needs);
+    const auto bound = [&](Channel mode) {
+        const auto field = storedField(mode, encoding, pair.needs);
         return field ? field->largestBound() : 0;
     };
-    const double metallic = bound(gpu::DEBUG_metallic), f0 = bound(gpu::DEBUG_dielectric_f0);
-    const double ends = std::max(bound(gpu::DEBUG_albedo), f0);
+    const double metallic = bound(Channel::metallic), f0 = bound(Channel::dielectric_f0);
+    const double ends = std::max(bound(Channel::albedo), f0);
     const double apart = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
     return {ends + metallic * apart,
             fmt::format("mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step, {:.3g})",
@@ -104,7 +104,7 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
-    const auto found = forward->through_gbuffer.find(mode.number);
+    const auto found = forward->through_gbuffer.find(mode.channel);
     return found == forward->through_gbuffer.end() ? nullptr : &found->second;
 }
 
@@ -113,7 +113,7 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
     if (!through)
         return {0,
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
-    const Image& own = pair.of(shadesFragments)->channels.at(mode.number);
+    const Image& own = pair.of(shadesFragments)->channels.at(mode.channel);
     const bool first = shadesFragments(pair.baseline.settings.path);
     const ChannelStats moved =
         channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
@@ -127,7 +127,7 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
 
 // Why a part of materials that no packed field stores has no error; empty: not for this reason.
 std::string_view unpackedBecause(const DebugMode& mode, const Requirements& needs) {
-    switch (sourceOf(mode.number).part) {
+    switch (sourceOf(mode.channel).part) {
         case MaterialPart::none:
             return {};
         case MaterialPart::emission:
@@ -137,7 +137,7 @@ std::string_view unpackedBecause(const DebugMode& mode, const Requirements& need
             return needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
                                   : "nothing in the scene has a lightmap";
         case MaterialPart::dielectric:
-            return mode.number == static_cast<int>(gpu::DEBUG_dielectric_f90)
+            return mode.channel == Channel::dielectric_f90
                        ? "every dielectric has F90 = 1: nothing is stored"
                        : "every dielectric has F0 = 0.04: nothing is stored";
         case MaterialPart::clearcoat:
@@ -160,7 +160,7 @@ std::string_view unpackedBecause(const DebugMode& mode, const Requirements& need
 
 // Why both paths have equal values of a channel that no field stores.
 std::string_view equalBecause(const DebugMode& mode) {
-    switch (sourceOf(mode.number).stage) {
+    switch (sourceOf(mode.channel).stage) {
         case ChannelStage::id:
             return "the index is stored exactly";
         case ChannelStage::list:
@@ -174,18 +174,17 @@ std::string_view equalBecause(const DebugMode& mode) {
         case ChannelStage::visibility:
             return "the same maps, read at the same positions along the same normals";
         default:
-            return mode.number == static_cast<int>(gpu::DEBUG_lightmapped)
-                       ? "it is stored exactly"
-                       : "no loss of precision is known here";
+            return mode.channel == Channel::lightmapped ? "it is stored exactly"
+                                                        : "no loss of precision is known here";
     }
 }
 
 Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBufferEncoding encoding) {
     if (encoding == GBufferEncoding::full) return {0, "the full G-buffer stores float32 exactly"};
-    if (isLit(mode.number)) return litTolerance(mode, pair);
-    if (const auto field = storedField(mode.number, encoding, pair.needs))
+    if (isLit(mode.channel)) return litTolerance(mode, pair);
+    if (const auto field = storedField(mode.channel, encoding, pair.needs))
         return storedTolerance(*field, mode, pair);
-    if (mode.number == static_cast<int>(gpu::DEBUG_specular)) return specularTolerance(pair, encoding);
+    if (mode.channel == Channel::specular) return specularTolerance(pair, encoding);
     const std::string_view unpacked = unpackedBecause(mode, pair.needs);
     return {0, std::string(unpacked.empty() ? equalBecause(mode) : unpacked)};
 }
@@ -200,12 +199,11 @@ constexpr double marchShare = 0.1;
 double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    const bool moved = mode.number == static_cast<int>(gpu::DEBUG_lit) ||
-                       mode.number == static_cast<int>(gpu::DEBUG_lit_haze);
+    const bool moved = mode.channel == Channel::lit || mode.channel == Channel::lit_haze;
     if (!moved || !path.settings.haze || path.settings.haze_march_steps == 0) return 0;
-    const auto scattered = reference.channels.find(static_cast<int>(gpu::DEBUG_lit_haze));
+    const auto scattered = reference.channels.find(Channel::lit_haze);
     const Image& image =
-        scattered == reference.channels.end() ? reference.channels.at(mode.number) : scattered->second;
+        scattered == reference.channels.end() ? reference.channels.at(mode.channel) : scattered->second;
     return marchShare / path.settings.haze_march_steps *
            metrics::largestFinite(image.pixel(pixel), image.components);
 }
@@ -216,7 +214,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
     const bool packed = hasGBuffer(path.settings.path) && path.settings.gbuffer != GBufferEncoding::full;
     Tolerance result;
-    if (isLit(mode.number)) {
+    if (isLit(mode.channel)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
         if (!reference.rounding.empty())
             result.because +=
@@ -231,8 +229,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
                 "filter radius and one texel";
         if (const EnvironmentCost environment(pair); environment.any())
             result.because += environment.because(mode);
-        const bool shown = mode.number == static_cast<int>(gpu::DEBUG_lit) ||
-                           mode.number == static_cast<int>(gpu::DEBUG_lit_transmission);
+        const bool shown = mode.channel == Channel::lit || mode.channel == Channel::lit_transmission;
         if (const BlendedPixels blended(pair); shown && blended.any()) {
             result.because +=
                 "; plus the image's change within two pixels where fragments are blended or glass stands, "
@@ -249,22 +246,21 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
             result = {shadingRounding,
                       "float32 against double, 1e-4; plus the image's change within two pixels and one code "
                       "of a texture, because the reference traces these surfaces itself"};
-        if (mode.number == static_cast<int>(gpu::DEBUG_transmittance))
+        if (mode.channel == Channel::transmittance)
             result = {1e-6, "float32 against quadrature in double, 1e-6"};
-        if (mode.number == static_cast<int>(gpu::DEBUG_lit_haze))
+        if (mode.channel == Channel::lit_haze)
             result = {shadingRounding, "float32 against quadrature in double, 1e-4"};
-        if (mode.number == static_cast<int>(gpu::DEBUG_shadow_visibility))
+        if (mode.channel == Channel::shadow_visibility)
             result = {
                 0,
                 "farther than the filter radius and one texel from a shadow boundary, visibility is 0 or 1"};
-        if (mode.number == static_cast<int>(gpu::DEBUG_local_visibility))
+        if (mode.channel == Channel::local_visibility)
             result = {shadingRounding,
                       "float32 weights against double, 1e-4; farther than the filter radius and one texel "
                       "from a shadow boundary, a light's visibility is 0 or 1"};
     }
     if (path.settings.haze && path.settings.haze_march_steps > 0 &&
-        (mode.number == static_cast<int>(gpu::DEBUG_lit) ||
-         mode.number == static_cast<int>(gpu::DEBUG_lit_haze)))
+        (mode.channel == Channel::lit || mode.channel == Channel::lit_haze))
         result.because +=
             fmt::format("; plus the error of {} steps through haze, {:.2g} % of its light",
                         path.settings.haze_march_steps, 100 * marchShare / path.settings.haze_march_steps);
@@ -275,14 +271,14 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 }  // namespace
 
 const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
-    if (!isLit(mode.number) || !isPathAgainstReference(pair)) return nullptr;
+    if (!isLit(mode.channel) || !isPathAgainstReference(pair)) return nullptr;
     const bool first = isReferenceFrame(pair.baseline);
     const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
     if (!hasGBuffer(path.settings.path) || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
-    if (reference.through_gbuffer.contains(mode.number)) return &reference;
+    if (reference.through_gbuffer.contains(mode.channel)) return &reference;
     const Frame* const forward = pair.explaining;
     return forward && forward->settings.gbuffer == path.settings.gbuffer &&
-                   forward->through_gbuffer.contains(mode.number)
+                   forward->through_gbuffer.contains(mode.channel)
                ? forward
                : nullptr;
 }
@@ -319,12 +315,11 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     else if (pair.baseline.settings.path != pair.test.settings.path)
         result = {0, "no bound is known between these two paths"};
     if (!pair.cpu && mode.metric != Metric::exact) {
-        result.max += gpuSlack(mode, pair.baseline.channels.at(mode.number));
+        result.max += gpuSlack(mode, pair.baseline.channels.at(mode.channel));
         result.because += fmt::format("; plus {} ULP of the pixel's largest component on a GPU", gpuUlps);
         const Frame* const forward = pair.of(shadesFragments);
         if (deferred && forward && forward->settings.prepass != Switch::on &&
-            (isLit(mode.number) || mode.number == static_cast<int>(gpu::DEBUG_depth) ||
-             mode.number == static_cast<int>(gpu::DEBUG_position)))
+            (isLit(mode.channel) || mode.channel == Channel::depth || mode.channel == Channel::position))
             result.because +=
                 "; without a depth pre-pass, forward+ shades with the fragment's own depth, which may differ "
                 "from the stored depth";
@@ -334,7 +329,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 
 double encodingBound(const DebugMode& mode, const FramePair& pair) {
     const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    if (isLit(mode.number) || path.settings.gbuffer == GBufferEncoding::full) return 0;
+    if (isLit(mode.channel) || path.settings.gbuffer == GBufferEncoding::full) return 0;
     return hasGBuffer(path.settings.path) ? encodingTolerance(mode, pair, path.settings.gbuffer).max : 0;
 }
 
@@ -364,13 +359,14 @@ std::array<double, approximations> Allowances::at(const DebugMode& mode, std::si
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
-    if (!(isShaded(mode.number) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
+    if (!(isShaded(mode.channel) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
     const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
     if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingShownBy(mode, pair) &&
         !Allowances(pair).any())
         return {};
-    return openErrors(mode, pair, pair.baseline.channels.at(mode.number), pair.test.channels.at(mode.number));
+    return openErrors(mode, pair, pair.baseline.channels.at(mode.channel),
+                      pair.test.channels.at(mode.channel));
 }
 
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
@@ -385,9 +381,9 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
         if (!pair.coverage.covered[i]) continue;
         const float* p = baseline.pixel(i);
         double open =
-            reference.rounding.empty() ? 0 : reference::roundingOf(mode.number, reference.rounding.pixel(i));
+            reference.rounding.empty() ? 0 : reference::roundingOf(mode.channel, reference.rounding.pixel(i));
         for (const double allowed : allowances.at(mode, i)) open += allowed;
-        if (isLit(mode.number) && !reference.uncertainty.empty())
+        if (isLit(mode.channel) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
         if (mode.metric == Metric::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
@@ -395,8 +391,8 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
         std::array<float, 3> moved{};
         const float* q = test.pixel(i);
         if (encoded) {
-            const float *before = encoded->channels.at(mode.number).pixel(i),
-                        *after = encoded->through_gbuffer.at(mode.number).pixel(i);
+            const float *before = encoded->channels.at(mode.channel).pixel(i),
+                        *after = encoded->through_gbuffer.at(mode.channel).pixel(i);
             for (std::size_t c = 0; c < 3; ++c) {
                 const float change = after[c] - before[c];
                 moved.at(c) = first ? q[c] - change : p[c] - change;
@@ -419,15 +415,15 @@ std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) 
 }
 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
-    const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
+    const Image* through = isLit(mode.channel) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    return unequalPixels(pair.of(hasGBuffer)->channels.at(mode.number), *through, pair.cpu ? 0 : gpuUlps);
+    return unequalPixels(pair.of(hasGBuffer)->channels.at(mode.channel), *through, pair.cpu ? 0 : gpuUlps);
 }
 
 std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
-    const Image* through = isLit(mode.number) ? throughGBuffer(mode, pair) : nullptr;
+    const Image* through = isLit(mode.channel) ? throughGBuffer(mode, pair) : nullptr;
     if (!through) return {};
-    const Image& read = pair.of(hasGBuffer)->channels.at(mode.number);
+    const Image& read = pair.of(hasGBuffer)->channels.at(mode.channel);
     return unequalPixels(onePixel(read, pixel), onePixel(*through, pixel), pair.cpu ? 0 : gpuUlps) == 0;
 }
 

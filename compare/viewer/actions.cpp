@@ -21,9 +21,9 @@ void cycle(Value& value, std::initializer_list<Value> values) {
 
 // Steps through the channels above 9, by number.
 void nextChannel(Look& look, int step) {
-    std::vector<int> beyond;
+    std::vector<Channel> beyond;
     for (const DebugMode& mode : debugModes())
-        if (mode.number > 9) beyond.push_back(mode.number);
+        if (channelNumber(mode.channel) > 9) beyond.push_back(mode.channel);
     const auto count = static_cast<std::ptrdiff_t>(beyond.size());
     std::ptrdiff_t at = std::ranges::find(beyond, look.mode) - beyond.begin();
     at = at == count ? (step > 0 ? 0 : count - 1) : (at + step + count) % count;
@@ -76,7 +76,7 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
                 s->path = s->path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
             break;
         case Action::channel:
-            state.look.mode = pressed.number;
+            state.look.mode = channelOfNumber(pressed.number).value();
             break;
         case Action::next_channel:
             nextChannel(state.look, shift ? -1 : 1);

@@ -2,7 +2,7 @@
 #include "compare/viewer/drawing_work.h"
 
 #include "compare/explain/pixel_words.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/path_plan.h"
 #include "compare/verdict/pair_reports.h"
 #include "compare/viewer/facts.h"
@@ -242,27 +242,27 @@ private:
         drawAt(order_.moving ? movingSize(full, movingMs, cost_) : full, order_.moving);
     }
 
-    bool has(const std::vector<int>& channels) const {
-        return std::ranges::all_of(channels,
-                                   [&](int mode) { return std::ranges::count(drawn_channels_, mode) > 0; });
+    bool has(const std::vector<Channel>& channels) const {
+        return std::ranges::all_of(
+            channels, [&](Channel mode) { return std::ranges::count(drawn_channels_, mode) > 0; });
     }
 
     void drawAt(const Size& size, bool passing) {
         const auto start = Clock::now();
         if (options_.before_picture) options_.before_picture();
         pair_.views().clear();  // views of intermediate cameras are not needed again
-        const int mode = order_.look.channel();
+        const Channel mode = order_.look.channel();
         std::array<Frame, 2> passed;
         const bool known = !passing && drawn_ == both_ && has({mode});
         if (passing)
-            passed = mode == litMode ? pair_.drawLit(order_.subject, size)
-                                     : pair_.drawChannels(order_.subject, size, {mode}, true);
+            passed = mode == Channel::lit ? pair_.drawLit(order_.subject, size)
+                                          : pair_.drawChannels(order_.subject, size, {mode}, true);
         else if (!known) {
             std::array<Frame, 2> whole = pair_.drawChannels(order_.subject, size, {mode}, false);
             for (std::size_t i = 0; i < 2; ++i)
                 frames_.at(i) = std::make_shared<const Frame>(std::move(whole.at(i)));
             drawn_ = both_;
-            drawn_channels_ = {mode, litMode, idMode, depthMode};
+            drawn_channels_ = {mode, Channel::lit, Channel::material_id, Channel::depth};
         }
         const std::array<const Frame*, 2> now{passing ? &passed[0] : frames_[0].get(),
                                               passing ? &passed[1] : frames_[1].get()};
@@ -273,7 +273,7 @@ private:
             if (passing && compiled_ == pair_.renderer().pipelines())
                 cost_.add(double(size.width) * size.height, frames_ms > 0 ? frames_ms : msSince(start));
             compiled_ = pair_.renderer().pipelines();
-            takeFacts(now, passing && mode == litMode);
+            takeFacts(now, passing && mode == Channel::lit);
         }
         show(now, size, passing, start);
     }
@@ -308,7 +308,7 @@ private:
         next->view = view.view;
         next->lights = view.lights;
         next->plan = planLines(view, order_.subject.settings);
-        if (!passing) next->depth = test.channels.at(depthMode);
+        if (!passing) next->depth = test.channels.at(Channel::depth);
         next->paths = paths_;
         next->made_in_ms = msSince(start);
         if (!passing || order_.moving) shown_order_ = order_.number;
@@ -464,7 +464,7 @@ private:
     // Deferred, forward+, of `drawn_`; those of a verdict point into its report.
     std::array<std::shared_ptr<const Frame>, 2> frames_;
     std::optional<Subject> drawn_;  // still and at full size
-    std::vector<int> drawn_channels_;
+    std::vector<Channel> drawn_channels_;
     std::optional<std::uint64_t> shown_order_, failed_order_;
     std::optional<Subject> timed_, judged_of_;
     Against judged_against_ = Against::paths;

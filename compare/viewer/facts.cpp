@@ -44,7 +44,7 @@ void takeFacts(const Frame& frame, bool timed, PathFacts& facts) {
     facts.notes = frame.notes;
     facts.mean_lights.reset();
     facts.most_lights.reset();
-    const auto found = frame.channels.find(static_cast<int>(gpu::DEBUG_light_count));
+    const auto found = frame.channels.find(Channel::light_count);
     if (found == frame.channels.end()) return;
     const Coverage covered = coverage(frame, frame);
     double sum = 0, most = 0;

@@ -48,13 +48,13 @@ std::string_view nameOf(Layout layout) {
 void channelCombo(InterfaceState& state, float width) {
     const DebugMode& now = debugMode(state.look.mode);
     ImGui::SetNextItemWidth(width);
-    if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", now.number, now.name).c_str(),
+    if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", channelNumber(now.channel), now.name).c_str(),
                            ImGuiComboFlags_HeightLarge))
         return;
     for (const DebugMode& mode : debugModes()) {
-        if (ImGui::Selectable(fmt::format("{} {}", mode.number, mode.name).c_str(),
-                              mode.number == state.look.mode))
-            state.look.mode = mode.number;
+        if (ImGui::Selectable(fmt::format("{} {}", channelNumber(mode.channel), mode.name).c_str(),
+                              mode.channel == state.look.mode))
+            state.look.mode = mode.channel;
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(mode.shows).c_str());
     }
     ImGui::EndCombo();
@@ -271,7 +271,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
             canvas, scale, [](double t) { return heatColor(t); },
             {"0", fmt::format("{:g}", 0.5 * shown.heat_top), fmt::format("{:g}", shown.heat_top)},
             "lights per pixel");
-    } else if (shown.order.look.channel() != static_cast<int>(gpu::DEBUG_lit)) {
+    } else if (shown.order.look.channel() != Channel::lit) {
         drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
                      static_cast<float>(canvas.y + canvas.height) - 24 * scale, white, shown.scale);
     }

@@ -92,7 +92,7 @@ std::string renderCommand(const InterfaceState& state) {
     std::vector<std::string> words =
         commandWords("render", sceneOf(state),
                      state.subject.sides.of(state.subject.settings, state.subject.settings.path));
-    if (state.look.channel() != static_cast<int>(gpu::DEBUG_lit))
+    if (state.look.channel() != Channel::lit)
         words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.channel()).name));
     if (state.look.exposure)
         words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));

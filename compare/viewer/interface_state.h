@@ -56,8 +56,8 @@ struct InterfaceState {
     struct Requests {
         std::string copy;  // to the clipboard
         bool reload = false;
-        std::optional<std::pair<int, PixelPlace>> worst;  // channel and pixel to fly to
-        std::optional<std::string> camera;                // to use, as --camera text
+        std::optional<std::pair<Channel, PixelPlace>> worst;  // channel and pixel to fly to
+        std::optional<std::string> camera;                    // to use, as --camera text
     } requests;
 };
 

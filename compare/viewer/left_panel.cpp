@@ -2,8 +2,8 @@
 #include "compare/viewer/left_panel.h"
 
 #include "compare/files/frame_exr.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/reference/reference.h"
-#include "compare/render/frame_facts.h"
 
 #include <stdexcept>
 
@@ -43,7 +43,8 @@ std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const Order
     reference_shown_ = Clock::now();
     if (const std::string error = reference_.error(); !error.empty()) throw std::runtime_error(error);
     const double done = reference_.done();
-    return {reference_.frame({litMode, idMode, depthMode, order.look.channel()}, &under.channels.at(litMode)),
+    return {reference_.frame({Channel::lit, Channel::material_id, Channel::depth, order.look.channel()},
+                             &under.channels.at(Channel::lit)),
             done};
 }
 

@@ -46,7 +46,7 @@ inline Subject ofBothPaths(Subject subject) {
 
 // View options.
 struct Look {
-    int mode = static_cast<int>(gpu::DEBUG_lit);
+    Channel mode = Channel::lit;
     bool heat = false;  // light-count heat map instead of the chosen channel
     Against against = Against::paths;
     std::filesystem::path file;  // Against::file
@@ -56,7 +56,7 @@ struct Look {
     bool tonemap = true;
     bool operator==(const Look&) const = default;
     // The visible one.
-    int channel() const { return heat ? static_cast<int>(gpu::DEBUG_light_count) : mode; }
+    Channel channel() const { return heat ? Channel::light_count : mode; }
     PictureChoice picture() const { return {exposure, ev100, tonemap}; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/pair_renderer.h"
 
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/shown_scene.h"
 #include "shared/frame/debug_modes.h"
 
@@ -18,28 +18,28 @@ constexpr int leastShadowSize = 256;  // texels, while moving
 // While moving, unlit pixels count as background, because timed pipelines write only light. The depth
 // becomes 1 or 0, for coverage().
 void guessBackground(Frame& frame) {
-    const Image& light = frame.channels.at(litMode);
+    const Image& light = frame.channels.at(Channel::lit);
     Image near(light.width, light.height, 1);
     for (std::size_t i = 0; i < light.pixels(); ++i)
         near.pixel(i)[0] =
             std::any_of(light.pixel(i), light.pixel(i) + light.components, [](float v) { return v != 0; })
                 ? 1.0f
                 : 0.0f;
-    frame.channels[depthMode] = std::move(near);
+    frame.channels[Channel::depth] = std::move(near);
 }
 
 }  // namespace
 
-std::vector<int> everyChannel() {
-    std::vector<int> modes;
-    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+std::vector<Channel> everyChannel() {
+    std::vector<Channel> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.channel);
     return modes;
 }
 
-RenderOptions channelOptions(std::vector<int> channels) {
+RenderOptions channelOptions(std::vector<Channel> channels) {
     RenderOptions render;
     render.channels = std::move(channels);
-    for (const int helper : {litMode, idMode, depthMode})
+    for (const Channel helper : {Channel::lit, Channel::material_id, Channel::depth})
         if (std::ranges::count(render.channels, helper) == 0) render.channels.push_back(helper);
     render.runs = 0;
     return render;
@@ -124,10 +124,10 @@ std::array<Frame, 2> PairRenderer::drawLit(const Subject& subject, const Size& s
         frame.passes = prepared.profile(i);
         frame.time.median = std::accumulate(frame.passes.begin(), frame.passes.end(), 0.0,
                                             [](double sum, const PassTime& pass) { return sum + pass.ms; });
-        frame.channels[litMode] = prepared.lit(i);
-        if (auto repaired = repairNonfinite(frame.channels[litMode]); !repaired.empty()) {
+        frame.channels[Channel::lit] = prepared.lit(i);
+        if (auto repaired = repairNonfinite(frame.channels[Channel::lit]); !repaired.empty()) {
             frame.counters.nonfinite_pixels = repaired.size();
-            frame.repaired[litMode] = std::move(repaired);
+            frame.repaired[Channel::lit] = std::move(repaired);
         }
         prepared.readCounters(i, frame.counters);
         guessBackground(frame);
@@ -136,7 +136,7 @@ std::array<Frame, 2> PairRenderer::drawLit(const Subject& subject, const Size& s
 }
 
 std::array<Frame, 2> PairRenderer::drawChannels(const Subject& subject, const Size& size,
-                                                const std::vector<int>& channels, bool passing) {
+                                                const std::vector<Channel>& channels, bool passing) {
     RenderOptions render = channelOptions(channels);
     std::array<Frame, 2> result;
     for (std::size_t i = 0; i < 2; ++i) {

@@ -15,15 +15,10 @@
 
 namespace diptych::viewer {
 
-// The channels of the interface's own needs.
-inline constexpr auto litMode = static_cast<int>(gpu::DEBUG_lit),
-                      depthMode = static_cast<int>(gpu::DEBUG_depth),
-                      idMode = static_cast<int>(gpu::DEBUG_material_id);
-
-std::vector<int> everyChannel();
+std::vector<Channel> everyChannel();
 
 // Options that render the channels, and lit, depth and IDs.
-RenderOptions channelOptions(std::vector<int> channels);
+RenderOptions channelOptions(std::vector<Channel> channels);
 
 // Settings of one path for images of this size. Throws std::runtime_error if it cannot render them.
 Settings settingsOf(const Subject& subject, Path path, const Size& size);
@@ -53,7 +48,7 @@ public:
     std::array<Frame, 2> drawLit(const Subject& subject, const Size& size);
     // A `passing` image always finishes.
     std::array<Frame, 2> drawChannels(const Subject& subject, const Size& size,
-                                      const std::vector<int>& channels, bool passing);
+                                      const std::vector<Channel>& channels, bool passing);
 
 private:
     void dropRenderer();

@@ -18,7 +18,7 @@
 namespace diptych::viewer {
 namespace {
 
-const Image* imageOf(const Frame& frame, int mode) {
+const Image* imageOf(const Frame& frame, Channel mode) {
     const auto found = frame.channels.find(mode);
     return found == frame.channels.end() ? nullptr : &found->second;
 }
@@ -31,7 +31,7 @@ std::string titleOf(const Frame& frame) {
 Panel panelOf(const Frame& frame, const DebugMode& mode, const PictureScale& scale) {
     Panel panel;
     panel.name = titleOf(frame);
-    if (const Image* const image = imageOf(frame, mode.number)) {
+    if (const Image* const image = imageOf(frame, mode.channel)) {
         panel.picture = channelPicture(mode, frame, scale);
         panel.values = *image;
         return panel;
@@ -85,12 +85,10 @@ Image8 signedPicture(const Image& errors, double top) {
 
 std::string unitOf(const DebugMode& mode) {
     if (mode.metric == Metric::relative && mode.kind == ChannelKind::color) return ", W/(sr m^2)";
-    if (mode.number == static_cast<int>(gpu::DEBUG_depth) ||
-        mode.number == static_cast<int>(gpu::DEBUG_position) ||
-        mode.number == static_cast<int>(gpu::DEBUG_transmission_thickness) ||
-        mode.number == static_cast<int>(gpu::DEBUG_attenuation_distance))
+    if (mode.channel == Channel::depth || mode.channel == Channel::position ||
+        mode.channel == Channel::transmission_thickness || mode.channel == Channel::attenuation_distance)
         return ", m";
-    if (mode.number == static_cast<int>(gpu::DEBUG_iridescence_thickness)) return ", nm";
+    if (mode.channel == Channel::iridescence_thickness) return ", nm";
     return {};
 }
 
@@ -148,9 +146,8 @@ std::array<std::uint8_t, 3> signedColor(double t) {
 }
 
 Exposure exposureOf(const Frame& left, const Frame& right, const Look& look) {
-    const Frame& frame = imageOf(left, static_cast<int>(gpu::DEBUG_lit)) ? left : right;
-    return exposureFor(look.picture(), imageOf(frame, static_cast<int>(gpu::DEBUG_lit)),
-                       coverage(frame, frame));
+    const Frame& frame = imageOf(left, Channel::lit) ? left : right;
+    return exposureFor(look.picture(), imageOf(frame, Channel::lit), coverage(frame, frame));
 }
 
 DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& look) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/reference_thread.h"
 
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -14,8 +14,6 @@
 
 namespace diptych::viewer {
 namespace {
-
-constexpr auto litChannel = static_cast<int>(gpu::DEBUG_lit);
 
 struct Stopped {};
 
@@ -53,7 +51,7 @@ void ReferenceThread::begin(std::shared_ptr<const Scene> scene, const Settings& 
             partial_.channels = surfaces->channels;
             partial_.background = surfaces->background;
         }
-        Image& mine = partial_.channels[litChannel] = Image(settings.size.width, settings.size.height, 3);
+        Image& mine = partial_.channels[Channel::lit] = Image(settings.size.width, settings.size.height, 3);
         drawn_.assign(mine.pixels(), false);
     }
     thread_ = std::thread([this, scene = std::move(scene), settings, surfaces = std::move(surfaces)] {
@@ -72,13 +70,13 @@ void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Setti
         RenderOptions options;
         options.runs = 0;
         options.environment_errors = true;
-        for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
+        for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.channel);
         options.requested = options.channels;
         options.progress = Stage(progress, "reference");
-        options.tile = [this](const std::map<int, Image>& channels, int x, int y, int width, int height) {
-            const Image& lit = channels.at(litChannel);
+        options.tile = [this](const std::map<Channel, Image>& channels, int x, int y, int width, int height) {
+            const Image& lit = channels.at(Channel::lit);
             const std::lock_guard lock(mutex_);
-            Image& mine = partial_.channels.at(litChannel);
+            Image& mine = partial_.channels.at(Channel::lit);
             for (int row = y; row < y + height; ++row) {
                 std::copy_n(lit.data.data() + lit.offset(x, row), 3 * width,
                             mine.data.data() + mine.offset(x, row));
@@ -102,7 +100,7 @@ void ReferenceThread::run(const std::shared_ptr<const Scene>& scene, const Setti
     wake_();
 }
 
-std::shared_ptr<const Frame> ReferenceThread::frame(std::initializer_list<int> modes,
+std::shared_ptr<const Frame> ReferenceThread::frame(std::initializer_list<Channel> modes,
                                                     const Image* under) const {
     const std::lock_guard lock(mutex_);
     if (finished_) return finished_;
@@ -110,10 +108,10 @@ std::shared_ptr<const Frame> ReferenceThread::frame(std::initializer_list<int> m
     frame.name = partial_.name;
     frame.settings = partial_.settings;
     frame.background = partial_.background;
-    for (const int mode : modes)
+    for (const Channel mode : modes)
         if (const auto found = partial_.channels.find(mode); found != partial_.channels.end())
             frame.channels[mode] = found->second;
-    Image& lit = frame.channels[litChannel];
+    Image& lit = frame.channels[Channel::lit];
     if (under && under->width == lit.width && under->height == lit.height)
         for (std::size_t i = 0; i < lit.pixels(); ++i)
             if (!drawn_[i]) std::copy_n(under->pixel(i), 3, lit.pixel(i));

@@ -35,7 +35,7 @@ public:
     double done() const { return done_; }  // 0 to 1; 1: finished
     // lit as far as it is rendered, `under` (W x H x 3) elsewhere, and the surface channels `modes`; all
     // channels once finished.
-    std::shared_ptr<const Frame> frame(std::initializer_list<int> modes, const Image* under) const;
+    std::shared_ptr<const Frame> frame(std::initializer_list<Channel> modes, const Image* under) const;
     std::string error() const;  // why it ended without an image; empty: no error
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/screenshot.h"
 
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/report/frame_files.h"
 #include "shared/frame/debug_modes.h"
 
@@ -24,7 +24,7 @@ std::string writeScreenshot(PairRenderer& pair, const Order& order, const std::f
             pair.renderer().draw(settingsOf(order.subject, path, order.subject.settings.size), render);
         const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));
         writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.picture());
-        if (frame.channels.contains(mode.number))
+        if (frame.channels.contains(mode.channel))
             writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.picture());
     }
     return stem.string();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/tabs.h"
 
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/report/titles.h"
 #include "compare/viewer/widgets.h"
 
@@ -40,12 +40,12 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
     const bool compared = isCompared(channel.verdict);
     const std::string name(channel.mode->name);
     if (ImGui::Selectable(name.c_str(),
-                          channel.mode->number == state.look.mode && isShown(state, report, comparison),
+                          channel.mode->channel == state.look.mode && isShown(state, report, comparison),
                           ImGuiSelectableFlags_SpanAllColumns)) {
-        state.look.mode = channel.mode->number;
+        state.look.mode = channel.mode->channel;
         showComparison(state, report, comparison);
         if (compared && channel.stats.worst_x >= 0)
-            state.requests.worst = {channel.mode->number, {channel.stats.worst_x, channel.stats.worst_y}};
+            state.requests.worst = {channel.mode->channel, {channel.stats.worst_x, channel.stats.worst_y}};
         if (compared && state.look.difference == Difference::none)
             state.look.difference = Difference::absolute;
     }

@@ -400,7 +400,7 @@ private:
             return tell("no verdict for this view yet");
         for (const Comparison& comparison : contents_.judged->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
-                if (channel.mode->number == state_.look.channel() && channel.stats.worst_x >= 0)
+                if (channel.mode->channel == state_.look.channel() && channel.stats.worst_x >= 0)
                     return flyTo({channel.stats.worst_x, channel.stats.worst_y});
         tell(fmt::format("no pixel of {} differs", debugMode(state_.look.channel()).name));
     }

@@ -40,7 +40,7 @@ void addBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth, 
 
 ImageRef addCaptureBackground(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                               const CaptureGroup& group) {
-    const bool shown = std::ranges::count(group.modes, static_cast<int>(gpu::DEBUG_lit)) > 0;
+    const bool shown = std::ranges::count(group.modes, Channel::lit) > 0;
     if (!shown || !isSeen(inputs)) return {};
     const ImageRef lit = passes.image({.name = "lit",
                                        .format = inputs.lit_format,

@@ -15,15 +15,12 @@ namespace diptych {
 
 namespace {
 
-constexpr int lit_mode = static_cast<int>(gpu::DEBUG_lit);
-
 struct Placed {
-    int mode;
+    Channel mode;
     PlaceInCaptures place;
 };
 constexpr std::array capture_places{
-#define DIPTYCH_CAPTURE(name, image, component) \
-    Placed{static_cast<int>(gpu::DEBUG_##name), {image, component}},
+#define DIPTYCH_CAPTURE(name, image, component) Placed{Channel::name, {image, component}},
     CAPTURES(DIPTYCH_CAPTURE)
 #undef DIPTYCH_CAPTURE
 };
@@ -31,16 +28,16 @@ static_assert(capture_places.back().place.image + 1 == gpu::CAPTURE_IMAGES);
 
 }  // namespace
 
-PlaceInCaptures placeInCaptures(int mode) {
+PlaceInCaptures placeInCaptures(Channel mode) {
     const auto found = std::ranges::find(capture_places, mode, &Placed::mode);
     if (found == capture_places.end())
-        throw std::out_of_range("no capture of debug mode " + std::to_string(mode));
+        throw std::out_of_range("no capture of debug mode " + std::to_string(channelNumber(mode)));
     return found->place;
 }
 
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit, std::size_t most) {
+std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit, std::size_t most) {
     gpu::uint images = 0;
-    for (const int mode : modes) images |= 1u << placeInCaptures(mode).image;
+    for (const Channel mode : modes) images |= 1u << placeInCaptures(mode).image;
     const auto lit_images = static_cast<std::size_t>(std::popcount(images >> gpu::FIRST_LIT_IMAGE));
     std::vector<CaptureGroup> groups;
     for (const auto& [mode, place] : capture_places) {
@@ -57,27 +54,27 @@ std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit
         group.modes.push_back(mode);
         if ((group.images & bit) != 0) continue;
         group.images |= bit;
-        group.formats.push_back(mode == lit_mode ? lit : VK_FORMAT_R32G32B32A32_SFLOAT);
+        group.formats.push_back(mode == Channel::lit ? lit : VK_FORMAT_R32G32B32A32_SFLOAT);
     }
     return groups;
 }
 
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit, VkSampleCountFlagBits samples,
-                                            std::span<const int> every_sample) {
+                                            std::span<const Channel> every_sample) {
     std::vector<CapturedImage> images;
     std::size_t next = 0;
     for (gpu::uint i = 0; i < gpu::CAPTURE_IMAGES; ++i) {
         if ((group.images >> i & 1) == 0) continue;
-        std::vector<int> modes;
+        std::vector<Channel> modes;
         std::string name;
-        for (const int mode : group.modes) {
+        for (const Channel mode : group.modes) {
             if (placeInCaptures(mode).image != i) continue;
             name += (modes.empty() ? "" : ", ") + std::string(debugMode(mode).name);
             modes.push_back(mode);
         }
         const VkFormat format = group.formats.at(next++);
-        const bool goes_on = lit.valid() && modes.front() == lit_mode;
+        const bool goes_on = lit.valid() && modes.front() == Channel::lit;
         const ImageRef image = goes_on ? lit
                                        : passes.image({.name = name,
                                                        .format = format,
@@ -87,12 +84,12 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
         if (goes_on) {
             pass.color(image, Load::keep);
         } else {
-            const auto [of, component] = placeInCaptures(static_cast<int>(gpu::DEBUG_material_id));
+            const auto [of, component] = placeInCaptures(Channel::material_id);
             VkClearColorValue background{};
             if (of == i) background.float32[component] = -1;
             pass.color(image, Load::clear, background);
         }
-        for (const int mode : modes) {
+        for (const Channel mode : modes) {
             images.push_back(
                 {mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
             images.back().every_sample = std::ranges::count(every_sample, mode) > 0;

@@ -4,6 +4,7 @@
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "shared/frame/channel.h"
 #include "shared/vulkan/pass_list.h"
 #include "shared/vulkan/pipelines.h"
 
@@ -17,7 +18,7 @@ namespace diptych {
 struct PlaceInCaptures {
     gpu::uint image = 0, component = 0;  // of its first component
 };
-PlaceInCaptures placeInCaptures(int mode);  // throws std::out_of_range
+PlaceInCaptures placeInCaptures(Channel mode);  // throws std::out_of_range
 
 // A capture pass: up to MAX_COLOR_ATTACHMENTS images, in the order of CAPTURES, with all requested channels
 // in them. Channels that do not depend on light have passes of their own, unless all lit channels fit in
@@ -25,15 +26,15 @@ PlaceInCaptures placeInCaptures(int mode);  // throws std::out_of_range
 struct CaptureGroup {
     gpu::uint images = 0;           // bit mask: FEATURE_captures
     std::vector<VkFormat> formats;  // by image: RGBA32F; for lit the frame's own
-    std::vector<int> modes;         // debug modes, by image
+    std::vector<Channel> modes;     // by image
 };
 // `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
-std::vector<CaptureGroup> captureGroups(std::span<const int> modes, VkFormat lit,
+std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit,
                                         std::size_t most = gpu::MAX_COLOR_ATTACHMENTS);
 
 // Groups share the memory of their images: each is run and read back before the next one runs.
 struct CapturedImage {
-    int mode = 0;
+    Channel mode = Channel::lit;
     ImageRef image;                // other channels may share it
     int component = 0;             // its first component in the image
     std::size_t pass = 0;          // index of its group's pass
@@ -46,7 +47,7 @@ struct CapturedImage {
 // Channels to capture. `every_sample`: those of `modes` that need all samples of MSAA. `through_gbuffer`,
 // forward+ only: lit channels of surfaces after the G-buffer's encoding, which deferred must equal.
 struct CaptureRequest {
-    std::vector<int> modes, every_sample, through_gbuffer;
+    std::vector<Channel> modes, every_sample, through_gbuffer;
 };
 
 // Adds the group's images to the list's last pass, cleared to the background (0; material_id -1). `lit`:
@@ -55,6 +56,6 @@ struct CaptureRequest {
 std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const CaptureGroup& group,
                                             ImageRef lit = {},
                                             VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT,
-                                            std::span<const int> every_sample = {});
+                                            std::span<const Channel> every_sample = {});
 
 }  // namespace diptych

@@ -122,13 +122,9 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<
         }
         if (!sources.empty()) addReading(passes, inputs, reader, sources, targets);
     };
-    const auto isLit = [](const CapturedImage& image) {
-        return image.mode == static_cast<int>(gpu::DEBUG_lit);
-    };
+    const auto isLit = [](const CapturedImage& image) { return image.mode == Channel::lit; };
     // A background's samples have no count.
-    const auto isCount = [](const CapturedImage& image) {
-        return image.mode == static_cast<int>(gpu::DEBUG_shaded_samples);
-    };
+    const auto isCount = [](const CapturedImage& image) { return image.mode == Channel::shaded_samples; };
     for (int sample = 0; sample < static_cast<int>(inputs.samples); ++sample)
         read(
             [&](const CapturedImage& image) {

@@ -4,6 +4,8 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
@@ -15,7 +17,7 @@ std::span<const DebugMode> debugModes() {
     static constexpr DebugMode modes[] = {
 #define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
                           standard, compact, part, texels, related)                                   \
-    {number,           #name,         width, Metric::metric, ChannelKind::kind,                       \
+    {Channel::name,    #name,         width, Metric::metric, ChannelKind::kind,                       \
      Domain::domain,   MadeBy::maker, shows, step,           {FieldCode::code, standard, compact},    \
      TexelUse::texels, related},
         DEBUG_MODES(DIPTYCH_DEBUG_ROW)
@@ -30,14 +32,21 @@ const DebugMode* findDebugMode(std::string_view nameOrNumber) {
     const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
     const bool isNumber = error == std::errc() && rest == end;
     const auto found = std::ranges::find_if(debugModes(), [&](const DebugMode& mode) {
-        return isNumber ? mode.number == number : mode.name == nameOrNumber;
+        return isNumber ? channelNumber(mode.channel) == number : mode.name == nameOrNumber;
     });
     return found == debugModes().end() ? nullptr : &*found;
 }
 
-const DebugMode& debugMode(int number) {
-    const auto found = std::ranges::find(debugModes(), number, &DebugMode::number);
-    if (found == debugModes().end()) throw std::out_of_range("debug mode " + std::to_string(number));
+std::optional<Channel> channelOfNumber(int number) {
+    const auto found = std::ranges::find(debugModes(), number,
+                                         [](const DebugMode& mode) { return channelNumber(mode.channel); });
+    return found == debugModes().end() ? std::nullopt : std::optional(found->channel);
+}
+
+const DebugMode& debugMode(Channel channel) {
+    const auto found = std::ranges::find(debugModes(), channel, &DebugMode::channel);
+    if (found == debugModes().end())
+        throw std::out_of_range(fmt::format("no channel {}", channelNumber(channel)));
     return *found;
 }
 
@@ -58,8 +67,8 @@ std::string_view nameOf(Metric metric) {
 }
 
 std::vector<std::string> exrChannels(const DebugMode& mode) {
-    if (mode.number == gpu::DEBUG_lit) return {"R", "G", "B"};
-    if (mode.number == gpu::DEBUG_depth) return {"Z"};
+    if (mode.channel == Channel::lit) return {"R", "G", "B"};
+    if (mode.channel == Channel::depth) return {"Z"};
     const std::string_view letters = mode.kind == ChannelKind::color    ? "RGB"
                                      : mode.kind == ChannelKind::vector ? "XYZ"
                                                                         : "Y";

@@ -2,8 +2,8 @@
 // Channels (debug modes) of shared/contract/debug_mode.h as C++ data.
 #pragma once
 
-#include "shared/contract/debug_mode.h"
 #include "shared/contract/material.h"
+#include "shared/frame/channel.h"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ struct ChannelCode {
 enum class Shown { by_metric, radiance, display, normalised };
 
 struct DebugMode {
-    int number;
+    Channel channel;
     std::string_view name;
     int width;  // number of components
     Metric metric;
@@ -68,60 +68,54 @@ struct DebugMode {
 
 std::span<const DebugMode> debugModes();                        // in ascending order of number
 const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unknown
-const DebugMode& debugMode(int number);                         // throws std::out_of_range
+const DebugMode& debugMode(Channel channel);                    // throws std::out_of_range
 std::string_view nameOf(Metric metric);
 
-// The stage that makes a channel, and the part of a material without which it is not stored. Numbers of no
-// channel have surface and none.
+// The stage that makes a channel, and the part of a material without which it is not stored.
 #define DIPTYCH_DEBUG_PROPERTY(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
                                standard, compact, part, texels, related)                                   \
-    case number:                                                                                           \
+    case Channel::name:                                                                                    \
         return {ChannelStage::stage, MaterialPart::part};
 struct ChannelSource {
     ChannelStage stage = ChannelStage::surface;
     MaterialPart part = MaterialPart::none;
 };
-constexpr ChannelSource sourceOf(int mode) {
-    switch (mode) { DEBUG_MODES(DIPTYCH_DEBUG_PROPERTY) }
+constexpr ChannelSource sourceOf(Channel channel) {
+    switch (channel) { DEBUG_MODES(DIPTYCH_DEBUG_PROPERTY) }
     return {};
 }
 #undef DIPTYCH_DEBUG_PROPERTY
 
 // Channels of lighting: those that depend on the surface and on the light it receives.
-constexpr bool isLit(int mode) {
+constexpr bool isLit(Channel mode) {
     const ChannelStage stage = sourceOf(mode).stage;
     return stage == ChannelStage::light || stage == ChannelStage::unshadowed;
 }
 
 // Channels of the medium between surface and camera; they depend on the position alone.
-constexpr bool isOfHaze(int mode) {
+constexpr bool isOfHaze(Channel mode) {
     return sourceOf(mode).stage == ChannelStage::haze;
 }
 
 // Channels that shading computes: all of the above, and light visibility.
-constexpr bool isShaded(int mode) {
+constexpr bool isShaded(Channel mode) {
     return isLit(mode) || isOfHaze(mode) || sourceOf(mode).stage == ChannelStage::visibility;
 }
 
-#define DIPTYCH_DEBUG_LIT(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
-                          standard, compact, part, texels, related)                                   \
-    +(isLit(number) ? 1u : 0u)
-inline constexpr std::size_t litModeCount = 0 DEBUG_MODES(DIPTYCH_DEBUG_LIT);
-#undef DIPTYCH_DEBUG_LIT
-
-// The channels for which isLit(), in ascending order of number.
+// Every channel, and those for which isLit(), in ascending order of number.
+#define DIPTYCH_DEBUG_LISTED(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
+                             standard, compact, part, texels, related)                                   \
+    Channel::name,
+inline constexpr std::array allChannels{DEBUG_MODES(DIPTYCH_DEBUG_LISTED)};
+#undef DIPTYCH_DEBUG_LISTED
 inline constexpr auto litModes = [] {
-    std::array<int, litModeCount> lit{};
-    int next = 0;
-    std::ranges::generate(lit, [&] {
-        while (!isLit(next)) ++next;
-        return next++;
-    });
+    std::array<Channel, std::ranges::count_if(allChannels, isLit)> lit{};
+    std::ranges::copy_if(allChannels, lit.begin(), isLit);
     return lit;
 }();
 
 // A sum of LAYER_* of contract/material.h, without all of which the channel is 0 everywhere; 0: none.
-constexpr gpu::uint layerOf(int mode) {
+constexpr gpu::uint layerOf(Channel mode) {
     switch (sourceOf(mode).part) {
         case MaterialPart::clearcoat:
             return gpu::LAYER_CLEARCOAT;
@@ -143,7 +137,7 @@ constexpr gpu::uint layerOf(int mode) {
 }
 
 // Whether a channel may differ from 0 if the scene's materials have these layers.
-constexpr bool mayShow(int mode, gpu::uint layers) {
+constexpr bool mayShow(Channel mode, gpu::uint layers) {
     return layerOf(mode) == 0 || (layerOf(mode) & layers) != 0;
 }
 

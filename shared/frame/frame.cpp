@@ -7,12 +7,12 @@
 
 namespace diptych {
 
-void letGo(const Frame& frame, int mode) {
+void letGo(const Frame& frame, Channel mode) {
     for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
         if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
     if (const auto found = frame.further_samples.find(mode); found != frame.further_samples.end())
         for (const Image& image : found->second) letGo(image.data);
-    if (mode == static_cast<int>(gpu::DEBUG_lit))
+    if (mode == Channel::lit)
         for (const Image* image : {&frame.unblended, &frame.unblended_through_gbuffer})
             if (!image->empty()) letGo(image->data);
 }

@@ -2,6 +2,7 @@
 // The result of one renderer, or an image file. Anything that makes a Frame can be compared.
 #pragma once
 
+#include "shared/frame/channel.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
 
@@ -108,24 +109,26 @@ struct Frame {
     FrameOrigin origin;
     Settings settings;
     FrameCamera camera;
-    std::map<int, Image> channels;  // by debug mode number; background pixels are 0, material_id -1
+    std::map<Channel, Image> channels;  // background pixels are 0, material_id -1
     // By channel, the indices of pixels (row-major from the top left) that were NaN or infinite and have
     // been repaired: NaN is 0, infinity the largest float32. Images mark them.
-    std::map<int, std::vector<std::uint32_t>> repaired;
+    std::map<Channel, std::vector<std::uint32_t>> repaired;
     // Requested channels, which are compared and written; other `channels` are helpers (exposure,
     // background). Empty: all.
-    std::vector<int> requested;
-    bool isRequested(int mode) const { return requested.empty() || std::ranges::count(requested, mode) > 0; }
+    std::vector<Channel> requested;
+    bool isRequested(Channel mode) const {
+        return requested.empty() || std::ranges::count(requested, mode) > 0;
+    }
     // litModes shaded from the surfaces that deferred decodes from a G-buffer of settings.gbuffer: by
     // forward+, which must equal deferred, and by the reference in mode surface. Else empty.
-    std::map<int, Image> through_gbuffer;
+    std::map<Channel, Image> through_gbuffer;
     // With MSAA, if RenderOptions::every_sample asks for it: the samples of a channel after the first.
-    std::map<int, std::vector<Image>> further_samples;
+    std::map<Channel, std::vector<Image>> further_samples;
     // If something may be blended in the view: lit before blending, W x H x 3; for forward+ also of
     // through_gbuffer. Else empty.
     Image unblended, unblended_through_gbuffer;
-    std::array<float, 3> background{};  // colour of background pixels in images, W/(sr m^2)
-    std::map<int, ChannelNoise> noise;  // of the channels rendered twice
+    std::array<float, 3> background{};      // colour of background pixels in images, W/(sr m^2)
+    std::map<Channel, ChannelNoise> noise;  // of the channels rendered twice
     // Buffers in which a second run of the compute shaders left other bytes.
     std::vector<std::string> changed_buffers;
     // Reference with sampling: half the 95 % confidence interval of lit, W x H x 1, W/(sr m^2); and
@@ -175,7 +178,7 @@ struct Frame {
 };
 
 // letGo() for all images of one channel, or of every channel.
-void letGo(const Frame& frame, int mode);
+void letGo(const Frame& frame, Channel mode);
 void letGo(const Frame& frame);
 
 // Whether it is a Frame of this program's reference, rendered now or read from a file that this program

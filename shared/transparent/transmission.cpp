@@ -20,9 +20,9 @@ namespace {
 constexpr const char* passName = "transmission";  // of all passes, so that they are timed together
 
 // Channels that glass draws over the values of opaque surfaces.
-constexpr std::array drawnOver{gpu::DEBUG_transmission,      gpu::DEBUG_transmission_thickness,
-                               gpu::DEBUG_attenuation_color, gpu::DEBUG_attenuation_distance,
-                               gpu::DEBUG_dispersion,        gpu::DEBUG_lit_transmission};
+constexpr std::array drawnOver{Channel::transmission,      Channel::transmission_thickness,
+                               Channel::attenuation_color, Channel::attenuation_distance,
+                               Channel::dispersion,        Channel::lit_transmission};
 
 // The mip chain of `lit`; without rough surfaces, which alone read the others, its first level.
 ImageRef addBackdrop(PassList& passes, const FrameInputs& inputs, ImageRef lit) {
@@ -100,8 +100,7 @@ void addTransmissionCapture(PassList& passes, const FrameInputs& inputs, ImageRe
     std::vector<CapturedImage*> drawn;
     CaptureGroup group;
     for (std::size_t i = first; i < images.size(); ++i)
-        if (std::ranges::count(drawnOver, static_cast<gpu::uint>(images[i].mode)) > 0)
-            drawn.push_back(&images[i]);
+        if (std::ranges::count(drawnOver, images[i].mode) > 0) drawn.push_back(&images[i]);
     if (drawn.empty()) return;
     const ImageRef backdrop = lit.valid() ? addBackdrop(passes, inputs, lit) : ImageRef{};
     const ImageRef with = addDepth(passes, inputs, depth);

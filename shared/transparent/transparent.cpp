@@ -192,8 +192,7 @@ void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef
                            std::vector<CapturedImage>& images) {
     const auto first = std::ranges::find(images, passes.size() - 1, &CapturedImage::pass) - images.begin();
     const auto findLit = [&] {
-        return std::ranges::find(images.begin() + first, images.end(), static_cast<int>(gpu::DEBUG_lit),
-                                 &CapturedImage::mode);
+        return std::ranges::find(images.begin() + first, images.end(), Channel::lit, &CapturedImage::mode);
     };
     const auto lit = findLit();
     const bool shown = lit != images.end();

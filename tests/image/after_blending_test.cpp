@@ -44,14 +44,14 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
         for (const std::size_t i : {0u, 1u}) {
             EXPECT_TRUE(rest[i].unblended.empty()) << "nothing blends";
             ASSERT_FALSE(all[i].unblended.empty());
-            const DebugMode& mode = debugMode(lit);
+            const DebugMode& mode = debugMode(Channel::lit);
             // F0 is then read, not a constant: the blended materials include unlit ones.
-            EXPECT_LT(channelStats(mode.metric, mode.kind, rest[i].channels.at(lit), all[i].unblended,
-                                   everyPixel(all[i].unblended.pixels()))
+            EXPECT_LT(channelStats(mode.metric, mode.kind, rest[i].channels.at(Channel::lit),
+                                   all[i].unblended, everyPixel(all[i].unblended.pixels()))
                           .max,
                       1e-5)
                 << all[i].name;
-            EXPECT_GT(differingPixels(all[i].unblended, all[i].channels.at(lit)), 400u);
+            EXPECT_GT(differingPixels(all[i].unblended, all[i].channels.at(Channel::lit)), 400u);
         }
         EXPECT_EQ(all[1].unblended_through_gbuffer.empty(), false);
         EXPECT_EQ(differingPixels(all[0].unblended, all[1].unblended_through_gbuffer), 0u);
@@ -69,8 +69,8 @@ TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
         std::vector<Frame> after = frames, both = frames;
         for (std::size_t i = 0; i < 40; ++i) {
             const std::size_t pixel = 96 * 20 + 30 + i;
-            after[0].channels.at(lit).pixel(pixel)[1] += 0.01f;
-            both[0].channels.at(lit).pixel(pixel)[1] += 0.01f;
+            after[0].channels.at(Channel::lit).pixel(pixel)[1] += 0.01f;
+            both[0].channels.at(Channel::lit).pixel(pixel)[1] += 0.01f;
             both[0].unblended.pixel(pixel)[1] += 0.1f;
         }
         const Report named = afterBlendingReport(after), other = afterBlendingReport(both);
@@ -94,7 +94,7 @@ TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
     for (std::size_t y = 2; y < 88 && faults < 4; ++y)
         for (std::size_t x = 2; x < 158 && faults < 4; ++x) {
             const auto at = [&](std::size_t u, std::size_t v) {
-                return frames[0].channels.at(lit).pixel(v * 160 + u)[1];
+                return frames[0].channels.at(Channel::lit).pixel(v * 160 + u)[1];
             };
             float least = at(x, y), most = least;
             for (std::size_t v = y - 2; v <= y + 2; ++v)
@@ -104,13 +104,13 @@ TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
                 }
             const std::size_t i = y * 160 + x;
             if (*frames[0].blended.pixel(i) == 0 || most - least > 0.02f * most) continue;
-            frames[1].channels.at(lit).pixel(i)[1] *= 1.1f;
+            frames[1].channels.at(Channel::lit).pixel(i)[1] *= 1.1f;
             ++faults;
         }
     ASSERT_EQ(faults, 4u);
     const Report report = afterBlendingReport(frames);
     const Comparison& deferred = report.comparisons[0];
-    EXPECT_EQ(deferred.channels.front().mode->number, lit);
+    EXPECT_EQ(deferred.channels.front().mode->channel, Channel::lit);
     EXPECT_EQ(deferred.channels.front().verdict, Verdict::pass);
     EXPECT_EQ(namedFailures(deferred), 1u);
     EXPECT_EQ(namedFailures(report.comparisons[1]), 0u);

@@ -45,8 +45,8 @@ std::vector<double> sharesOf(const Scene& scene, int pixels, bool on) {
     Renderer renderer(device(), scene, pipelines());
     std::vector<std::vector<double>> shares;
     for (const Path path : drawn_paths) {
-        const Frame frame = drawnBy(path, renderer, covered({pixels, pixels}, on), {lit});
-        const Image& image = frame.channels.at(lit);
+        const Frame frame = drawnBy(path, renderer, covered({pixels, pixels}, on), {Channel::lit});
+        const Image& image = frame.channels.at(Channel::lit);
         std::vector<double>& of = shares.emplace_back();
         for (std::size_t i = 0; i < image.pixels(); ++i) of.push_back(double{image.pixel(i)[0]});
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
@@ -125,8 +125,8 @@ TEST(AlphaCoverage, NothingIsTakenFromBeyondAnEdge) {
             scene.images[0].rgba.push_back(static_cast<std::uint8_t>(c));
     scene.materials[0].base_color_texture.texture = 0;
     Renderer renderer(device(), scene, pipelines());
-    const Frame frame = drawnBy(Path::forward_plus, renderer, covered({64, 64}), {lit});
-    const Image& image = frame.channels.at(lit);
+    const Frame frame = drawnBy(Path::forward_plus, renderer, covered({64, 64}), {Channel::lit});
+    const Image& image = frame.channels.at(Channel::lit);
     double left = 0, all = 0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -160,10 +160,11 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
                      << "; the built-in scene proves it";
     Renderer& renderer = uploaded(builtin ? GetParam() : (assets() / GetParam()).string()).renderer;
     Settings settings = covered({320, 180});
-    const Frame forward = drawnBy(Path::forward_plus, renderer, settings, {lit});
+    const Frame forward = drawnBy(Path::forward_plus, renderer, settings, {Channel::lit});
     const auto same = [&](Path path, const std::string& what) {
-        const Frame frame = drawnBy(path, renderer, settings, {lit});
-        EXPECT_EQ(differingPixels(forward.channels.at(lit), frame.channels.at(lit)), 0u) << what;
+        const Frame frame = drawnBy(path, renderer, settings, {Channel::lit});
+        EXPECT_EQ(differingPixels(forward.channels.at(Channel::lit), frame.channels.at(Channel::lit)), 0u)
+            << what;
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << what;
     };
     for (const Switch prepass : {Switch::on, Switch::off}) {
@@ -179,9 +180,9 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
     settings.reference_mode = ReferenceMode::scene;
     settings.spp = 64;
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
-    const Image truth = renderer.draw(settings, options).channels.at(lit);
+    const Image truth = renderer.draw(settings, options).channels.at(Channel::lit);
     // The displayed error; exposure puts the 95th percentile at 0.7.
     std::vector<float> ordered(truth.data.begin(), truth.data.end());
     const auto p95 = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() * 95 / 100);
@@ -194,9 +195,9 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
                             srgbFromLinear(exposure * double{truth.data[i]}));
         return sum;
     };
-    const Frame cut = drawnBy(Path::forward_plus, renderer, covered({320, 180}, false), {lit});
-    EXPECT_GT(differingPixels(cut.channels.at(lit), forward.channels.at(lit)), 20u);
-    EXPECT_LT(error(forward.channels.at(lit)), 0.8 * error(cut.channels.at(lit)));
+    const Frame cut = drawnBy(Path::forward_plus, renderer, covered({320, 180}, false), {Channel::lit});
+    EXPECT_GT(differingPixels(cut.channels.at(Channel::lit), forward.channels.at(Channel::lit)), 20u);
+    EXPECT_LT(error(forward.channels.at(Channel::lit)), 0.8 * error(cut.channels.at(Channel::lit)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Msaa, AlphaCoverageOf,
@@ -218,10 +219,10 @@ TEST(AlphaCoverage, CoverageEdgesKnowOfMasks) {
     scene.meshes[1].primitives[0].material = 1;
     Renderer renderer(device(), scene, pipelines());
     Settings settings = covered({24, 24});
-    const Frame exact = drawnBy(Path::deferred, renderer, settings, {lit});
+    const Frame exact = drawnBy(Path::deferred, renderer, settings, {Channel::lit});
     settings.msaa_edges = MsaaEdges::coverage;
-    const Frame coverage = drawnBy(Path::deferred, renderer, settings, {lit});
-    EXPECT_EQ(differingPixels(exact.channels.at(lit), coverage.channels.at(lit)), 0u);
+    const Frame coverage = drawnBy(Path::deferred, renderer, settings, {Channel::lit});
+    EXPECT_EQ(differingPixels(exact.channels.at(Channel::lit), coverage.channels.at(Channel::lit)), 0u);
 }
 
 TEST(AlphaCoverage, HasNoMeaningWhereSamplesAreShadedApart) {

@@ -12,13 +12,11 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int lit_ambient = static_cast<int>(gpu::DEBUG_lit_ambient);
-
 std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4, 4}) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = size;
     settings.ambient = ambient;
-    return bothPaths(scene, settings, {lit, lit_ambient, static_cast<int>(gpu::DEBUG_material_id)});
+    return bothPaths(scene, settings, {Channel::lit, Channel::lit_ambient, Channel::material_id});
 }
 
 // A base without a specular layer reflects its colour. The texture's green texel is fully occluded.
@@ -31,8 +29,9 @@ TEST(Ambient, OfALambertianSurfaceUnderOcclusion) {
     m.occlusion_texture.texture = 0;
     m.occlusion_strength = 0.75f;
     for (const Frame& frame : drawIn(scene, {1, 2, 4})) {
-        expectColor(colorAt(frame, lit_ambient, 0, 0), {0.8f, 0.8f, 0.8f}, float32, frame.name + " open");
-        expectColor(colorAt(frame, lit_ambient, 3, 0), {0.2f, 0.2f, 0.2f}, float32,
+        expectColor(colorAt(frame, Channel::lit_ambient, 0, 0), {0.8f, 0.8f, 0.8f}, float32,
+                    frame.name + " open");
+        expectColor(colorAt(frame, Channel::lit_ambient, 3, 0), {0.2f, 0.2f, 0.2f}, float32,
                     frame.name + " a quarter");
     }
 }
@@ -46,9 +45,9 @@ TEST(Ambient, OfARoughMetalSeenStraightOn) {
     m.base_color = {1, 1, 1, 1};
     scene.lights.emplace_back().intensity = 0;  // instead of the default sun
     for (const Frame& frame : drawIn(scene, {1, 1, 1}, {33, 33})) {
-        const glm::vec3 centre = colorAt(frame, lit_ambient, 16, 16);
+        const glm::vec3 centre = colorAt(frame, Channel::lit_ambient, 16, 16);
         expectColor(centre, glm::vec3(1 - std::numbers::ln2_v<float>), 5e-5f, frame.name);
-        EXPECT_EQ(colorAt(frame, lit, 16, 16), centre) << "nothing else shines";
+        EXPECT_EQ(colorAt(frame, Channel::lit, 16, 16), centre) << "nothing else shines";
     }
 }
 
@@ -68,7 +67,7 @@ TEST(Ambient, OfAMetalIsTheIntegralAtEveryAngle) {
             const glm::dvec2 lobe =
                 specularAlbedo(std::cos(glm::radians(degrees)), double{roughness} * double{roughness});
             for (const Frame& frame : drawIn(scene, {1, 1, 1}, {33, 33}))
-                EXPECT_NEAR(double{colorAt(frame, lit_ambient, 16, 16).x}, lobe.x + lobe.y, 1e-5)
+                EXPECT_NEAR(double{colorAt(frame, Channel::lit_ambient, 16, 16).x}, lobe.x + lobe.y, 1e-5)
                     << frame.name << " " << degrees << " " << roughness;
         }
 }
@@ -89,33 +88,33 @@ TEST(Ambient, OfALightmap) {
     m.lightmap_texture = {1, 1, {1, 0, 0}, {0, 1, 0}};
     m.lightmap_intensity = 3;
     for (const Frame& frame : draw(scene)) {
-        expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " second set");
-        expectColor(colorAt(frame, lit_ambient, 3, 0), {12, 0, 0}, 1e-5f, frame.name);
-        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 3, 3), {0, 0, 6}, 1e-6f,
-                    frame.name);
-        EXPECT_EQ(colorAt(frame, lit, 0, 0), colorAt(frame, lit_ambient, 0, 0));
+        expectColor(colorAt(frame, Channel::lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " second set");
+        expectColor(colorAt(frame, Channel::lit_ambient, 3, 0), {12, 0, 0}, 1e-5f, frame.name);
+        expectColor(colorAt(frame, Channel::lightmap, 3, 3), {0, 0, 6}, 1e-6f, frame.name);
+        EXPECT_EQ(colorAt(frame, Channel::lit, 0, 0), colorAt(frame, Channel::lit_ambient, 0, 0));
     }
     m.metallic = 1;
     for (const Frame& frame : draw(scene))
-        EXPECT_EQ(colorAt(frame, lit_ambient, 0, 0), glm::vec3(0)) << "a metal has no base";
+        EXPECT_EQ(colorAt(frame, Channel::lit_ambient, 0, 0), glm::vec3(0)) << "a metal has no base";
     m.metallic = 0;
     // Red: unoccluded at the top left of the first set, occluded at the right.
     m.occlusion_texture.texture = 0;
     for (const Frame& frame : draw(scene)) {
-        expectColor(colorAt(frame, lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " open");
-        expectColor(colorAt(frame, lit_ambient, 3, 0), {0, 0, 0}, 1e-6f, frame.name + " occluded");
+        expectColor(colorAt(frame, Channel::lit_ambient, 0, 0), {0, 6, 0}, 1e-5f, frame.name + " open");
+        expectColor(colorAt(frame, Channel::lit_ambient, 3, 0), {0, 0, 0}, 1e-6f, frame.name + " occluded");
     }
     // An 8 bit lightmap is sRGB.
     m.occlusion_texture.texture = -1;
     m.lightmap_texture.texture = 0;
     for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_lightmap), 0, 3), 3.0f * greys, 3 * srgbTexel,
+        expectColor(colorAt(frame, Channel::lightmap, 0, 3), 3.0f * greys, 3 * srgbTexel,
                     frame.name + " 8 bits");
 }
 
 TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
     for (const Frame& frame : drawIn(loadScene("builtin:gallery"), {}, {96, 54}))
-        for (const float value : frame.channels.at(lit_ambient).data) ASSERT_EQ(value, 0.0f) << frame.name;
+        for (const float value : frame.channels.at(Channel::lit_ambient).data)
+            ASSERT_EQ(value, 0.0f) << frame.name;
 }
 
 // The table's error is at most 6e-5; float32 adds far less. 1e-4 is the tolerance of every light.
@@ -129,15 +128,15 @@ TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     settings.size = size;
     settings.ambient = {0.3f, 0.4f, 0.5f};
     RenderOptions options;
-    options.channels = {lit_ambient, static_cast<int>(gpu::DEBUG_material_id)};
+    options.channels = {Channel::lit_ambient, Channel::material_id};
     options.runs = 0;
     const Frame referenceFrame = drawAll(scene, {settings}, options).front();
     for (const Frame& path : drawIn(scene, settings.ambient, size)) {
         const Coverage covered = coverage(referenceFrame, path);
-        const DebugMode& mode = debugMode(lit_ambient);
+        const DebugMode& mode = debugMode(Channel::lit_ambient);
         const ChannelStats stats =
-            channelStats(mode.metric, mode.kind, referenceFrame.channels.at(lit_ambient),
-                         path.channels.at(lit_ambient), covered);
+            channelStats(mode.metric, mode.kind, referenceFrame.channels.at(Channel::lit_ambient),
+                         path.channels.at(Channel::lit_ambient), covered);
         RecordProperty(path.name, std::to_string(stats.max));
         EXPECT_LE(stats.max, 1e-4) << path.name;
         EXPECT_GT(stats.max, 0) << path.name << ": a table of 2048 samples cannot be the integral itself";

@@ -98,7 +98,7 @@ const std::vector<MovingMaterial>& movingMaterials() {
 }
 
 // Radiance and its inputs only: fewer channels need fewer pipelines.
-const std::vector<int> shownChannels{lit, albedo, normals, emission, occlusion};
+const std::vector<Channel> shownChannels{Channel::lit, albedo, normals, emission, occlusion};
 
 TEST(AnimatedMaterials, AreDrawnAsAtRest) {
     for (const MovingMaterial& c : movingMaterials()) {
@@ -133,11 +133,13 @@ TEST(AnimatedMaterials, MotionChangesThePicture) {
         Renderer renderer(device(), moving, pipelines());
         Settings settings = smallPicture(GBufferEncoding::full);
         settings.size = {8, 8};
-        const std::vector<Frame> start = bothPaths(renderer, settings, {lit});
+        const std::vector<Frame> start = bothPaths(renderer, settings, {Channel::lit});
         settings.time = 1;
-        const std::vector<Frame> end = bothPaths(renderer, settings, {lit});
+        const std::vector<Frame> end = bothPaths(renderer, settings, {Channel::lit});
         for (std::size_t path = 0; path < 2; ++path)
-            EXPECT_GT(differingPixels(start[path].channels.at(lit), end[path].channels.at(lit), true), 30u)
+            EXPECT_GT(differingPixels(start[path].channels.at(Channel::lit),
+                                      end[path].channels.at(Channel::lit), true),
+                      30u)
                 << c.name << " " << start[path].name;
     }
 }

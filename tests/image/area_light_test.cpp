@@ -9,9 +9,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int litDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              litSpecular = static_cast<int>(gpu::DEBUG_lit_specular);
-
 Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {161, 91};
@@ -19,7 +16,7 @@ Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign
     settings.assign = assign;
     settings.area_lights = how;
     RenderOptions options;
-    options.channels = {lit, litDiffuse, litSpecular};
+    options.channels = {Channel::lit, Channel::lit_diffuse, Channel::lit_specular};
     options.runs = 0;
     return renderer.draw(settings, options);
 }
@@ -36,7 +33,7 @@ TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
         for (const Path path : {Path::forward_plus, Path::deferred})
             for (const Assignment assign : {Assignment::every, Assignment::clustered, Assignment::tiled}) {
                 const Frame frame = drawAreas(renderer, path, how, assign);
-                for (const int channel : {lit, litDiffuse, litSpecular})
+                for (const Channel channel : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
                     EXPECT_EQ(differingPixels(every.channels.at(channel), frame.channels.at(channel)), 0u)
                         << nameOf(how) << ", " << nameOf(path) << ", " << nameOf(assign) << ", "
                         << debugMode(channel).name;
@@ -44,7 +41,7 @@ TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
     }
 }
 
-double meanError(const Frame& referenceFrame, const Frame& frame, int channel) {
+double meanError(const Frame& referenceFrame, const Frame& frame, Channel channel) {
     const Image &a = referenceFrame.channels.at(channel), &b = frame.channels.at(channel);
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < a.data.size(); ++i) {
@@ -64,13 +61,14 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
     const Frame referenceFrame = drawAreas(renderer, Path::reference, AreaLights::ltc, Assignment::every);
     const Frame ltc = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame points = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
-    EXPECT_LT(meanError(referenceFrame, ltc, litDiffuse), 0.01);
-    EXPECT_LT(meanError(referenceFrame, ltc, litSpecular), 0.03);
-    EXPECT_GT(meanError(referenceFrame, points, litDiffuse), 10 * meanError(referenceFrame, ltc, litDiffuse));
-    EXPECT_GT(meanError(referenceFrame, points, litSpecular),
-              10 * meanError(referenceFrame, ltc, litSpecular));
-    RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, litSpecular)));
-    RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, litDiffuse)));
+    EXPECT_LT(meanError(referenceFrame, ltc, Channel::lit_diffuse), 0.01);
+    EXPECT_LT(meanError(referenceFrame, ltc, Channel::lit_specular), 0.03);
+    EXPECT_GT(meanError(referenceFrame, points, Channel::lit_diffuse),
+              10 * meanError(referenceFrame, ltc, Channel::lit_diffuse));
+    EXPECT_GT(meanError(referenceFrame, points, Channel::lit_specular),
+              10 * meanError(referenceFrame, ltc, Channel::lit_specular));
+    RecordProperty("ltc_specular", std::to_string(meanError(referenceFrame, ltc, Channel::lit_specular)));
+    RecordProperty("ltc_diffuse", std::to_string(meanError(referenceFrame, ltc, Channel::lit_diffuse)));
 }
 
 // Without area lights both settings give the same bits.
@@ -79,7 +77,7 @@ TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
     Renderer renderer(device(), scene, pipelines());
     const Frame a = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame b = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
-    EXPECT_EQ(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);
+    EXPECT_EQ(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 0u);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subje
                    double candela) { pushed.scene.lights[0].intensity = static_cast<float>(candela); }};
     measurer.plant({.picture = [](const Case& drawn, Frame& frame) {
         if (drawn.scene.lights[0].intensity < 4) return;
-        for (float& value : frame.channels.at(lit).data) value *= 4;
+        for (float& value : frame.channels.at(Channel::lit).data) value *= 4;
     }});
     return audit::auditQuantity(brightness, subject, [&](std::span<const Series> series, double magnitude) {
         return measurer.measure(brightness, series, magnitude);

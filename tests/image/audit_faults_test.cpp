@@ -21,7 +21,6 @@ using audit::Series;
 using audit::Step;
 using audit::Subject;
 
-constexpr int positionChannel = static_cast<int>(gpu::DEBUG_position);
 constexpr double percent = 1e-2;  // the criterion; its breaking point is searched for
 
 Subject subjectOf(const Scene& scene, const std::function<void(Settings&)>& change = {}) {
@@ -149,8 +148,8 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                             const float alpha =
                                 drawn.scene.materials[0].roughness * drawn.scene.materials[0].roughness;
                             const float alpha2 = alpha * alpha;
-                            const Image& places = frame.channels.at(positionChannel);
-                            Image& picture = frame.channels.at(lit);
+                            const Image& places = frame.channels.at(Channel::position);
+                            Image& picture = frame.channels.at(Channel::lit);
                             for (std::size_t i = 0; i < picture.pixels(); ++i) {
                                 const float* const p = places.pixel(i);
                                 const glm::vec3 v = glm::normalize(-glm::vec3(p[0], p[1], p[2]));
@@ -166,7 +165,7 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                     picture.pixel(i)[c] = static_cast<float>(picture.pixel(i)[c] * wrong);
                             }
                         },
-                    .channels = {positionChannel}});
+                    .channels = {Channel::position}});
     static const Quantity sharpness{.name = "roughness",
                                     .unit = "",
                                     .what = "the roughness of all",
@@ -202,8 +201,8 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
     measurer.plant({.picture =
                         [](const Case& drawn, Frame& frame) {
                             const float outer = std::cos(drawn.scene.lights[0].outer_cone), inner = 1;
-                            const Image& places = frame.channels.at(positionChannel);
-                            Image& picture = frame.channels.at(lit);
+                            const Image& places = frame.channels.at(Channel::position);
+                            Image& picture = frame.channels.at(Channel::lit);
                             for (std::size_t i = 0; i < picture.pixels(); ++i) {
                                 const float* const p = places.pixel(i);
                                 const float cosine = -glm::normalize(glm::vec3(p[0], p[1], p[2])).z;
@@ -216,7 +215,7 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                 for (int c = 0; c < 3; ++c) picture.pixel(i)[c] *= wrong * wrong;
                             }
                         },
-                    .channels = {positionChannel}});
+                    .channels = {Channel::position}});
     static const Quantity cone{.name = "cone",
                                .unit = "degrees",
                                .what = "the whole angle of the spot",

@@ -55,11 +55,11 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
     EXPECT_FALSE(frames.profile(0).empty());
     // The same when a Renderer draws by itself.
     RenderOptions options;
-    options.channels = {static_cast<int>(gpu::DEBUG_lit)};
+    options.channels = {Channel::lit};
     options.runs = 0;
     for (std::size_t i = 0; i < modes.size(); ++i) {
         const Frame frame = renderer.draw(modes[i], options);
-        EXPECT_EQ(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)).data, first[i].data);
+        EXPECT_EQ(frame.channels.at(Channel::lit).data, first[i].data);
         EXPECT_EQ(frames.described(i).counters.lights, frame.counters.lights);
     }
     // Negative control: another mode does create pipelines.

@@ -20,13 +20,13 @@ inline Settings blendedPicture() {
 }
 
 inline glm::dvec3 litAt(const Frame& frame, int x, int y) {
-    const Image& image = frame.channels.at(lit);
+    const Image& image = frame.channels.at(Channel::lit);
     return {double{image.at(x, y, 0)}, double{image.at(x, y, 1)}, double{image.at(x, y, 2)}};
 }
 
 inline Frame drawnBlended(Path path, const Scene& scene, const Settings& settings) {
     Renderer renderer(device(), scene, pipelines());
-    return drawnBy(path, renderer, settings, {lit});
+    return drawnBy(path, renderer, settings, {Channel::lit});
 }
 
 // Failures of both paths against the reference.

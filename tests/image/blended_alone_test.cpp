@@ -49,15 +49,14 @@ TEST(BlendedAlone, HasNoGBufferAndTheSamePicture) {
             Settings forward = settings;
             forward.path = Path::forward_plus;
             RenderOptions options;
-            options.channels = std::vector<int>{lit, static_cast<int>(gpu::DEBUG_material_id), albedo,
-                                                static_cast<int>(gpu::DEBUG_depth),
-                                                static_cast<int>(gpu::DEBUG_geometric_normal)};
+            options.channels = std::vector<Channel>{Channel::lit, Channel::material_id, albedo,
+                                                    Channel::depth, Channel::geometric_normal};
             options.runs = 0;
             const std::vector<Frame> frames = drawAll(scene, {settings, forward}, options);
-            for (const int mode : options.channels)
+            for (const Channel mode : options.channels)
                 EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                     << words << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
-            const Image& picture = frames[0].channels.at(lit);
+            const Image& picture = frames[0].channels.at(Channel::lit);
             EXPECT_GT(*picture.pixel(picture.pixels() / 2), 0) << "the pane is seen";
             EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun's shadow on blended surfaces far in front of opaque ones. Fitted maps and requested pages must
 // cover the blended surfaces too.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "tests/image/shadow_scenes.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Scene paneUnderStrips() {
 
 // The fraction of the pane's pixels whose error exceeds half of the shadow's contrast.
 double wrongShare(const Frame& frame, const Frame& reference) {
-    const Image &made = frame.channels.at(lit), &truth = reference.channels.at(lit);
+    const Image &made = frame.channels.at(Channel::lit), &truth = reference.channels.at(Channel::lit);
     std::vector<float> seen;
     for (std::size_t i = 0; i < truth.pixels(); ++i)
         if (*reference.blended.pixel(i) > 0) seen.push_back(*truth.pixel(i));
@@ -58,7 +58,7 @@ TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     Settings truth = settings;
     truth.path = Path::reference;
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
     const Frame reference = renderer.draw(truth, options);
     Settings depth = settings, pages = settings;
@@ -67,8 +67,9 @@ TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     pages.clipmap_page_size = 64;
     pages.clipmap_pages = 2048;
     for (const Settings& each : {settings, depth, pages}) {
-        const std::vector<Frame> frames = bothPaths(renderer, each, {lit});
-        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
+        const std::vector<Frame> frames = bothPaths(renderer, each, {Channel::lit});
+        EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)),
+                  0u);
         EXPECT_LE(wrongShare(frames[0], reference), 6.0 / 77)
             << nameOf(each.shadows) << " " << nameOf(each.shadow_fit);
     }

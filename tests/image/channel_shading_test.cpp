@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Relighting from channels: a path's own channels reproduce its lit.
 #include "compare/render/channel_shading.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 
@@ -12,16 +13,15 @@
 namespace diptych::tests {
 namespace {
 
-constexpr gpu::uint litTerms[] = {gpu::DEBUG_lit_diffuse,   gpu::DEBUG_lit_specular,
-                                  gpu::DEBUG_lit_ambient,   gpu::DEBUG_lit_haze,
-                                  gpu::DEBUG_transmittance, gpu::DEBUG_lit_environment};
+constexpr Channel litTerms[] = {Channel::lit_diffuse, Channel::lit_specular,  Channel::lit_ambient,
+                                Channel::lit_haze,    Channel::transmittance, Channel::lit_environment};
 
-std::vector<int> shadedChannels() {
-    std::vector<int> modes(surfaceChannels().begin(), surfaceChannels().end());
-    modes.push_back(lit);
-    modes.push_back(static_cast<int>(gpu::DEBUG_material_id));
-    modes.push_back(static_cast<int>(gpu::DEBUG_lightmapped));
-    for (const gpu::uint term : litTerms) modes.push_back(static_cast<int>(term));
+std::vector<Channel> shadedChannels() {
+    std::vector<Channel> modes(surfaceChannels().begin(), surfaceChannels().end());
+    modes.push_back(Channel::lit);
+    modes.push_back(Channel::material_id);
+    modes.push_back(Channel::lightmapped);
+    for (const Channel term : litTerms) modes.push_back(term);
     return modes;
 }
 
@@ -42,7 +42,7 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
             ChannelShading shading = renderer.shadeChannels(settings, images);
             const ChannelTerms own_terms = shading.terms(0);
             const Image shaded = shading.shade(0);
-            const Image& own = frame.channels.at(lit);
+            const Image& own = frame.channels.at(Channel::lit);
             std::size_t differ = 0;
             for (std::size_t p = 0; p < own.pixels(); ++p)
                 differ += !std::equal(own.pixel(p), own.pixel(p) + 3, shaded.pixel(p));
@@ -50,7 +50,7 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
                                          &own_terms.ambient,       &own_terms.haze,
                                          &own_terms.transmittance, &own_terms.environment};
             for (std::size_t t = 0; t < std::size(litTerms); ++t) {
-                const Image& theirs = frame.channels.at(static_cast<int>(litTerms[t]));
+                const Image& theirs = frame.channels.at(litTerms[t]);
                 for (std::size_t i = 0; i < theirs.data.size(); ++i)
                     differ += theirs.data[i] != std::as_const(made[t]->data)[i];
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun's clipmap. Both paths give the same bits whatever the pool contains, the image matches the
 // reference's rays, and cached pages equal redrawn ones.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/casters.h"
@@ -18,12 +18,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int seen = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              level = static_cast<int>(gpu::DEBUG_cascade),
-              residency = static_cast<int>(gpu::DEBUG_page_residency),
-              material = static_cast<int>(gpu::DEBUG_material_id),
-              position = static_cast<int>(gpu::DEBUG_position);
-
 // Pages of 32 texels: a 160 x 90 image requests about a hundred.
 Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
     Settings settings = smallPicture(encoding);
@@ -35,7 +29,7 @@ Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
     return settings;
 }
 
-Frame drawnWith(Renderer& renderer, const Settings& settings, const std::vector<int>& channels) {
+Frame drawnWith(Renderer& renderer, const Settings& settings, const std::vector<Channel>& channels) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -63,11 +57,12 @@ class ClipmapPaths : public testing::TestWithParam<std::string> {};
 TEST_P(ClipmapPaths, SeeTheSame) {
     Renderer& renderer = uploaded(GetParam()).renderer;
     const auto expectSame = [&](const Settings& settings) {
-        std::vector<int> channels{seen, level, residency, material};
+        std::vector<Channel> channels{Channel::shadow_visibility, Channel::cascade, Channel::page_residency,
+                                      Channel::material_id};
         // With smaller encodings the decoded surfaces differ, and so does lit.
-        if (settings.gbuffer == GBufferEncoding::full) channels.push_back(lit);
+        if (settings.gbuffer == GBufferEncoding::full) channels.push_back(Channel::lit);
         const std::vector<Frame> frames = bothPaths(renderer, settings, channels);
-        for (const int mode : channels)
+        for (const Channel mode : channels)
             EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                 << debugMode(mode).name << ", pool " << settings.clipmap_pages;
         for (const Frame& frame : frames) expectCounted(frame, settings.clipmap_pages);
@@ -76,7 +71,7 @@ TEST_P(ClipmapPaths, SeeTheSame) {
     const Frame whole = expectSame(paged(GBufferEncoding::full));
     // Marking and shading choose the same page: none is missing if the pool has capacity.
     EXPECT_EQ(whole.counters.shadow_pages.fallback, 0u);
-    const Image& missing = whole.channels.at(residency);
+    const Image& missing = whole.channels.at(Channel::page_residency);
     for (std::size_t i = 0; i < missing.pixels(); ++i) ASSERT_EQ(*missing.pixel(i), 0) << i;
     if (GetParam() != "builtin:gallery") {  // its many materials would recompile for each
         expectSame(paged(GBufferEncoding::compact));
@@ -101,23 +96,26 @@ TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
     settings.clipmap_page_size = 64;
     Settings truth = settings;
     truth.path = Path::reference;
-    const std::vector<int> channels{seen, level, residency, material};
-    const Frame reference = drawnWith(renderer, truth, {seen, material});
+    const std::vector<Channel> channels{Channel::shadow_visibility, Channel::cascade, Channel::page_residency,
+                                        Channel::material_id};
+    const Frame reference = drawnWith(renderer, truth, {Channel::shadow_visibility, Channel::material_id});
     ASSERT_FALSE(reference.shadow_edge.empty());
     for (const int pool : {4096, 60, 1}) {
         settings.clipmap_pages = pool;
         const Frame path = drawnWith(renderer, settings, channels);
         std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
-        for (std::size_t i = 0; i < path.channels.at(seen).pixels(); ++i) {
-            if (*path.channels.at(material).pixel(i) < 0) continue;
+        for (std::size_t i = 0; i < path.channels.at(Channel::shadow_visibility).pixels(); ++i) {
+            if (*path.channels.at(Channel::material_id).pixel(i) < 0) continue;
             ++covered;
-            const float serves = *path.channels.at(level).pixel(i) + *path.channels.at(residency).pixel(i);
+            const float serves = *path.channels.at(Channel::cascade).pixel(i) +
+                                 *path.channels.at(Channel::page_residency).pixel(i);
             const double reach = path.shadow_level_reach.at(static_cast<std::size_t>(serves)).reach;
             if (double{reference.shadow_edge.pixel(i)[0]} <= reach) {
                 ++near;
                 continue;
             }
-            const float shown = *path.channels.at(seen).pixel(i), is = *reference.channels.at(seen).pixel(i);
+            const float shown = *path.channels.at(Channel::shadow_visibility).pixel(i),
+                        is = *reference.channels.at(Channel::shadow_visibility).pixel(i);
             falseLit += shown > is;
             falseDark += shown < is;
         }
@@ -146,13 +144,14 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ClipmapPaths,
 float expectLit(double degrees, double scale, const Settings& settings) {
     const Scene scene = groundUnder(sunAt(degrees), {}, scale);
     Renderer renderer(device(), scene, pipelines());
-    const Frame frame = drawnWith(renderer, settings, {seen, level, material});
+    const Frame frame =
+        drawnWith(renderer, settings, {Channel::shadow_visibility, Channel::cascade, Channel::material_id});
     float finest = std::numeric_limits<float>::infinity();
     std::size_t dark = 0;
-    for (std::size_t i = 0; i < frame.channels.at(seen).pixels(); ++i) {
-        if (*frame.channels.at(material).pixel(i) < 0) continue;
-        dark += *frame.channels.at(seen).pixel(i) != 1;
-        finest = std::min(finest, *frame.channels.at(level).pixel(i));
+    for (std::size_t i = 0; i < frame.channels.at(Channel::shadow_visibility).pixels(); ++i) {
+        if (*frame.channels.at(Channel::material_id).pixel(i) < 0) continue;
+        dark += *frame.channels.at(Channel::shadow_visibility).pixel(i) != 1;
+        finest = std::min(finest, *frame.channels.at(Channel::cascade).pixel(i));
     }
     EXPECT_EQ(dark, 0u) << degrees << " degrees, scale " << scale << ", pool " << settings.clipmap_pages
                         << ", kernel " << settings.shadow_kernel << ", camera " << settings.camera;
@@ -192,13 +191,15 @@ TEST(ClipmapPlane, WithoutASunThereIsNoClipmap) {
     lamp.position = {0, 2, 0};
     scene.lights.push_back(lamp);
     Renderer renderer(device(), scene, pipelines());
-    const Frame frame = drawnWith(renderer, paged(GBufferEncoding::standard), {seen, residency, material});
+    const Frame frame =
+        drawnWith(renderer, paged(GBufferEncoding::standard),
+                  {Channel::shadow_visibility, Channel::page_residency, Channel::material_id});
     EXPECT_EQ(frame.counters.shadow_pages.requested, 0u);
     EXPECT_TRUE(frame.shadow_level_reach.empty());
-    for (std::size_t i = 0; i < frame.channels.at(seen).pixels(); ++i) {
-        if (*frame.channels.at(material).pixel(i) < 0) continue;
-        ASSERT_EQ(*frame.channels.at(seen).pixel(i), 1);
-        ASSERT_EQ(*frame.channels.at(residency).pixel(i), -1);
+    for (std::size_t i = 0; i < frame.channels.at(Channel::shadow_visibility).pixels(); ++i) {
+        if (*frame.channels.at(Channel::material_id).pixel(i) < 0) continue;
+        ASSERT_EQ(*frame.channels.at(Channel::shadow_visibility).pixel(i), 1);
+        ASSERT_EQ(*frame.channels.at(Channel::page_residency).pixel(i), -1);
     }
 }
 
@@ -213,9 +214,11 @@ TEST(ClipmapCached, EqualsRedrawn) {
     Renderer walking(device(), scene, pipelines());
     const auto expectSame = [&](const std::string& where) {
         Renderer anew(device(), scene, pipelines());
-        const Frame kept = drawnWith(walking, settings, {lit, seen, residency}),
-                    redrawn = drawnWith(anew, settings, {lit, seen, residency});
-        for (const int mode : {lit, seen, residency})
+        const Frame kept = drawnWith(walking, settings,
+                                     {Channel::lit, Channel::shadow_visibility, Channel::page_residency}),
+                    redrawn = drawnWith(anew, settings,
+                                        {Channel::lit, Channel::shadow_visibility, Channel::page_residency});
+        for (const Channel mode : {Channel::lit, Channel::shadow_visibility, Channel::page_residency})
             EXPECT_EQ(differingPixels(kept.channels.at(mode), redrawn.channels.at(mode)), 0u)
                 << where << " " << debugMode(mode).name;
         EXPECT_LT(kept.counters.shadow_pages.drawn, redrawn.counters.shadow_pages.drawn) << where;
@@ -351,14 +354,15 @@ TEST(ClipmapCached, PoisonInAPageThatIsReadIsSeen) {
 // Minimum and maximum visibility on the ground for x in [from, to], near its centre line.
 std::pair<float, float> seenBetween(const Frame& frame, const glm::dvec3& eye, double from, double to) {
     std::pair<float, float> range{2.0f, -1.0f};
-    const Image& at = frame.channels.at(position);
+    const Image& at = frame.channels.at(Channel::position);
     for (int y = 0; y < at.height; ++y)
         for (int x = 0; x < at.width; ++x) {
             const double east = double{at.at(x, y, 0)} + eye.x, south = double{at.at(x, y, 2)} + eye.z;
-            if (frame.channels.at(material).at(x, y) != 0 || east < from || east > to || std::abs(south) > 1)
+            if (frame.channels.at(Channel::material_id).at(x, y) != 0 || east < from || east > to ||
+                std::abs(south) > 1)
                 continue;
-            range.first = std::min(range.first, frame.channels.at(seen).at(x, y));
-            range.second = std::max(range.second, frame.channels.at(seen).at(x, y));
+            range.first = std::min(range.first, frame.channels.at(Channel::shadow_visibility).at(x, y));
+            range.second = std::max(range.second, frame.channels.at(Channel::shadow_visibility).at(x, y));
         }
     return range;
 }
@@ -381,7 +385,8 @@ TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
     settings.clipmap_pages = static_cast<int>(most) + 1;
     for (const glm::dvec3& eye : eyes) {
         settings.camera = cameraAt(eye, {-0.3, 0, 0});
-        const Frame frame = drawnWith(renderer, settings, {seen, material, position});
+        const Frame frame = drawnWith(renderer, settings,
+                                      {Channel::shadow_visibility, Channel::material_id, Channel::position});
         EXPECT_EQ(frame.counters.shadow_pages.fallback, 0u);
         // Shadow length of a 1 m board, sun 45 degrees high and 0.3 radians from +X: 0.955 m.
         const auto [least, dark] = seenBetween(frame, eye, -0.85, -0.1);

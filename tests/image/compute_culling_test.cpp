@@ -3,7 +3,7 @@
 // those of --cull off bit for bit, and about as many triangles are culled as on the host. culling_test.cpp
 // compares the host's culling with --cull off; gpu_choices_test.cpp compares a GPU's choices with the
 // device's own.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/computing_device.h"
@@ -27,9 +27,8 @@ Settings chosenSettings(Path path, Size size = {160, 90}) {
 }
 
 // These distinguish surfaces and their lighting.
-const std::vector<int> chosenChannels{lit, static_cast<int>(gpu::DEBUG_normals),
-                                      static_cast<int>(gpu::DEBUG_depth),
-                                      static_cast<int>(gpu::DEBUG_material_id)};
+const std::vector<Channel> chosenChannels{Channel::lit, Channel::normals, Channel::depth,
+                                          Channel::material_id};
 
 void expectTheKernelChangesNoBit(Renderer& renderer, const std::string& name,
                                  const std::function<void(Settings&)>& change = {}) {

@@ -13,11 +13,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int AMBIENT = static_cast<int>(gpu::DEBUG_lit_ambient),
-              SURFACES = static_cast<int>(gpu::DEBUG_material_id),
-              SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
-              DIFFUSE = static_cast<int>(gpu::DEBUG_lit_diffuse);
-
 struct Convention {
     const char *option, *value, *scene;
     Multiscatter multiscatter = Multiscatter::off;
@@ -52,7 +47,8 @@ TEST_P(Conventions, BothPathsAreTheReference) {
     const Convention& convention = GetParam();
     UploadedScene& scene = uploaded(convention.scene);
     RenderOptions options;
-    options.channels = {AMBIENT, SPECULAR, DIFFUSE, SURFACES};
+    options.channels = {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse,
+                        Channel::material_id};
     options.runs = 0;
     struct Drawn {
         Frame reference;
@@ -66,34 +62,35 @@ TEST_P(Conventions, BothPathsAreTheReference) {
         drawn.push_back(
             {scene.renderer.draw(asked, options), bothPaths(scene.renderer, settings, options.channels)});
     }
-    const auto p99 = [&](const Drawn& side, std::size_t path, int channel) {
+    const auto p99 = [&](const Drawn& side, std::size_t path, Channel channel) {
         const DebugMode& mode = debugMode(channel);
         return channelStats(mode.metric, mode.kind, side.reference.channels.at(channel),
                             side.paths[path].channels.at(channel), coverage(side.reference, side.paths[path]))
             .p99;
     };
     for (std::size_t path = 0; path < 2; ++path)
-        for (const int channel : {AMBIENT, SPECULAR, DIFFUSE}) {
+        for (const Channel channel : {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse}) {
             EXPECT_LE(p99(drawn[1], path, channel), 1.25 * p99(drawn[0], path, channel) + 1e-5)
                 << drawn[1].paths[path].name << " " << debugMode(channel).name;
         }
     // It changes its own effect by far more than that.
-    const auto change = [&](int channel) {
+    const auto change = [&](Channel channel) {
         const DebugMode& mode = debugMode(channel);
         return channelStats(mode.metric, mode.kind, drawn[0].paths[0].channels.at(channel),
                             drawn[1].paths[0].channels.at(channel),
                             coverage(drawn[0].paths[0], drawn[1].paths[0]))
             .max;
     };
-    EXPECT_GT(change(DIFFUSE), 0.05);
-    EXPECT_EQ(change(AMBIENT) > 0.01, convention.of_ambient);
+    EXPECT_GT(change(Channel::lit_diffuse), 0.05);
+    EXPECT_EQ(change(Channel::lit_ambient) > 0.01, convention.of_ambient);
 }
 
 TEST_P(Conventions, BothPathsAreEqualBitForBit) {
     const Convention& convention = GetParam();
     UploadedScene& scene = uploaded(convention.scene);
-    const std::vector<Frame> both = bothPaths(scene.renderer, withConvention(convention, true), {lit});
-    EXPECT_EQ(differingPixels(both[0].channels.at(lit), both[1].channels.at(lit)), 0u);
+    const std::vector<Frame> both =
+        bothPaths(scene.renderer, withConvention(convention, true), {Channel::lit});
+    EXPECT_EQ(differingPixels(both[0].channels.at(Channel::lit), both[1].channels.at(Channel::lit)), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [](const auto& test) {
@@ -133,7 +130,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
         for (const auto& [option, value] : had) theirs.set(option, value);
         Frame other = ours;
         other.origin.external = true;
-        other.channels[lit] = renderer.draw(theirs, options).channels.at(lit);
+        other.channels[Channel::lit] = renderer.draw(theirs, options).channels.at(Channel::lit);
         const Explanation found = explain(device(), renderer, scene, ours, other);
         std::vector<std::string> named, expected;
         for (const Cause& cause : found.causes)
@@ -169,7 +166,7 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
         Settings theirs = settings;
         theirs.skin_normals = normals;
         RenderOptions light = options;
-        light.channels = {lit};
+        light.channels = {Channel::lit};
         Frame other = renderer.draw(theirs, light);
         other.origin.external = true;
         other.settings = settings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles that --cull removes change no bit of an image, and the device does not process them.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/placed_balls.h"
@@ -22,12 +22,10 @@ Settings cullingSettings(Path path, Size size = {160, 90}) {
 }
 
 // These distinguish surfaces and their lighting.
-const std::vector<int> fewChannels{static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
-                                   static_cast<int>(gpu::DEBUG_depth),
-                                   static_cast<int>(gpu::DEBUG_material_id)};
+const std::vector<Channel> fewChannels{Channel::lit, Channel::normals, Channel::depth, Channel::material_id};
 
 void expectSameCulled(Renderer& renderer, Settings settings, const std::string& name,
-                      const std::vector<int>& channels) {
+                      const std::vector<Channel>& channels) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -44,7 +42,7 @@ void expectSameCulled(Renderer& renderer, Settings settings, const std::string& 
 
 void expectSameInBothPaths(Renderer& renderer, const std::string& name,
                            const std::function<void(Settings&)>& change = {},
-                           const std::vector<int>& channels = fewChannels) {
+                           const std::vector<Channel>& channels = fewChannels) {
     for (const Path path : drawn_paths) {
         Settings settings = cullingSettings(path);
         if (change) change(settings);

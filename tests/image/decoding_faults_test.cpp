@@ -22,31 +22,30 @@ float asHalf(float value) {
 
 struct DecodingFault {
     const char* name;
-    gpu::uint channel;
+    Channel channel;
     std::function<float(float)> plant;  // what the G-buffer gives back of a component
 };
 void PrintTo(const DecodingFault& fault, std::ostream* out) {
     *out << fault.name;
 }
 const DecodingFault decodingFaults[] = {
-    {"NormalsOfTwelveBits", gpu::DEBUG_normals, [](float x) { return rounded(x, 2047); }},
-    {"NormalsOfHalfFloats", gpu::DEBUG_normals, asHalf},
-    {"NormalsOfAnotherLength", gpu::DEBUG_normals, [](float x) { return 0.999f * x; }},
-    {"GeometricNormalsOfFiveBits", gpu::DEBUG_geometric_normal, [](float x) { return rounded(x, 15); }},
-    {"RoughnessOfEightBits", gpu::DEBUG_roughness, [](float x) { return rounded(x, 255); }},
-    {"RoughnessOfHalfFloats", gpu::DEBUG_roughness, asHalf},
-    {"AlbedoWithoutItsRoot", gpu::DEBUG_albedo, [](float x) { return rounded(x, 255); }},
-    {"AlbedoRootedTwice", gpu::DEBUG_albedo, [](float x) { return std::sqrt(x); }},
-    {"MetallicOfFourBits", gpu::DEBUG_metallic, [](float x) { return x > 0 && x < 1 ? x - 0.5f / 15 : x; }},
-    {"OcclusionOfSevenBits", gpu::DEBUG_occlusion, [](float x) { return rounded(x, 127); }},
-    {"EmissionOfEightBits", gpu::DEBUG_emission, [](float x) { return x * (1 + 1.0f / 200); }},
+    {"NormalsOfTwelveBits", Channel::normals, [](float x) { return rounded(x, 2047); }},
+    {"NormalsOfHalfFloats", Channel::normals, asHalf},
+    {"NormalsOfAnotherLength", Channel::normals, [](float x) { return 0.999f * x; }},
+    {"GeometricNormalsOfFiveBits", Channel::geometric_normal, [](float x) { return rounded(x, 15); }},
+    {"RoughnessOfEightBits", Channel::roughness, [](float x) { return rounded(x, 255); }},
+    {"RoughnessOfHalfFloats", Channel::roughness, asHalf},
+    {"AlbedoWithoutItsRoot", Channel::albedo, [](float x) { return rounded(x, 255); }},
+    {"AlbedoRootedTwice", Channel::albedo, [](float x) { return std::sqrt(x); }},
+    {"MetallicOfFourBits", Channel::metallic, [](float x) { return x > 0 && x < 1 ? x - 0.5f / 15 : x; }},
+    {"OcclusionOfSevenBits", Channel::occlusion, [](float x) { return rounded(x, 127); }},
+    {"EmissionOfEightBits", Channel::emission, [](float x) { return x * (1 + 1.0f / 200); }},
 };
 
 // Deferred decodes `channel` so, and both paths shade what it gives back.
 Report withDecoded(std::vector<Frame> frames, const Requirements& needs, const DecodingFault* fault) {
     if (fault)
-        for (float& value : frames[0].channels.at(static_cast<int>(fault->channel)).data)
-            value = fault->plant(value);
+        for (float& value : frames[0].channels.at(fault->channel).data) value = fault->plant(value);
     const DeviceInfo& info = device().info();
     return makeReport(std::move(frames), {needs, needs}, {info.name, info.driver, info.type});
 }
@@ -71,8 +70,7 @@ TEST_P(DecodingFaults, AreFoundByTheirChannelAlone) {
     ASSERT_TRUE(withDecoded(sound(), needs(), nullptr).passed());
     const Report report = withDecoded(sound(), needs(), &GetParam());
     for (const ChannelDiff& channel : report.comparisons.at(0).channels)
-        EXPECT_EQ(channel.verdict == Verdict::fail,
-                  channel.mode->number == static_cast<int>(GetParam().channel))
+        EXPECT_EQ(channel.verdict == Verdict::fail, channel.mode->channel == GetParam().channel)
             << channel.mode->name << " " << channel.reason;
 }
 

@@ -72,9 +72,9 @@ std::vector<std::string> failing(const Report& report) {
                 names.push_back(fmt::format("{} {}: {}", i, channel.mode->name, channel.reason));
     return names;
 }
-bool fails(const Report& report, std::size_t comparison, gpu::uint mode) {
+bool fails(const Report& report, std::size_t comparison, Channel mode) {
     for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)
-        if (channel.mode->number == static_cast<int>(mode)) return channel.verdict == Verdict::fail;
+        if (channel.mode->channel == mode) return channel.verdict == Verdict::fail;
     return false;
 }
 
@@ -106,8 +106,8 @@ TEST(EnvironmentReference, AWrongRotationFails) {
     settings.env_rotation = 5;
     const Report report = lampJudged().verdict(lampJudged().scene(), settings);
     for (const std::size_t path : {0u, 1u})
-        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
-            EXPECT_TRUE(fails(report, path, mode)) << path << " " << mode;
+        for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
+            EXPECT_TRUE(fails(report, path, mode)) << path << " " << debugMode(mode).name;
 }
 
 // One level of the maps is half an octave of alpha.
@@ -116,16 +116,15 @@ TEST(EnvironmentReference, AMapOneLevelOffFails) {
     for (Material& m : scene.materials)
         m.roughness = static_cast<float>(std::min(1.0, double{m.roughness} * std::exp2(0.25)));
     const Report report = lampJudged().verdict(scene, lampJudged().settings());
-    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit_specular)) << path;
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit_specular)) << path;
 }
 
 TEST(EnvironmentReference, WithoutOneOverPiItFails) {
     const Report report =
         lampJudged().verdict(lampJudged().scene(), lampJudged().settings(), [](Frame& frame) {
-            for (float& v : frame.channels.at(static_cast<int>(gpu::DEBUG_lit_diffuse)).data)
-                v *= std::numbers::pi_v<float>;
+            for (float& v : frame.channels.at(Channel::lit_diffuse).data) v *= std::numbers::pi_v<float>;
         });
-    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit_diffuse)) << path;
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit_diffuse)) << path;
 }
 
 // A tenth exceeds the whole tolerance where the approximations are nearly exact.
@@ -133,7 +132,7 @@ TEST(EnvironmentReference, ABrighterEnvironmentFails) {
     Settings settings = lampJudged().settings();
     settings.ibl_intensity = 1.1f;
     const Report report = lampJudged().verdict(lampJudged().scene(), settings);
-    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, gpu::DEBUG_lit)) << path;
+    for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit)) << path;
 }
 
 }  // namespace

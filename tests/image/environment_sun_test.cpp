@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun of an environment as a light, in both paths and the reference.
 #include "shared/scene/lights/environment_sun.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/square.h"
@@ -16,10 +16,8 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int sunDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              sunSeen = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              sunIds = static_cast<int>(gpu::DEBUG_material_id);
-const std::vector<int> sunChannels{lit, sunDiffuse, sunSeen, sunIds};
+const std::vector<Channel> sunChannels{Channel::lit, Channel::lit_diffuse, Channel::shadow_visibility,
+                                       Channel::material_id};
 
 // Radiance 0.5, and a texel of 2000 at about (1, 0, 1).
 constexpr int sunColumn = 112, sunRow = 31;
@@ -76,16 +74,17 @@ TEST(EnvironmentSunLight, LightsAndCastsShadows) {
     const Scene scene = sunlitSquare();
     Renderer renderer(device(), scene, pipelines());
     std::vector<Frame> frames = bothPaths(renderer, withSun(), sunChannels);
-    EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
+    EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u);
     frames.push_back(referenceOf(renderer, withSun()));
     for (const Frame& frame : frames) {
         const double tolerance = frame.settings.path == Path::reference ? 0.01 * even : 1e-5;
-        EXPECT_NEAR(colorAt(frame, sunDiffuse, 8, 8).g, even, tolerance) << frame.name;
-        EXPECT_EQ(colorAt(frame, sunSeen, 8, 8).x, 0) << frame.name;
+        EXPECT_NEAR(colorAt(frame, Channel::lit_diffuse, 8, 8).g, even, tolerance) << frame.name;
+        EXPECT_EQ(colorAt(frame, Channel::shadow_visibility, 8, 8).x, 0) << frame.name;
         const double lit_by_sun = sunLux * toSun.z / std::numbers::pi;
-        EXPECT_NEAR(colorAt(frame, sunDiffuse, 2, 8).g, even + lit_by_sun, 2e-3 * lit_by_sun + tolerance)
+        EXPECT_NEAR(colorAt(frame, Channel::lit_diffuse, 2, 8).g, even + lit_by_sun,
+                    2e-3 * lit_by_sun + tolerance)
             << frame.name;
-        EXPECT_EQ(colorAt(frame, sunSeen, 2, 8).x, 1) << frame.name;
+        EXPECT_EQ(colorAt(frame, Channel::shadow_visibility, 2, 8).x, 1) << frame.name;
         EXPECT_EQ(std::ranges::count_if(frame.notes,
                                         [](const std::string& note) {
                                             return note.starts_with("environment: its sun is a light of ");
@@ -112,7 +111,7 @@ TEST(EnvironmentSunLight, TurnsAndIsScaledWithTheEnvironment) {
         std::vector<Frame> frames = bothPaths(renderer, settings, sunChannels);
         frames.push_back(referenceOf(renderer, settings));
         for (const Frame& frame : frames)
-            EXPECT_NEAR(colorAt(frame, sunDiffuse, 2, 8).g, expected, 0.005 * expected)
+            EXPECT_NEAR(colorAt(frame, Channel::lit_diffuse, 2, 8).g, expected, 0.005 * expected)
                 << frame.name << " " << turned;
     }
 }
@@ -130,18 +129,18 @@ TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         const Frame with = drawnBy(path, renderer, settings, sunChannels),
                     off = drawnBy(path, renderer, without, sunChannels);
-        EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data) << with.name;
-        EXPECT_GT(*std::ranges::max_element(with.channels.at(lit).data), 0.5 * bright) << with.name;
+        EXPECT_EQ(with.channels.at(Channel::lit).data, off.channels.at(Channel::lit).data) << with.name;
+        EXPECT_GT(*std::ranges::max_element(with.channels.at(Channel::lit).data), 0.5 * bright) << with.name;
         EXPECT_EQ(off.counters.lights, 0u);
     }
     const Frame with = referenceOf(renderer, settings), off = referenceOf(renderer, without);
-    EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data);
+    EXPECT_EQ(with.channels.at(Channel::lit).data, off.channels.at(Channel::lit).data);
     // The reference samples the sun as part of the image.
     settings.camera.clear();
     without.camera.clear();
     settings.shadows = without.shadows = Shadows::off;
-    const double as_light = colorAt(referenceOf(renderer, settings), sunDiffuse, 8, 8).g,
-                 as_picture = colorAt(referenceOf(renderer, without), sunDiffuse, 8, 8).g;
+    const double as_light = colorAt(referenceOf(renderer, settings), Channel::lit_diffuse, 8, 8).g,
+                 as_picture = colorAt(referenceOf(renderer, without), Channel::lit_diffuse, 8, 8).g;
     EXPECT_NEAR(as_light, as_picture, 0.01 * as_picture);
 }
 
@@ -156,7 +155,7 @@ TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         const Frame with = drawnBy(path, renderer, settings, sunChannels),
                     off = drawnBy(path, renderer, without, sunChannels);
-        EXPECT_EQ(with.channels.at(lit).data, off.channels.at(lit).data) << with.name;
+        EXPECT_EQ(with.channels.at(Channel::lit).data, off.channels.at(Channel::lit).data) << with.name;
         EXPECT_TRUE(std::ranges::any_of(with.notes, [](const std::string& note) {
             return note.starts_with("environment: --env-sun on: no compact spot ");
         }));
@@ -176,7 +175,7 @@ TEST(EnvironmentSunLight, BothPathsAreEqualBitForBit) {
     settings.size = {96, 54};
     settings.env_rotation = 33;
     const std::vector<Frame> frames = bothPaths(scene, settings, sunChannels);
-    for (const int mode : sunChannels)
+    for (const Channel mode : sunChannels)
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
 }

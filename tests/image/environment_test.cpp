@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Environment light in both paths: compared with closed forms, ambient light, and the reference.
 #include "compare/reference/environment.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/environment.h"
@@ -24,12 +24,8 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int skyDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              skySpecular = static_cast<int>(gpu::DEBUG_lit_specular),
-              skyAmbient = static_cast<int>(gpu::DEBUG_lit_ambient),
-              skyAlone = static_cast<int>(gpu::DEBUG_lit_environment),
-              skyIds = static_cast<int>(gpu::DEBUG_material_id);
-const std::vector<int> shown{lit, skyDiffuse, skySpecular, skyAmbient, skyAlone, skyIds};
+const std::vector<Channel> shown{Channel::lit,         Channel::lit_diffuse,     Channel::lit_specular,
+                                 Channel::lit_ambient, Channel::lit_environment, Channel::material_id};
 
 Settings underSky(Size size = {16, 16}) {
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -74,7 +70,7 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
     scene.materials[0].base_color = {1, 1, 1, 1};
     Renderer renderer(device(), scene, pipelines());
     for (const Frame& frame : bothPaths(renderer, underSky({17, 17}), shown))
-        expectColor(colorAt(frame, lit, 8, 8), painted[4], 1e-3f, frame.name + " mirrors +Z");
+        expectColor(colorAt(frame, Channel::lit, 8, 8), painted[4], 1e-3f, frame.name + " mirrors +Z");
     for (std::size_t i = 0; i < axes.size(); ++i) {
         // From in front of the square, with nothing beside its plane.
         Settings settings = underSky({9, 9});
@@ -82,9 +78,10 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
         settings.camera =
             fmt::format("eye=0,0,{} target={},{},{} fov=5 near=0.1 far=10", eye.z, to.x, to.y, to.z);
         for (const Frame& frame : bothPaths(renderer, settings, shown)) {
-            expectColor(colorAt(frame, lit, 4, 4), painted[i], 1e-6f, frame.name + " sees axis");
-            EXPECT_EQ(colorAt(frame, skyIds, 4, 4).x, -1);
-            for (const int term : {skyDiffuse, skySpecular, skyAmbient, skyAlone})
+            expectColor(colorAt(frame, Channel::lit, 4, 4), painted[i], 1e-6f, frame.name + " sees axis");
+            EXPECT_EQ(colorAt(frame, Channel::material_id, 4, 4).x, -1);
+            for (const Channel term : {Channel::lit_diffuse, Channel::lit_specular, Channel::lit_ambient,
+                                       Channel::lit_environment})
                 EXPECT_EQ(colorAt(frame, term, 4, 4), glm::vec3(0)) << "the background is no light term";
         }
     }
@@ -94,10 +91,11 @@ TEST(EnvironmentLight, SixPaintedDirectionsAreWhereTheyBelong) {
     turned.env_rotation = 90;
     turned.ibl_intensity = 2;
     for (const Frame& frame : bothPaths(renderer, turned, shown))
-        expectColor(colorAt(frame, lit, 4, 4), 2.0f * painted[0], 1e-6f, frame.name + " turned");
+        expectColor(colorAt(frame, Channel::lit, 4, 4), 2.0f * painted[0], 1e-6f, frame.name + " turned");
     turned.camera.clear();
     for (const Frame& frame : bothPaths(renderer, turned, shown))
-        expectColor(colorAt(frame, lit, 4, 4), 2.0f * painted[1], 2e-3f, frame.name + " mirrors what was -X");
+        expectColor(colorAt(frame, Channel::lit, 4, 4), 2.0f * painted[1], 2e-3f,
+                    frame.name + " mirrors what was -X");
 }
 
 // A uniform sky equals --ambient, for every method except sampling.
@@ -115,13 +113,13 @@ TEST(EnvironmentLight, AConstantSkyIsAmbientLight) {
             int covered = 0;
             for (int y = 0; y < 36; ++y)
                 for (int x = 0; x < 64; ++x) {
-                    if (colorAt(frame, skyIds, x, y).x < 0) continue;
+                    if (colorAt(frame, Channel::material_id, x, y).x < 0) continue;
                     ++covered;
-                    const glm::vec3 sum =
-                                        colorAt(frame, skyDiffuse, x, y) + colorAt(frame, skySpecular, x, y),
-                                    off = glm::abs(sum - colorAt(frame, skyAmbient, x, y));
+                    const glm::vec3 sum = colorAt(frame, Channel::lit_diffuse, x, y) +
+                                          colorAt(frame, Channel::lit_specular, x, y),
+                                    off = glm::abs(sum - colorAt(frame, Channel::lit_ambient, x, y));
                     worst = std::max({worst, double{off.x}, double{off.y}, double{off.z}});
-                    ASSERT_EQ(colorAt(frame, skyAlone, x, y), sum) << frame.name;
+                    ASSERT_EQ(colorAt(frame, Channel::lit_environment, x, y), sum) << frame.name;
                 }
             EXPECT_GT(covered, 200);
             EXPECT_LT(worst, 2e-6) << frame.name << " " << nameOf(diffuse);
@@ -149,11 +147,15 @@ TEST(EnvironmentLight, ItsChannelHasNothingOfTheLights) {
         scene.lights.assign(lights, lamp);
         const std::vector<Frame> shone = bothPaths(scene, settings, shown);
         for (std::size_t i = 0; i < 2; ++i) {
-            EXPECT_EQ(differingPixels(shone[i].channels.at(skyAlone), dark[i].channels.at(skyAlone)), 0u)
+            EXPECT_EQ(differingPixels(shone[i].channels.at(Channel::lit_environment),
+                                      dark[i].channels.at(Channel::lit_environment)),
+                      0u)
                 << lights;
-            EXPECT_EQ(differingPixels(shone[i].channels.at(skyDiffuse), dark[i].channels.at(skyDiffuse)), 16u)
+            EXPECT_EQ(differingPixels(shone[i].channels.at(Channel::lit_diffuse),
+                                      dark[i].channels.at(Channel::lit_diffuse)),
+                      16u)
                 << lights;
-            EXPECT_GT(colorAt(dark[i], skyAlone, 2, 2).g, 0.01f);
+            EXPECT_GT(colorAt(dark[i], Channel::lit_environment, 2, 2).g, 0.01f);
         }
     }
 }
@@ -172,7 +174,8 @@ TEST(EnvironmentLight, SamplesAtAPixelAreTheTablesIntegral) {
         settings.ambient = {1, 1, 1};
         for (const Frame& frame : bothPaths(scene, settings, shown))
             for (const int x : {0, 4, 8})
-                EXPECT_NEAR(colorAt(frame, skySpecular, x, 8).x, colorAt(frame, skyAmbient, x, 8).x, 3e-3f)
+                EXPECT_NEAR(colorAt(frame, Channel::lit_specular, x, 8).x,
+                            colorAt(frame, Channel::lit_ambient, x, 8).x, 3e-3f)
                     << frame.name << " " << roughness << " " << x;
     }
 }
@@ -244,7 +247,7 @@ TEST(EnvironmentLight, ASampleReadsTheLevelOfItsSolidAngle) {
                 const glm::dvec3 p((x + 0.5) / 8.5 - 1, 1 - (y + 0.5) / 8.5, 0);
                 const double expected = sampledWhite(
                     maps, double{roughness}, glm::normalize(glm::dvec3(0, 0, 1) - p), 16, double{bias});
-                EXPECT_NEAR(colorAt(frame, skySpecular, x, y).x, expected, 1e-3 * expected)
+                EXPECT_NEAR(colorAt(frame, Channel::lit_specular, x, y).x, expected, 1e-3 * expected)
                     << roughness << " " << bias << " " << x << "," << y;
             }
     }
@@ -261,7 +264,7 @@ TEST(EnvironmentLight, OcclusionTexturesDimIt) {
     m.occlusion_strength = 0.75f;
     const std::vector<Frame> dimmed = bothPaths(scene, underSky({4, 4}), shown);
     for (std::size_t i = 0; i < 2; ++i)
-        for (const int term : {skyDiffuse, skySpecular}) {
+        for (const Channel term : {Channel::lit_diffuse, Channel::lit_specular}) {
             expectColor(colorAt(dimmed[i], term, 0, 0), colorAt(open[i], term, 0, 0), 1e-6f, "open");
             expectColor(colorAt(dimmed[i], term, 3, 0), 0.25f * colorAt(open[i], term, 3, 0), 1e-6f,
                         "a quarter");
@@ -307,13 +310,15 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
         for (const Frame& frame : frames)
             for (int y = 0; y < 36; ++y)
                 for (int x = 0; x < 64; ++x) {
-                    const float id = colorAt(frame, skyIds, x, y).x;
+                    const float id = colorAt(frame, Channel::material_id, x, y).x;
                     if (id < 0 || id == unlit) continue;
-                    ASSERT_GT(colorAt(frame, skySpecular, x, y).g, 1e-3f) << frame.name << what << id;
+                    ASSERT_GT(colorAt(frame, Channel::lit_specular, x, y).g, 1e-3f)
+                        << frame.name << what << id;
                     if (id == unmapped)
-                        ASSERT_GT(colorAt(frame, skyDiffuse, x, y).g, 0.1f) << frame.name << what;
+                        ASSERT_GT(colorAt(frame, Channel::lit_diffuse, x, y).g, 0.1f) << frame.name << what;
                     else
-                        ASSERT_EQ(colorAt(frame, skyDiffuse, x, y), glm::vec3(0)) << frame.name << what << id;
+                        ASSERT_EQ(colorAt(frame, Channel::lit_diffuse, x, y), glm::vec3(0))
+                            << frame.name << what << id;
                     mapped.insert(id);
                 }
     };
@@ -322,7 +327,7 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     const std::vector<Frame> full = lightmaps.paths(GBufferEncoding::full);
     check(full, " full ");
     EXPECT_EQ(mapped.size(), 8u);
-    for (const int mode : shown)
+    for (const Channel mode : shown)
         EXPECT_EQ(differingPixels(full[0].channels.at(mode), full[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
     // The floor's lightmap exceeds the range of 9.9.9.e5.
@@ -336,7 +341,7 @@ TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
     const LightmapsUnderSky lightmaps;
     const Frame truth = lightmaps.reference();
     for (const Frame& frame : lightmaps.paths(GBufferEncoding::full))
-        for (const int mode : {skyDiffuse, skySpecular, skyAlone}) {
+        for (const Channel mode : {Channel::lit_diffuse, Channel::lit_specular, Channel::lit_environment}) {
             double sum = 0, off = 0;
             for (std::size_t i = 0; i < truth.channels.at(mode).data.size(); ++i) {
                 const double a = frame.channels.at(mode).data[i], b = truth.channels.at(mode).data[i];
@@ -386,7 +391,7 @@ TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
         settings.ibl = ibl;
         settings.ibl_diffuse = ibl == Ibl::split ? IblDiffuse::sh : IblDiffuse::map;
         const std::vector<Frame> frames = bothPaths(renderer, settings, shown);
-        for (const int mode : shown)
+        for (const Channel mode : shown)
             EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                 << nameOf(ibl) << " " << debugMode(mode).name;
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name;
@@ -416,7 +421,7 @@ TEST_P(AssetEnvironment, IsEqualBitForBit) {
     for (const auto& [transparency, name] : enumNames<Transparency>()) {
         settings.transparency = transparency;
         const std::vector<Frame> frames = bothPaths(renderer, settings, shown);
-        for (const int mode : shown)
+        for (const Channel mode : shown)
             EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                 << name << ": " << debugMode(mode).name;
         for (const Frame& frame : frames) {
@@ -453,9 +458,9 @@ TEST(EnvironmentLight, TurnsWithTheScene) {
         std::size_t off = 0;
         for (int y = 0; y < 90; ++y)
             for (int x = 0; x < 160; ++x)
-                off += glm::any(glm::greaterThan(
-                    glm::abs(colorAt(moved[path], lit, x, y) - colorAt(still[path], lit, x, y)),
-                    glm::vec3(1e-3f)));
+                off += glm::any(glm::greaterThan(glm::abs(colorAt(moved[path], Channel::lit, x, y) -
+                                                          colorAt(still[path], Channel::lit, x, y)),
+                                                 glm::vec3(1e-3f)));
         EXPECT_LE(off, 14u) << still[path].name;  // 0.1 %
     }
 }
@@ -477,11 +482,12 @@ TEST(EnvironmentLight, TheBackgroundIsThePicture) {
     for (const Frame& frame : bothPaths(scene, settings, shown))
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
-                if (colorAt(frame, skyIds, x, y).x >= 0) continue;
+                if (colorAt(frame, Channel::material_id, x, y).x >= 0) continue;
                 const glm::dvec3 d = glm::normalize(glm::dvec3(gpuView.direction_0) +
                                                     glm::dvec3(gpuView.direction_x) * (x + 0.5) +
                                                     glm::dvec3(gpuView.direction_y) * (y + 0.5));
-                expectColor(colorAt(frame, lit, x, y), glm::vec3(light.radiance(d)), 2e-4f, frame.name);
+                expectColor(colorAt(frame, Channel::lit, x, y), glm::vec3(light.radiance(d)), 2e-4f,
+                            frame.name);
             }
 }
 

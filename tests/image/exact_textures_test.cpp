@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // --textures exact: both paths come close to the reference in mode scene, which decodes and filters texels
 // in double. A device's own decoding and filtering do not.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/scene/scene_view.h"
 #include "tests/image/square.h"
@@ -46,9 +46,8 @@ Scene noisySquare() {
     return scene;
 }
 
-double largestError(const Frame& frame, const Frame& truth, gpu::uint mode) {
-    const Image &a = frame.channels.at(static_cast<int>(mode)),
-                &b = truth.channels.at(static_cast<int>(mode));
+double largestError(const Frame& frame, const Frame& truth, Channel mode) {
+    const Image &a = frame.channels.at(mode), &b = truth.channels.at(mode);
     double most = 0;
     for (std::size_t i = 0; i < a.data.size(); ++i)
         most = std::max(most, std::abs(double{a.data[i]} - double{b.data[i]}));
@@ -64,8 +63,8 @@ TEST(ExactTextures, AreFilteredAsTheReferenceDoes) {
     for (const TexturePrecision textures : bothPrecisions) {
         const std::vector<Frame> frames = bothPaths(scene, texturedPicture(textures));
         for (const Frame& frame : frames) {
-            const double number = largestError(frame, truth, gpu::DEBUG_roughness),
-                         color = largestError(frame, truth, gpu::DEBUG_albedo);
+            const double number = largestError(frame, truth, Channel::roughness),
+                         color = largestError(frame, truth, Channel::albedo);
             if (textures == TexturePrecision::device) {
                 ofDevice = std::max(ofDevice, number);
                 continue;
@@ -73,7 +72,7 @@ TEST(ExactTextures, AreFilteredAsTheReferenceDoes) {
             EXPECT_LT(number, 3e-5) << frame.name;
             EXPECT_LT(color, 3e-4) << frame.name;
         }
-        for (const int channel : allChannels())
+        for (const Channel channel : allChannels())
             if (frames[0].channels.contains(channel) && frames[1].channels.contains(channel)) {
                 EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
                     << nameOf(textures) << ", " << debugMode(channel).name << ": both paths";
@@ -89,22 +88,20 @@ struct CloseUp {
     double lit = 0;      // fraction of pixels off by over 2 %
 };
 CloseUp closeUpOf(const Frame& frame, const Frame& truth) {
-    const auto channel = [](const Frame& of, gpu::uint mode) -> const Image& {
-        return of.channels.at(static_cast<int>(mode));
-    };
-    const Image &ids = channel(truth, gpu::DEBUG_material_id), &own = channel(frame, gpu::DEBUG_material_id);
+    const auto channel = [](const Frame& of, Channel mode) -> const Image& { return of.channels.at(mode); };
+    const Image &ids = channel(truth, Channel::material_id), &own = channel(frame, Channel::material_id);
     std::vector<double> degrees;
     std::size_t off = 0;
     for (std::size_t i = 0; i < ids.pixels(); ++i) {
         if (ids.pixel(i)[0] != own.pixel(i)[0] || ids.pixel(i)[0] < 0) continue;
-        const auto vec = [&](const Frame& of, gpu::uint mode) {
+        const auto vec = [&](const Frame& of, Channel mode) {
             const float* p = channel(of, mode).pixel(i);
             return glm::dvec3(p[0], p[1], p[2]);
         };
-        const glm::dvec3 a = vec(frame, gpu::DEBUG_normals), b = vec(truth, gpu::DEBUG_normals);
+        const glm::dvec3 a = vec(frame, Channel::normals), b = vec(truth, Channel::normals);
         if (!(glm::dot(b, b) > 0.5)) continue;
         degrees.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi);
-        const glm::dvec3 x = vec(frame, gpu::DEBUG_lit), y = vec(truth, gpu::DEBUG_lit);
+        const glm::dvec3 x = vec(frame, Channel::lit), y = vec(truth, Channel::lit);
         off += glm::length(x - y) > 0.02 * glm::length(y);
     }
     if (degrees.empty()) return {};

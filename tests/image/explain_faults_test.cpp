@@ -82,7 +82,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
         for (InjectedView* const view : injectedViews(fault.kind)) {
             if (tally.cases == leastCases) break;
             const Frame test = view->with(fault);
-            const Image &a = view->right.channels.at(lit), &b = test.channels.at(lit);
+            const Image &a = view->right.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
             if (!differsVisibly(a, b)) continue;
             const Explanation e = view->explained(test);
             const bool named = !e.causes.empty() && isAmong(fault.named, e.causes.front().name);

@@ -2,6 +2,7 @@
 // Explanations of differences with injected, known causes.
 #include "compare/explain/explain.h"
 #include "compare/explain/lighting_components.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/picture/picture.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
@@ -19,10 +20,6 @@
 
 namespace diptych::tests {
 namespace {
-
-constexpr int mode(gpu::uint number) {
-    return static_cast<int>(number);
-}
 
 Settings explained(Size size) {
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -72,7 +69,7 @@ class Injected {
 public:
     Injected(const std::string& name, Size size)
         : scene(loadScene(name)), renderer(device(), scene, pipelines()), settings(explained(size)) {
-        std::vector<int> modes = explainedChannels();
+        std::vector<Channel> modes = explainedChannels();
         right = drawnBy(Path::forward_plus, renderer, settings, modes);
     }
 
@@ -81,7 +78,7 @@ public:
         Frame frame = right;
         SurfaceImages images(device(), settings.size);
         for (std::size_t i = 0; i < surfaceChannels().size(); ++i) {
-            const int number = surfaceChannels()[i];
+            const Channel number = surfaceChannels()[i];
             if (layerOf(number) != 0) continue;
             Image& image = frame.channels.at(number);
             for (const Fault& fault : injected)
@@ -91,12 +88,12 @@ public:
         }
         for (std::size_t i = 0; i < surfaceChannels().size(); ++i) images.set(0, i, frame);
         const Image shaded = renderer.shadeChannels(settings, images).shade(0);
-        frame.channels.at(lit) = shaded;
+        frame.channels.at(Channel::lit) = shaded;
         return frame;
     }
 
     bool covered(std::size_t pixel) const {
-        return right.channels.at(mode(gpu::DEBUG_material_id)).pixel(pixel)[0] >= 0;
+        return right.channels.at(Channel::material_id).pixel(pixel)[0] >= 0;
     }
 
     const Scene scene;
@@ -112,7 +109,7 @@ double sumOfShares(const Explanation& e) {
 
 // The maps sum to the difference at each pixel, and each map's mean is its share.
 void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& test) {
-    const Image &a = baseline.channels.at(lit), &b = test.channels.at(lit);
+    const Image &a = baseline.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
     const auto mean = [](const Image& map) {
         return std::accumulate(map.data.begin(), map.data.end(), 0.0) / static_cast<double>(map.pixels());
     };
@@ -164,7 +161,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         expectMapsAddUp(e, injected.right, test);
         if (e.causes.size() > 1) continue;
         // The map of a single cause is the difference itself.
-        const Image &a = injected.right.channels.at(lit), &b = test.channels.at(lit);
+        const Image &a = injected.right.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < a.pixels(); ++p)
             wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
@@ -218,10 +215,10 @@ TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
                        }};
     // Emission that nearly restores lit.
     const Frame dark = injected.with({darker});
-    const Image &was = injected.right.channels.at(lit), &is = dark.channels.at(lit);
+    const Image &was = injected.right.channels.at(Channel::lit), &is = dark.channels.at(Channel::lit);
     Frame hidden = dark;
-    Image& emission = hidden.channels.at(mode(gpu::DEBUG_emission));
-    Image& hidden_lit = hidden.channels.at(lit);
+    Image& emission = hidden.channels.at(Channel::emission);
+    Image& hidden_lit = hidden.channels.at(Channel::lit);
     for (std::size_t p = 0; p < was.pixels(); ++p)
         if (injected.covered(p))
             for (int c = 0; c < 3; ++c) {
@@ -278,23 +275,22 @@ TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
     }
 }
 
-std::vector<int> withTerms() {
-    std::vector<int> modes = explainedChannels();
-    for (const int term : termChannels()) modes.push_back(term);
-    for (const gpu::uint more :
-         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
-        modes.push_back(mode(more));
+std::vector<Channel> withTerms() {
+    std::vector<Channel> modes = explainedChannels();
+    for (const Channel term : termChannels()) modes.push_back(term);
+    for (const Channel more : {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count})
+        modes.push_back(more);
     return modes;
 }
 
 // lit as a renderer with these terms would sum it, where nothing is blended.
 void sumTerms(Frame& frame) {
-    const auto data = [&](gpu::uint number) { return frame.channels.at(mode(number)).data.data(); };
-    Image& sum = frame.channels.at(lit);
-    const float *const ids = data(gpu::DEBUG_material_id), *const d = data(gpu::DEBUG_lit_diffuse),
-                       *const s = data(gpu::DEBUG_lit_specular), *const a = data(gpu::DEBUG_lit_ambient),
-                       *const e = data(gpu::DEBUG_emission), *const t = data(gpu::DEBUG_transmittance),
-                       *const h = data(gpu::DEBUG_lit_haze);
+    const auto data = [&](Channel number) { return frame.channels.at(number).data.data(); };
+    Image& sum = frame.channels.at(Channel::lit);
+    const float *const ids = data(Channel::material_id), *const d = data(Channel::lit_diffuse),
+                       *const s = data(Channel::lit_specular), *const a = data(Channel::lit_ambient),
+                       *const e = data(Channel::emission), *const t = data(Channel::transmittance),
+                       *const h = data(Channel::lit_haze);
     float* const out = sum.data.data();
     for (std::size_t i = 0; i < sum.data.size(); ++i)
         if (ids[i / 3] >= 0) out[i] = (((d[i] + s[i]) + a[i]) + e[i]) * t[i] + h[i];
@@ -309,21 +305,21 @@ TEST(Explain, NamesTheStageThatTermsDifferIn) {
     const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
     struct Scaled {
         const char* stage;
-        std::vector<gpu::uint> terms;
+        std::vector<Channel> terms;
         float scale;
     };
-    for (const Scaled& fault : {Scaled{"direct diffuse", {gpu::DEBUG_lit_diffuse}, 0.8f},
-                                {"direct specular", {gpu::DEBUG_lit_specular}, 1.5f},
-                                {"ambient light", {gpu::DEBUG_lit_ambient}, 0.5f},
-                                {"haze in the air", {gpu::DEBUG_lit_haze, gpu::DEBUG_transmittance}, 0.9f},
+    for (const Scaled& fault : {Scaled{"direct diffuse", {Channel::lit_diffuse}, 0.8f},
+                                {"direct specular", {Channel::lit_specular}, 1.5f},
+                                {"ambient light", {Channel::lit_ambient}, 0.5f},
+                                {"haze in the air", {Channel::lit_haze, Channel::transmittance}, 0.9f},
                                 {"sum of terms", {}, 1}}) {
         SCOPED_TRACE(fault.stage);
         Frame test = right;
-        for (const gpu::uint term : fault.terms)
-            for (float& value : test.channels.at(mode(term)).data) value *= fault.scale;
+        for (const Channel term : fault.terms)
+            for (float& value : test.channels.at(term).data) value *= fault.scale;
         if (fault.terms.empty()) {
-            const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
-            Image& all = test.channels.at(lit);
+            const Image& ids = test.channels.at(Channel::material_id);
+            Image& all = test.channels.at(Channel::lit);
             for (std::size_t p = 0; p < all.pixels(); ++p)
                 if (ids.pixel(p)[0] >= 0) all.pixel(p)[0] += 0.25f;  // nothing emits light
         } else {
@@ -347,19 +343,19 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     const Settings settings = explained({64, 36});
     const Frame right = drawnBy(Path::forward_plus, renderer, settings, withTerms());
     Frame test = right;
-    for (const gpu::uint term : {gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular})
-        for (float& value : test.channels.at(mode(term)).data) value *= 0.5f;
-    for (float& share : test.channels.at(mode(gpu::DEBUG_shadow_visibility)).data) share *= 0.5f;
+    for (const Channel term : {Channel::lit_diffuse, Channel::lit_specular})
+        for (float& value : test.channels.at(term).data) value *= 0.5f;
+    for (float& share : test.channels.at(Channel::shadow_visibility).data) share *= 0.5f;
     sumTerms(test);
     Explanation e = explain(device(), renderer, scene, right, test);
     ASSERT_FALSE(e.causes.empty());
     EXPECT_EQ(names(e), std::vector<std::string>{"shadow_visibility"});
     EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
 
-    for (float& value : test.channels.at(mode(gpu::DEBUG_emission)).data) value += 0.01f;
-    const Image& ids = test.channels.at(mode(gpu::DEBUG_material_id));
+    for (float& value : test.channels.at(Channel::emission).data) value += 0.01f;
+    const Image& ids = test.channels.at(Channel::material_id);
     for (std::size_t p = 0; p < ids.pixels(); ++p)
-        if (ids.pixel(p)[0] < 0) std::fill_n(test.channels.at(mode(gpu::DEBUG_emission)).pixel(p), 3, 0.0f);
+        if (ids.pixel(p)[0] < 0) std::fill_n(test.channels.at(Channel::emission).pixel(p), 3, 0.0f);
     sumTerms(test);
     e = explain(device(), renderer, scene, right, test);
     const std::vector<std::string> both = names(e);
@@ -396,8 +392,8 @@ TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
 TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
     Injected injected("builtin:points", {32, 18});
     Frame test = injected.right;
-    for (std::size_t p = 0; p < test.channels.at(lit).pixels(); ++p)
-        if (injected.covered(p)) test.channels.at(lit).pixel(p)[0] *= 1.1f;
+    for (std::size_t p = 0; p < test.channels.at(Channel::lit).pixels(); ++p)
+        if (injected.covered(p)) test.channels.at(Channel::lit).pixel(p)[0] *= 1.1f;
     const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right, test);
     EXPECT_TRUE(e.causes.empty());
     EXPECT_EQ(e.unexplained, e.distance);
@@ -406,7 +402,7 @@ TEST(Explain, WithoutTermsTheRestStaysUnexplained) {
 TEST(Explain, MissingChannelsAreNamed) {
     Injected injected("builtin:triangle", {16, 9});
     Frame lacking = injected.right;
-    lacking.channels.erase(mode(gpu::DEBUG_roughness));
+    lacking.channels.erase(Channel::roughness);
     try {
         explain(device(), injected.renderer, injected.scene, injected.right, lacking);
         FAIL() << "explained without roughness";

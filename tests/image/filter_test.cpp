@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Magnified, linearly filtered textures of both paths against the reference in mode scene, which filters
 // alike. A device may deviate by what a probe measures for the texels that a pixel mixes.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/scene_view.h"
@@ -34,16 +34,14 @@ Scene filteredSquare() {
 }
 
 struct FilteredChannel {
-    gpu::uint mode;
+    Channel mode;
     std::vector<std::size_t> components;  // texel component for each component of the channel
     bool srgb;
 };
-const std::array filteredChannels{FilteredChannel{gpu::DEBUG_albedo, {0, 1, 2}, true},
-                                  FilteredChannel{gpu::DEBUG_emission, {0, 1, 2}, true},
-                                  FilteredChannel{gpu::DEBUG_roughness, {1}, false},
-                                  FilteredChannel{gpu::DEBUG_metallic, {2}, false},
-                                  FilteredChannel{gpu::DEBUG_occlusion, {0}, false},
-                                  FilteredChannel{gpu::DEBUG_dielectric_f90, {3}, false}};
+const std::array filteredChannels{
+    FilteredChannel{Channel::albedo, {0, 1, 2}, true}, FilteredChannel{Channel::emission, {0, 1, 2}, true},
+    FilteredChannel{Channel::roughness, {1}, false},   FilteredChannel{Channel::metallic, {2}, false},
+    FilteredChannel{Channel::occlusion, {0}, false},   FilteredChannel{Channel::dielectric_f90, {3}, false}};
 
 // The largest difference between the decoded texels that the pixel mixes.
 double rangeAt(const TextureImage& image, const TexelDecode& decode, std::size_t component, int x, int y) {
@@ -66,7 +64,7 @@ double rangeAt(const TextureImage& image, const TexelDecode& decode, std::size_t
 // Number of values of a channel whose error exceeds `grant` times the bound.
 std::size_t beyondBound(const Frame& frame, const Frame& reference, const TextureImage& image,
                         const FilteredChannel& channel, const TextureSampling& sampling, double grant) {
-    const int mode = static_cast<int>(channel.mode);
+    const Channel mode = channel.mode;
     const FilterBound& bound = channel.srgb ? sampling.srgb_filter : sampling.linear_filter;
     std::size_t beyond = 0;
     for (int y = 0; y < filteredPixels; ++y)
@@ -107,8 +105,7 @@ TEST(TextureFilters, AreOffByWhatTheDeviceMeasuresAndNoMore) {
     Frame undecoded = traced(scene);
     for (const Frame& frame : bothPaths(scene, settings))
         for (const FilteredChannel& channel : filteredChannels) {
-            const std::string who =
-                frame.name + " " + std::string(debugMode(static_cast<int>(channel.mode)).name);
+            const std::string who = frame.name + " " + std::string(debugMode(channel.mode).name);
             const auto beyond = [&](const Frame& truth, double grant) {
                 return beyondBound(frame, truth, scene.images[0], channel, sampling, grant);
             };

@@ -46,8 +46,8 @@ TEST(FrameOf, OnePixelAndVeryWideWork) {
         settings.size = size;
         const auto frames = bothPaths(scene, settings);
         expectSameChannels(frames[0], frames[1]);
-        EXPECT_EQ(frames[0].channels.at(0).width, size.width);
-        EXPECT_EQ(frames[0].channels.at(0).height, size.height);
+        EXPECT_EQ(frames[0].channels.at(Channel::lit).width, size.width);
+        EXPECT_EQ(frames[0].channels.at(Channel::lit).height, size.height);
         EXPECT_GT(coveredPixels(frames[0]), 0u);
     }
 }
@@ -78,7 +78,7 @@ TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
         const Frame alone = drawAll(scene, {after}, options)[0];
         const Frame first = drawAll(scene, {before}, options)[0];
         expectSameChannels(second, alone);
-        EXPECT_GT(differingPixels(first.channels.at(0), second.channels.at(0)), 0u)
+        EXPECT_GT(differingPixels(first.channels.at(Channel::lit), second.channels.at(Channel::lit)), 0u)
             << "the change must show at all";
     }
 }
@@ -86,13 +86,13 @@ TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
 TEST(FrameOf, BackgroundIsZeroAndItsIdMinusOne) {
     for (const char* name : {"builtin:spheres?lights=4", "builtin:empty", "builtin:background"}) {
         for (const Frame& frame : bothPaths(loadScene(name), smallPicture(GBufferEncoding::standard))) {
-            const Image& ids = frame.channels.at(8);
+            const Image& ids = frame.channels.at(Channel::material_id);
             std::size_t background = 0;
             for (std::size_t i = 0; i < ids.pixels(); ++i) {
                 if (ids.data[i] != -1.0f) continue;
                 ++background;
                 for (const auto& [mode, image] : frame.channels)
-                    for (int c = 0; c < image.components && mode != 8; ++c)
+                    for (int c = 0; c < image.components && mode != Channel::material_id; ++c)
                         ASSERT_EQ(image.pixel(i)[c], 0.0f)
                             << name << " " << frame.name << " " << debugMode(mode).name;
             }
@@ -113,7 +113,7 @@ TEST(FrameOf, SpheresCoverWhatRayCastingSays) {
 
 TEST(FrameOf, EveryTimeIsKeptInOrder) {
     RenderOptions options;
-    options.channels = {0};
+    options.channels = {Channel::lit};
     options.runs = 3;
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.prepass = Switch::on;

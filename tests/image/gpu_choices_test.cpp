@@ -3,7 +3,7 @@
 // input sets, the light compute shader, stored depth, triangle culling, submission in bands. On a CPU
 // device the images equal the default's bit for bit. On a GPU these are the default choices; there, pixels
 // where fragment depth differs from stored depth are counted.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/samples.h"
@@ -27,9 +27,7 @@ std::shared_ptr<PipelineSet> gpuPipelines() {
 }
 
 // One channel of each kind: lighting, surface, light list, depth.
-const std::vector<int> channels{lit, static_cast<int>(gpu::DEBUG_normals),
-                                static_cast<int>(gpu::DEBUG_light_count),
-                                static_cast<int>(gpu::DEBUG_position)};
+const std::vector<Channel> channels{Channel::lit, Channel::normals, Channel::light_count, Channel::position};
 
 class GpuChoices : public testing::TestWithParam<const char*> {};
 
@@ -166,13 +164,14 @@ TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
 
 // Forward+ without a pre-pass shades with gl_FragCoord.z, deferred with the stored depth.
 TEST(DepthEquality, OfAFragmentAndOfTheStoredDepth) {
-    constexpr int depth = static_cast<int>(gpu::DEBUG_depth);
     std::size_t covered = 0, different = 0, beyond = 0;
     for (const std::string& name : builtinScenes()) {
         Settings settings = smallPicture(GBufferEncoding::full);
         settings.prepass = Switch::off;
-        const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, {depth, 8});
-        const Image &stored = frames[0].channels.at(depth), &own = frames[1].channels.at(depth);
+        const std::vector<Frame> frames =
+            bothPaths(uploaded(name).renderer, settings, {Channel::depth, Channel::material_id});
+        const Image &stored = frames[0].channels.at(Channel::depth),
+                    &own = frames[1].channels.at(Channel::depth);
         covered += coveredPixels(frames[0]);
         different += differingPixels(stored, own, true);
         beyond += differingPixels(stored, own, false);

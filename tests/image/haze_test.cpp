@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Haze in both paths: compared with each other and with the reference. It does not depend on the far plane
 // and changes no other channel.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/square.h"
 #include "tests/support/haze_builder.h"
@@ -15,13 +15,14 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int hazeLight = static_cast<int>(gpu::DEBUG_lit_haze),
-              hazeThrough = static_cast<int>(gpu::DEBUG_transmittance),
-              hazeDiffuse = static_cast<int>(gpu::DEBUG_lit_diffuse),
-              hazeSpecular = static_cast<int>(gpu::DEBUG_lit_specular),
-              hazeAmbient = static_cast<int>(gpu::DEBUG_lit_ambient), hazeIds = 8;
-const std::vector<int> hazeShown{lit,          hazeLight,   hazeThrough, hazeDiffuse,
-                                 hazeSpecular, hazeAmbient, emission,    hazeIds};
+const std::vector<Channel> hazeShown{Channel::lit,
+                                     Channel::lit_haze,
+                                     Channel::transmittance,
+                                     Channel::lit_diffuse,
+                                     Channel::lit_specular,
+                                     Channel::lit_ambient,
+                                     emission,
+                                     Channel::material_id};
 
 Settings hazePicture(float density, int steps = 0) {
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -41,24 +42,28 @@ TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
             settings.ambient = {0.1f, 0.2f, 0.3f};
             const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, hazeShown);
             const std::string what = fmt::format("{}, {} steps", name, steps);
-            for (const int mode : hazeShown)
+            for (const Channel mode : hazeShown)
                 EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                     << what << ", " << debugMode(mode).name;
             std::size_t applied = 0;
             for (const Frame& frame : frames) {
                 EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << what;
                 EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << what;
-                const auto at = [&](int mode, std::size_t i, std::size_t c) {
+                const auto at = [&](Channel mode, std::size_t i, std::size_t c) {
                     return frame.channels.at(mode).pixel(i)[c];
                 };
-                for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i)
-                    for (std::size_t c = 0; c < 3 && *frame.channels.at(hazeIds).pixel(i) >= 0; ++c) {
+                for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i)
+                    for (std::size_t c = 0; c < 3 && *frame.channels.at(Channel::material_id).pixel(i) >= 0;
+                         ++c) {
                         const float sum =
-                            ((at(hazeDiffuse, i, c) + at(hazeSpecular, i, c)) + at(hazeAmbient, i, c)) +
+                            ((at(Channel::lit_diffuse, i, c) + at(Channel::lit_specular, i, c)) +
+                             at(Channel::lit_ambient, i, c)) +
                             at(emission, i, c);
-                        const float expected = sum * at(hazeThrough, i, c) + at(hazeLight, i, c);
-                        EXPECT_NEAR(at(lit, i, c), expected, 1e-6f * expected) << what << " " << frame.name;
-                        applied += at(hazeThrough, i, c) < 0.99f ? 1 : 0;
+                        const float expected =
+                            sum * at(Channel::transmittance, i, c) + at(Channel::lit_haze, i, c);
+                        EXPECT_NEAR(at(Channel::lit, i, c), expected, 1e-6f * expected)
+                            << what << " " << frame.name;
+                        applied += at(Channel::transmittance, i, c) < 0.99f ? 1 : 0;
                     }
             }
             EXPECT_GT(applied, 1000u) << what;
@@ -77,7 +82,8 @@ TEST(HazeImages, NothingElseFeelsIt) {
     for (const Path path : drawn_paths) {
         const Frame a = drawnBy(path, scene.renderer, settings), b = drawnBy(path, scene.renderer, without);
         for (const auto& [mode, image] : b.channels) {
-            const bool own = mode == lit || mode == hazeLight || mode == hazeThrough;
+            const bool own =
+                mode == Channel::lit || mode == Channel::lit_haze || mode == Channel::transmittance;
             EXPECT_EQ(differingPixels(a.channels.at(mode), image, true) > 0, own) << debugMode(mode).name;
         }
     }
@@ -134,19 +140,21 @@ TEST(HazeImages, AreTheReferences) {
                 const Frame truth = drawnBy(Path::reference, scene.renderer, settings, hazeShown);
                 double most_haze = 0, most_background = 0, largest = 0;
                 std::size_t background = 0, off = 0;
-                for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
-                    const bool surface = *frame.channels.at(hazeIds).pixel(i) >= 0;
-                    if (surface != (*truth.channels.at(hazeIds).pixel(i) >= 0)) continue;
+                for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
+                    const bool surface = *frame.channels.at(Channel::material_id).pixel(i) >= 0;
+                    if (surface != (*truth.channels.at(Channel::material_id).pixel(i) >= 0)) continue;
                     for (std::size_t c = 0; c < 3; ++c) {
-                        const auto apart = [&](int channel) {
+                        const auto apart = [&](Channel channel) {
                             return std::abs(double{frame.channels.at(channel).pixel(i)[c]} -
                                             double{truth.channels.at(channel).pixel(i)[c]});
                         };
                         // In mode scene the reference's own rays hit surfaces at their exact depth.
-                        off += apart(hazeThrough) > (mode == ReferenceMode::surface ? 1e-6 : 1e-4) ? 1 : 0;
-                        most_haze = std::max(most_haze, apart(hazeLight));
-                        largest = std::max(largest, double{truth.channels.at(hazeLight).pixel(i)[c]});
-                        if (!surface) most_background = std::max(most_background, apart(lit));
+                        off += apart(Channel::transmittance) > (mode == ReferenceMode::surface ? 1e-6 : 1e-4)
+                                   ? 1
+                                   : 0;
+                        most_haze = std::max(most_haze, apart(Channel::lit_haze));
+                        largest = std::max(largest, double{truth.channels.at(Channel::lit_haze).pixel(i)[c]});
+                        if (!surface) most_background = std::max(most_background, apart(Channel::lit));
                     }
                     background += surface ? 0 : 1;
                 }
@@ -174,17 +182,20 @@ TEST(HazeImages, AreTheSameForAnyFarPlane) {
         std::size_t background = 0;
         for (const char* far : {" far=2e5", " far=1e9"}) {
             const Frame frame = view(path, far);
-            for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
-                const bool surface = *frame.channels.at(hazeIds).pixel(i) >= 0;
-                ASSERT_EQ(surface, *endless.channels.at(hazeIds).pixel(i) >= 0);
+            for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
+                const bool surface = *frame.channels.at(Channel::material_id).pixel(i) >= 0;
+                ASSERT_EQ(surface, *endless.channels.at(Channel::material_id).pixel(i) >= 0);
                 background += surface ? 0 : 1;
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const auto of = [&](const Frame& f, int mode) { return f.channels.at(mode).pixel(i)[c]; };
+                    const auto of = [&](const Frame& f, Channel mode) {
+                        return f.channels.at(mode).pixel(i)[c];
+                    };
                     if (!surface) {
-                        EXPECT_EQ(of(frame, lit), of(endless, lit)) << far;
+                        EXPECT_EQ(of(frame, Channel::lit), of(endless, Channel::lit)) << far;
                     }
-                    EXPECT_NEAR(of(frame, hazeThrough), of(endless, hazeThrough), 2e-6f) << far;
-                    EXPECT_NEAR(of(frame, hazeLight), of(endless, hazeLight), 2e-6f) << far;
+                    EXPECT_NEAR(of(frame, Channel::transmittance), of(endless, Channel::transmittance), 2e-6f)
+                        << far;
+                    EXPECT_NEAR(of(frame, Channel::lit_haze), of(endless, Channel::lit_haze), 2e-6f) << far;
                 }
             }
         }
@@ -201,11 +212,11 @@ TEST(HazeImages, HaveNoBandAtTheHorizon) {
         settings.camera = "eye=0,2,1e7 target=0,2,2e7 fov=4 near=0.1";
         settings.ambient = {1, 1, 1};
         for (const Path path : drawn_paths) {
-            const Frame frame = drawnBy(path, scene.renderer, settings, {lit, hazeIds});
-            const Image& image = frame.channels.at(lit);
+            const Frame frame = drawnBy(path, scene.renderer, settings, {Channel::lit, Channel::material_id});
+            const Image& image = frame.channels.at(Channel::lit);
             double most = 0, whole = 0;
             for (int y = 1; y < image.height; ++y) {
-                ASSERT_LT(frame.channels.at(hazeIds).at(0, y, 0), 0.0f);
+                ASSERT_LT(frame.channels.at(Channel::material_id).at(0, y, 0), 0.0f);
                 most = std::max(most, std::abs(double{image.at(0, y, 2)} - double{image.at(0, y - 1, 2)}));
                 whole = std::max(whole, double{image.at(0, y, 2)});
             }

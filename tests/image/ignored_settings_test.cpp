@@ -9,9 +9,9 @@ namespace {
 
 Image litOf(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
-    return renderer.draw(settings, options).channels.at(lit);
+    return renderer.draw(settings, options).channels.at(Channel::lit);
 }
 
 TEST(IgnoredSettings, ChangeNoBit) {

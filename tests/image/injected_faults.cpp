@@ -16,10 +16,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int modeOf(gpu::uint number) {
-    return static_cast<int>(number);
-}
-
 double decoded(double x) {
     return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
@@ -41,22 +37,22 @@ void normalize(float* p) {
     for (int c = 0; c < 3 && length > 0; ++c) p[c] = static_cast<float>(p[c] / length);
 }
 
-float* dataOf(Frame& frame, gpu::uint number) {
-    return frame.channels.at(modeOf(number)).data.data();
+float* dataOf(Frame& frame, Channel mode) {
+    return frame.channels.at(mode).data.data();
 }
 
 // Changes terms, and lit accordingly.
 using OfTerm = std::function<float(float term, std::size_t pixel)>;
-std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, const OfTerm& of) {
+std::function<void(InjectedView&, Frame&)> term(std::vector<Channel> terms, const OfTerm& of) {
     return [terms, of](InjectedView& view, Frame& frame) {
         const Image before = sumOfTerms(frame);
-        for (const gpu::uint number : terms) {
-            Image& image = frame.channels.at(modeOf(number));
+        for (const Channel mode : terms) {
+            Image& image = frame.channels.at(mode);
             for (std::size_t i = 0; i < image.data.size(); ++i)
                 if (view.covered(i / 3)) image.data[i] = of(image.data[i], i / 3);
         }
         const Image after = sumOfTerms(frame);
-        float* const lit_data = dataOf(frame, gpu::DEBUG_lit);
+        float* const lit_data = dataOf(frame, Channel::lit);
         for (std::size_t i = 0; i < after.data.size(); ++i)
             if (after.data[i] != before.data[i]) lit_data[i] = after.data[i];
     };
@@ -66,8 +62,8 @@ std::function<void(InjectedView&, Frame&)> term(std::vector<gpu::uint> terms, co
 std::function<void(InjectedView&, Frame&)> output(
     const std::function<void(float*, const float* emitted)>& of) {
     return [of](InjectedView& view, Frame& frame) {
-        Image& image = frame.channels.at(lit);
-        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
+        Image& image = frame.channels.at(Channel::lit);
+        const Image& emitted_light = frame.channels.at(Channel::emission);
         for (std::size_t p = 0; p < image.pixels(); ++p)
             if (view.covered(p)) of(image.pixel(p), emitted_light.pixel(p));
     };
@@ -75,7 +71,7 @@ std::function<void(InjectedView&, Frame&)> output(
 
 std::function<void(InjectedView&, Frame&)> exposed(float factor) {
     return [factor](InjectedView&, Frame& frame) {
-        for (float& value : frame.channels.at(lit).data) value *= factor;
+        for (float& value : frame.channels.at(Channel::lit).data) value *= factor;
     };
 }
 
@@ -93,20 +89,20 @@ void dropFromTile(InjectedView& view, Frame& frame) {
         double sum = 0;
         for (int y = 8; y < 24; ++y)
             for (int x = 16; x < 40; ++x)
-                sum +=
-                    std::abs(double{other.channels.at(lit).at(x, y, 1)} - frame.channels.at(lit).at(x, y, 1));
+                sum += std::abs(double{other.channels.at(Channel::lit).at(x, y, 1)} -
+                                frame.channels.at(Channel::lit).at(x, y, 1));
         if (sum > most) most = sum, dropped = std::move(other);
     }
     if (most == 0) return;
-    std::vector<int> modes = termChannels();
-    modes.push_back(lit);
-    modes.push_back(modeOf(gpu::DEBUG_light_count));
-    for (const int number : modes) {
-        Image& image = frame.channels.at(number);
+    std::vector<Channel> modes = termChannels();
+    modes.push_back(Channel::lit);
+    modes.push_back(Channel::light_count);
+    for (const Channel mode : modes) {
+        Image& image = frame.channels.at(mode);
         for (int y = 8; y < 24; ++y)
             for (int x = 16; x < 40; ++x)
                 for (int c = 0; c < image.components; ++c)
-                    image.at(x, y, c) = std::as_const(dropped).channels.at(number).at(x, y, c);
+                    image.at(x, y, c) = std::as_const(dropped).channels.at(mode).at(x, y, c);
     }
 }
 
@@ -123,7 +119,7 @@ void hazeOnOpaqueOnly(InjectedView& view, Frame& frame) {
     };
     const Image under = view.litUnder(bare), over_clear = view.litUnder(clear),
                 under_clear = view.litUnder(neither), brighter = view.litUnder(clear, "emission", more);
-    Image& image = frame.channels.at(lit);
+    Image& image = frame.channels.at(Channel::lit);
     for (std::size_t i = 0; i < image.data.size(); ++i) {
         if (!view.covered(i / 3) || over_clear.data[i] == under_clear.data[i]) continue;
         const float through = brighter.data[i] - over_clear.data[i];
@@ -278,7 +274,7 @@ void addLightFaults(std::vector<InjectedFault>& all) {
                        Settings bare = view.settings;
                        bare.transparency = Transparency::off;
                        const Image under = view.litUnder(bare);
-                       Image& image = frame.channels.at(lit);
+                       Image& image = frame.channels.at(Channel::lit);
                        for (std::size_t i = 0; i < image.data.size(); ++i)
                            if (!view.covered(i / 3) && image.data[i] == under.data[i]) image.data[i] = 0;
                    }});
@@ -293,40 +289,40 @@ void addTermFaults(std::vector<InjectedFault>& all) {
         return [factor](float value, std::size_t) { return factor * value; };
     };
     constexpr float pi = std::numbers::pi_v<float>;
-    add("the specular lobe is left out", {"direct specular"}, term({gpu::DEBUG_lit_specular}, by(0)));
-    add("the specular lobe lacks its 4", {"direct specular"}, term({gpu::DEBUG_lit_specular}, by(4)));
-    add("the diffuse lobe lacks its pi", {"direct diffuse"}, term({gpu::DEBUG_lit_diffuse}, by(pi)));
+    add("the specular lobe is left out", {"direct specular"}, term({Channel::lit_specular}, by(0)));
+    add("the specular lobe lacks its 4", {"direct specular"}, term({Channel::lit_specular}, by(4)));
+    add("the diffuse lobe lacks its pi", {"direct diffuse"}, term({Channel::lit_diffuse}, by(pi)));
     add("the diffuse lobe is divided by pi twice", {"direct diffuse"},
-        term({gpu::DEBUG_lit_diffuse}, by(1 / pi)));
+        term({Channel::lit_diffuse}, by(1 / pi)));
     add("diffuse light in three steps", {"direct diffuse"},
-        term({gpu::DEBUG_lit_diffuse}, [](float value, std::size_t) { return std::floor(8 * value) / 8; }));
+        term({Channel::lit_diffuse}, [](float value, std::size_t) { return std::floor(8 * value) / 8; }));
     add("occlusion is left out of ambient light", {"ambient light"}, [](InjectedView& view, Frame& frame) {
-        const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
-        term({gpu::DEBUG_lit_ambient}, [&](float value, std::size_t pixel) {
+        const Image occluded = view.right.channels.at(Channel::occlusion);
+        term({Channel::lit_ambient}, [&](float value, std::size_t pixel) {
             return occluded.pixel(pixel)[0] > 0 ? value / occluded.pixel(pixel)[0] : value;
         })(view, frame);
     });
     add("occlusion darkens lights as well", {"direct diffuse", "direct specular"},
         [](InjectedView& view, Frame& frame) {
-            const Image occluded = view.right.channels.at(modeOf(gpu::DEBUG_occlusion));
-            term({gpu::DEBUG_lit_diffuse, gpu::DEBUG_lit_specular}, [&](float value, std::size_t pixel) {
+            const Image occluded = view.right.channels.at(Channel::occlusion);
+            term({Channel::lit_diffuse, Channel::lit_specular}, [&](float value, std::size_t pixel) {
                 return value * occluded.pixel(pixel)[0];
             })(view, frame);
         });
-    add("haze adds no light", {"haze in the air"}, term({gpu::DEBUG_lit_haze}, by(0)));
+    add("haze adds no light", {"haze in the air"}, term({Channel::lit_haze}, by(0)));
     add("haze takes no light", {"haze in the air"},
-        term({gpu::DEBUG_transmittance}, [](float, std::size_t) { return 1.0f; }));
+        term({Channel::transmittance}, [](float, std::size_t) { return 1.0f; }));
     add("emission is missing from the sum", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
-        const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
-        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
-        Image& image = frame.channels.at(lit);
+        const Image through = frame.channels.at(Channel::transmittance);
+        const Image& emitted_light = frame.channels.at(Channel::emission);
+        Image& image = frame.channels.at(Channel::lit);
         for (std::size_t i = 0; i < image.data.size(); ++i)
             if (view.covered(i / 3)) image.data[i] -= emitted_light.data[i] * through.data[i];
     });
     add("emission is in the sum twice", {"sum with emission"}, [](InjectedView& view, Frame& frame) {
-        const Image through = frame.channels.at(modeOf(gpu::DEBUG_transmittance));
-        const Image& emitted_light = frame.channels.at(modeOf(gpu::DEBUG_emission));
-        Image& image = frame.channels.at(lit);
+        const Image through = frame.channels.at(Channel::transmittance);
+        const Image& emitted_light = frame.channels.at(Channel::emission);
+        Image& image = frame.channels.at(Channel::lit);
         for (std::size_t i = 0; i < image.data.size(); ++i)
             if (view.covered(i / 3)) image.data[i] += emitted_light.data[i] * through.data[i];
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/lighting_components.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "tests/image/injected_faults.h"
@@ -15,12 +16,11 @@ namespace {
 
 constexpr int pictureWidth = 48, pictureHeight = 27;
 
-std::vector<int> injectedChannels() {
-    std::vector<int> modes = explainedChannels();
-    for (const int term : termChannels()) modes.push_back(term);
-    for (const gpu::uint more :
-         {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility, gpu::DEBUG_light_count})
-        modes.push_back(static_cast<int>(more));
+std::vector<Channel> injectedChannels() {
+    std::vector<Channel> modes = explainedChannels();
+    for (const Channel term : termChannels()) modes.push_back(term);
+    for (const Channel more : {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count})
+        modes.push_back(more);
     return modes;
 }
 
@@ -138,7 +138,7 @@ InjectedView::InjectedView(const std::string& scene_name, const std::string& cam
       images_(device(), settings.size) {
     right.settings = settings;
     // Varies occlusion: few scenes have any.
-    Image& occluded = right.channels.at(gpu::DEBUG_occlusion);
+    Image& occluded = right.channels.at(Channel::occlusion);
     const double turn = 0.7 * seed;
     for (int y = 0; y < pictureHeight; ++y)
         for (int x = 0; x < pictureWidth; ++x)
@@ -149,7 +149,7 @@ InjectedView::InjectedView(const std::string& scene_name, const std::string& cam
 }
 
 bool InjectedView::covered(std::size_t pixel) const {
-    return right.channels.at(gpu::DEBUG_material_id).pixel(pixel)[0] >= 0;
+    return right.channels.at(Channel::material_id).pixel(pixel)[0] >= 0;
 }
 
 // Computes lit and its terms from the Frame's channels.
@@ -161,24 +161,24 @@ void InjectedView::shadeInto(Frame& frame, const Settings& drawn) {
     else if (!(drawn == settings))
         other.emplace(renderer.shadeChannels(drawn, images_));
     ChannelShading& shading = other ? *other : *shading_;
-    frame.channels.at(lit) = shading.shade(0);
+    frame.channels.at(Channel::lit) = shading.shade(0);
     ChannelTerms terms = shading.terms(0);
-    frame.channels.at(gpu::DEBUG_lit_diffuse) = std::move(terms.diffuse);
-    frame.channels.at(gpu::DEBUG_lit_specular) = std::move(terms.specular);
-    frame.channels.at(gpu::DEBUG_lit_ambient) = std::move(terms.ambient);
-    frame.channels.at(gpu::DEBUG_lit_haze) = std::move(terms.haze);
-    frame.channels.at(gpu::DEBUG_transmittance) = std::move(terms.transmittance);
+    frame.channels.at(Channel::lit_diffuse) = std::move(terms.diffuse);
+    frame.channels.at(Channel::lit_specular) = std::move(terms.specular);
+    frame.channels.at(Channel::lit_ambient) = std::move(terms.ambient);
+    frame.channels.at(Channel::lit_haze) = std::move(terms.haze);
+    frame.channels.at(Channel::transmittance) = std::move(terms.transmittance);
 }
 
 Image InjectedView::litUnder(const Settings& other, const std::string& channel,
                              const std::function<void(float*)>& pixel) {
     Frame frame = right;
-    for (const int number : surfaceChannels())
+    for (const Channel number : surfaceChannels())
         if (debugMode(number).name == channel)
-            for (std::size_t p = 0; p < right.channels.at(lit).pixels(); ++p)
+            for (std::size_t p = 0; p < right.channels.at(Channel::lit).pixels(); ++p)
                 if (covered(p)) pixel(frame.channels.at(number).pixel(p));
     shadeInto(frame, other);
-    return frame.channels.at(lit);
+    return frame.channels.at(Channel::lit);
 }
 
 Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
@@ -191,10 +191,10 @@ Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
             fault->draw(drawn, scene);
             drawn_otherwise = true;
         }
-        for (const int number : surfaceChannels())
+        for (const Channel number : surfaceChannels())
             if (debugMode(number).name == fault->channel) {
                 surfaces_differ = true;
-                for (std::size_t p = 0; p < frame.channels.at(lit).pixels(); ++p)
+                for (std::size_t p = 0; p < frame.channels.at(Channel::lit).pixels(); ++p)
                     if (covered(p)) fault->pixel(frame.channels.at(number).pixel(p));
             }
     }
@@ -212,10 +212,10 @@ Frame InjectedView::with(std::span<const InjectedFault* const> faults) {
         // Nothing in these views moves: another time yields another view, with the current lights.
         static int otherwise = 0;
         drawn.time = ++otherwise;
-        const std::vector<int> seen{gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility,
-                                    gpu::DEBUG_light_count};
+        const std::vector<Channel> seen{Channel::shadow_visibility, Channel::local_visibility,
+                                        Channel::light_count};
         Frame other = drawnBy(Path::forward_plus, renderer, drawn, seen);
-        for (const int number : seen) frame.channels.at(number) = std::move(other.channels.at(number));
+        for (const Channel number : seen) frame.channels.at(number) = std::move(other.channels.at(number));
     }
     if (drawn_otherwise || surfaces_differ) shadeInto(frame, drawn);
     scene.lights = lights;
@@ -236,7 +236,8 @@ Explanation InjectedView::explained(const Frame& test) {
 bool InjectedView::feels(const InjectedFault& fault) {
     const auto known = felt_.find(fault.means);
     if (known != felt_.end()) return known->second;
-    return felt_[fault.means] = differsVisibly(right.channels.at(lit), with(fault).channels.at(lit));
+    return felt_[fault.means] =
+               differsVisibly(right.channels.at(Channel::lit), with(fault).channels.at(Channel::lit));
 }
 
 std::vector<InjectedView*> injectedViews(ViewKind kind) {

@@ -67,8 +67,7 @@ void expectTheSame(const std::string& name, const std::function<void(Scene&)>& c
     const Scene together = flags(false, 7, changeScene), apart = flags(true, 7, changeScene);
     Renderer ofTogether(device(), together, pipelines()), ofApart(device(), apart, pipelines());
     RenderOptions options;
-    options.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
-                        static_cast<int>(gpu::DEBUG_depth), static_cast<int>(gpu::DEBUG_material_id)};
+    options.channels = {Channel::lit, Channel::normals, Channel::depth, Channel::material_id};
     options.runs = 0;
     for (const Path path : drawn_paths) {
         Settings settings = instanceSettings(path);

@@ -98,12 +98,12 @@ TEST(KnownValues, SpecularGlossiness) {
         const glm::vec3 left = base == BaseLayer::max ? glm::vec3(0.5f) : glm::vec3(0.75f, 0.5f, 1);
         for (const Frame& frame : bothPaths(scene, settings)) {
             expectColor(colorAt(frame, albedo, 0, 0), {0.4f, 0.2f, 0.1f}, float32, frame.name + " albedo");
-            expectColor(colorAt(frame, static_cast<int>(gpu::DEBUG_dielectric_f0), 0, 0), m.specular_color,
-                        float32, frame.name + " F0");
-            EXPECT_EQ(colorAt(frame, static_cast<int>(gpu::DEBUG_dielectric_f90), 0, 0).x, 1.0f);
+            expectColor(colorAt(frame, Channel::dielectric_f0, 0, 0), m.specular_color, float32,
+                        frame.name + " F0");
+            EXPECT_EQ(colorAt(frame, Channel::dielectric_f90, 0, 0).x, 1.0f);
             EXPECT_EQ(colorAt(frame, metallic, 0, 0).x, 0.0f);
             EXPECT_EQ(colorAt(frame, roughness, 0, 0).x, 1.0f);
-            expectColor(colorAt(frame, lit, 0, 0),
+            expectColor(colorAt(frame, Channel::lit, 0, 0),
                         glm::vec3(0.4f, 0.2f, 0.1f) * left + m.specular_color / 4.0f, 5e-6f,
                         frame.name + " lit");
         }
@@ -151,7 +151,7 @@ TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
     sun.direction = {0, 0, -1};
     scene.lights = {sun};
     for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
+        expectColor(colorAt(frame, Channel::lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
                     frame.name + " sun");
 
     // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos. At the pixel right of and
@@ -164,7 +164,7 @@ TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
     const double d2 = 4 + 2 * 0.25 * 0.25, window = 1 - d2 * d2 / 256;
     const double expected = 10 / d2 * window * 2 / std::sqrt(d2) / std::numbers::pi;
     for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
+        expectColor(colorAt(frame, Channel::lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
                     frame.name + " point light");
 }
 
@@ -179,7 +179,7 @@ TEST(KnownValues, GgxPeak) {
     scene.lights = {sun};
     const float expected = 1 / (std::numbers::pi_v<float> * 0.0625f) / 4;
     for (const Frame& frame : draw(scene, 1))
-        expectColor(colorAt(frame, lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
+        expectColor(colorAt(frame, Channel::lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
 }
 
 // Occlusion applies only to ambient light; direct light is unaffected with or without ambient light.
@@ -189,7 +189,7 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     sun.kind = LightKind::directional;
     sun.direction = {0, 0, -1};
     scene.lights = {sun};
-    const glm::vec3 open = colorAt(draw(scene)[0], lit, 3, 0);
+    const glm::vec3 open = colorAt(draw(scene)[0], Channel::lit, 3, 0);
     scene.materials[0].occlusion_texture.texture = 0;
     Renderer renderer(device(), scene, pipelines());
     Settings settings = smallPicture(GBufferEncoding::full);
@@ -198,9 +198,9 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
         settings.ambient = {ambient, ambient, ambient};
         for (const Frame& frame : bothPaths(renderer, settings)) {
             EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.0f);
-            EXPECT_EQ(colorAt(frame, lit, 3, 0), open) << frame.name << ambient;
+            EXPECT_EQ(colorAt(frame, Channel::lit, 3, 0), open) << frame.name << ambient;
             EXPECT_EQ(colorAt(frame, occlusion, 0, 0).x, 1.0f);
-            EXPECT_GE(colorAt(frame, lit, 0, 0).x, open.x + 0.3f * ambient)
+            EXPECT_GE(colorAt(frame, Channel::lit, 0, 0).x, open.x + 0.3f * ambient)
                 << frame.name << ": the control, which light from everywhere reaches";
         }
     }
@@ -235,9 +235,9 @@ TEST(KnownValues, NormalMapsFollowTangentsMirrorsAndBackFaces) {
 // Depth and position: the pixel's ray meets the square at view depth 1.
 TEST(KnownValues, DepthAndPosition) {
     for (const Frame& frame : draw(square())) {
-        EXPECT_NEAR(frame.channels.at(10).at(3, 0), 1.0f, float32);
-        expectColor(colorAt(frame, 11, 3, 0), {0.75f, 0.75f, -1}, float32, frame.name);
-        expectColor(colorAt(frame, 12, 3, 0), {0, 0, 1}, float32, frame.name);
+        EXPECT_NEAR(frame.channels.at(Channel::depth).at(3, 0), 1.0f, float32);
+        expectColor(colorAt(frame, Channel::position, 3, 0), {0.75f, 0.75f, -1}, float32, frame.name);
+        expectColor(colorAt(frame, Channel::geometric_normal, 3, 0), {0, 0, 1}, float32, frame.name);
     }
 }
 
@@ -248,8 +248,8 @@ void expectSound(const std::vector<Frame>& frames) {
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name;
         EXPECT_TRUE(frame.repaired.empty()) << frame.name;
-        EXPECT_EQ(coveredPixels(frame), frame.channels.at(0).pixels()) << frame.name;
-        for (const int mode : {normals, 12})
+        EXPECT_EQ(coveredPixels(frame), frame.channels.at(Channel::lit).pixels()) << frame.name;
+        for (const Channel mode : {normals, Channel::geometric_normal})
             for (const float value : frame.channels.at(mode).data)
                 ASSERT_TRUE(std::isfinite(value)) << frame.name << " " << debugMode(mode).name;
     }
@@ -280,7 +280,7 @@ TEST(Extremes, ALightThatShinesAtTheViewerGivesNothing) {
     scene.lights = {sun};
     const auto frames = draw(scene, 8);
     expectSound(frames);
-    for (const float value : frames[1].channels.at(lit).data) EXPECT_EQ(value, 0.0f);
+    for (const float value : frames[1].channels.at(Channel::lit).data) EXPECT_EQ(value, 0.0f);
 }
 
 TEST(Extremes, AFlattenedNodeKeepsItsNormals) {
@@ -307,9 +307,8 @@ TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
     place[2] = {sine, 0, cosine, 0};
     place[3] = {2.5, 0, -2, 1};
     const auto frames = draw(scene, 64);
-    constexpr int geometric = static_cast<int>(gpu::DEBUG_geometric_normal);
     for (const Frame& frame : frames) {
-        const glm::vec3 normal = colorAt(frame, geometric, 52, 32);
+        const glm::vec3 normal = colorAt(frame, Channel::geometric_normal, 52, 32);
         EXPECT_NEAR(double{normal.x}, sine, 1e-5) << frame.name;
         EXPECT_NEAR(double{normal.z}, cosine, 1e-5) << frame.name;
     }
@@ -322,7 +321,7 @@ TEST(Extremes, ScaleDoesNotChangeThePicture) {
     lamp.intensity = 10;
     lamp.position = {0.5, 0, 2};
     scene.lights = {lamp};
-    const glm::vec3 expected = colorAt(draw(scene, 8)[1], lit, 5, 4);
+    const glm::vec3 expected = colorAt(draw(scene, 8)[1], Channel::lit, 5, 4);
     for (const double scale : {1e-9, 1e-5, 1e5, 1e9}) {
         Scene scaled = scene;
         for (int i = 0; i < 3; ++i) scaled.nodes[0].parent_from_node[i][i] = scale;
@@ -332,7 +331,8 @@ TEST(Extremes, ScaleDoesNotChangeThePicture) {
         scaled.lights[0].intensity *= static_cast<float>(scale * scale);
         const auto frames = draw(scaled, 8);
         expectSound(frames);
-        expectColor(colorAt(frames[1], lit, 5, 4), expected, 1e-5f * expected.x, std::to_string(scale));
+        expectColor(colorAt(frames[1], Channel::lit, 5, 4), expected, 1e-5f * expected.x,
+                    std::to_string(scale));
     }
 }
 

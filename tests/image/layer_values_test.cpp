@@ -45,12 +45,12 @@ Settings onePixel(float ambient = 0) {
     return settings;
 }
 
-void expectLight(const Frame& frame, gpu::uint mode, const glm::dvec3& expected, double tolerance,
+void expectLight(const Frame& frame, Channel mode, const glm::dvec3& expected, double tolerance,
                  const std::string& where) {
-    const glm::vec3 got = colorAt(frame, static_cast<int>(mode), 0, 0);
+    const glm::vec3 got = colorAt(frame, mode, 0, 0);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(double{got[c]}, expected[c], tolerance)
-            << frame.name << " " << debugMode(static_cast<int>(mode)).name << ", " << where;
+            << frame.name << " " << debugMode(mode).name << ", " << where;
 }
 
 // ---- sheen -------------------------------------------------------------------------------------------
@@ -128,16 +128,16 @@ TEST(LayerValues, ASheenIsItsFormula) {
                                      base = bothPaths(tiltedSquare(bare, degrees, slanted), onePixel(3));
             const std::string where = fmt::format("roughness {}, {} degrees", roughness, degrees);
             for (std::size_t path = 0; path < 2; ++path) {
-                const auto below = [&](gpu::uint mode) {
-                    return left * glm::dvec3(colorAt(base[path], static_cast<int>(mode), 0, 0));
+                const auto below = [&](Channel mode) {
+                    return left * glm::dvec3(colorAt(base[path], mode, 0, 0));
                 };
-                expectLight(dark[path], gpu::DEBUG_lit_sheen, color * direct, 1e-4 * direct + 1e-9, where);
-                expectLight(bright[path], gpu::DEBUG_lit_sheen, color * (direct + 3 * all), 4e-4, where);
-                expectLight(bright[path], gpu::DEBUG_lit_diffuse, below(gpu::DEBUG_lit_diffuse), 1e-4, where);
-                expectLight(bright[path], gpu::DEBUG_lit_specular,
-                            below(gpu::DEBUG_lit_specular) + color * direct, 1e-4 * (1 + direct), where);
-                expectLight(bright[path], gpu::DEBUG_lit_ambient,
-                            below(gpu::DEBUG_lit_ambient) + color * (3 * all), 6e-4, where);
+                expectLight(dark[path], Channel::lit_sheen, color * direct, 1e-4 * direct + 1e-9, where);
+                expectLight(bright[path], Channel::lit_sheen, color * (direct + 3 * all), 4e-4, where);
+                expectLight(bright[path], Channel::lit_diffuse, below(Channel::lit_diffuse), 1e-4, where);
+                expectLight(bright[path], Channel::lit_specular,
+                            below(Channel::lit_specular) + color * direct, 1e-4 * (1 + direct), where);
+                expectLight(bright[path], Channel::lit_ambient,
+                            below(Channel::lit_ambient) + color * (3 * all), 6e-4, where);
             }
         }
 }
@@ -152,9 +152,8 @@ TEST(LayerValues, ACoatLiesAboveASheen) {
     const std::vector<Frame> bare = bothPaths(tiltedSquare(cloth, 50, slanted), onePixel(1)),
                              under = bothPaths(tiltedSquare(coated, 50, slanted), onePixel(1));
     for (std::size_t path = 0; path < 2; ++path)
-        expectLight(under[path], gpu::DEBUG_lit_sheen,
-                    left * glm::dvec3(colorAt(bare[path], static_cast<int>(gpu::DEBUG_lit_sheen), 0, 0)),
-                    1e-5, "coated");
+        expectLight(under[path], Channel::lit_sheen,
+                    left * glm::dvec3(colorAt(bare[path], Channel::lit_sheen, 0, 0)), 1e-5, "coated");
 }
 
 // ---- iridescence -------------------------------------------------------------------------------------
@@ -239,8 +238,8 @@ TEST(LayerValues, AFilmIsItsFormula) {
             const std::string where =
                 fmt::format("weight {}, {} nm, {} degrees", film.weight, film.nm, degrees);
             for (const Frame& frame : bothPaths(tiltedSquare(m, degrees, l), onePixel())) {
-                expectLight(frame, gpu::DEBUG_lit_specular, specular, 1e-4 * largestOf(specular), where);
-                expectLight(frame, gpu::DEBUG_lit_diffuse, diffuse, 1e-4 * largestOf(diffuse), where);
+                expectLight(frame, Channel::lit_specular, specular, 1e-4 * largestOf(specular), where);
+                expectLight(frame, Channel::lit_diffuse, diffuse, 1e-4 * largestOf(diffuse), where);
             }
         }
 }
@@ -258,9 +257,9 @@ TEST(LayerValues, AFilmWithoutThicknessIsTheBase) {
     const std::vector<Frame> with = bothPaths(tiltedSquare(thin, 40, light), onePixel(1)),
                              without = bothPaths(tiltedSquare(bare, 40, light), onePixel(1));
     for (std::size_t path = 0; path < 2; ++path)
-        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_specular, gpu::DEBUG_lit_ambient})
-            expectLight(with[path], mode, glm::dvec3(colorAt(without[path], static_cast<int>(mode), 0, 0)),
-                        1e-4, "no thickness");
+        for (const Channel mode : {Channel::lit, Channel::lit_specular, Channel::lit_ambient})
+            expectLight(with[path], mode, glm::dvec3(colorAt(without[path], mode, 0, 0)), 1e-4,
+                        "no thickness");
 }
 
 }  // namespace

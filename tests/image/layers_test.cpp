@@ -15,11 +15,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int litCoat = static_cast<int>(gpu::DEBUG_lit_clearcoat),
-              litSheen = static_cast<int>(gpu::DEBUG_lit_sheen),
-              litLobe = static_cast<int>(gpu::DEBUG_lit_specular),
-              litAmbient = static_cast<int>(gpu::DEBUG_lit_ambient);
-
 // Every kind of light at once.
 Scene litByAll() {
     Scene scene = loadScene("builtin:layers");
@@ -51,15 +46,16 @@ std::vector<Settings> settingsOfLayers() {
 
 // The light of coats and sheens is a part of the light of all lobes, and 0 without them.
 void expectPartsOfLobes(const Frame& frame) {
-    const auto pixel = [&](int mode, std::size_t i) {
+    const auto pixel = [&](Channel mode, std::size_t i) {
         const float* const p = frame.channels.at(mode).pixel(i);
         return glm::vec3(p[0], p[1], p[2]);
     };
     std::size_t without = 0, with = 0;
-    for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
-        const glm::vec3 sheen = pixel(litSheen, i), of_layers = sheen + pixel(litCoat, i),
-                        all = pixel(litLobe, i) + pixel(litAmbient, i);
-        if (pixel(static_cast<int>(gpu::DEBUG_sheen_color), i) == glm::vec3(0)) {
+    for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
+        const glm::vec3 sheen = pixel(Channel::lit_sheen, i),
+                        of_layers = sheen + pixel(Channel::lit_clearcoat, i),
+                        all = pixel(Channel::lit_specular, i) + pixel(Channel::lit_ambient, i);
+        if (pixel(Channel::sheen_color, i) == glm::vec3(0)) {
             ++without;
             EXPECT_EQ(sheen, glm::vec3(0)) << frame.name << " " << i;
         } else {
@@ -79,8 +75,8 @@ void expectBitEqual(Renderer& renderer, const Settings& settings) {
         gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
     const std::vector<Frame> frames = bothPaths(renderer, settings);
     for (const DebugMode& mode : debugModes()) {
-        if (layerOf(mode.number) == 0) continue;
-        ASSERT_EQ(frames[0].channels.contains(mode.number), (layerOf(mode.number) & of_scene) != 0)
+        if (layerOf(mode.channel) == 0) continue;
+        ASSERT_EQ(frames[0].channels.contains(mode.channel), (layerOf(mode.channel) & of_scene) != 0)
             << mode.name;
     }
     expectPartsOfLobes(frames[1]);
@@ -141,8 +137,9 @@ void expectExactByForward(int msaa) {
     settings.gbuffer = GBufferEncoding::compact;
     const std::vector<Frame> packed = bothPaths(renderer, settings);
     std::size_t layered = 0, differing = 0;
-    const Image &ids = packed[0].channels.at(8), &deferred = packed[0].channels.at(lit),
-                &forward = packed[1].channels.at(lit);
+    const Image &ids = packed[0].channels.at(Channel::material_id),
+                &deferred = packed[0].channels.at(Channel::lit),
+                &forward = packed[1].channels.at(Channel::lit);
     for (std::size_t i = 0; i < ids.pixels(); ++i) {
         if (ids.data[i] < 0 || layersOf(scene.materials[static_cast<std::size_t>(ids.data[i])]) == 0)
             continue;
@@ -190,8 +187,9 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
                              base = bothPaths(none, settings);
     for (std::size_t path = 0; path < 2; ++path) {
         expectSameChannels(with[path], without[path], 30);
-        const Image &ids = base[path].channels.at(8), &there = base[path].channels.at(lit),
-                    &here = with[path].channels.at(lit);
+        const Image &ids = base[path].channels.at(Channel::material_id),
+                    &there = base[path].channels.at(Channel::lit),
+                    &here = with[path].channels.at(Channel::lit);
         std::size_t differing = 0;
         for (std::size_t i = 0; i < ids.pixels(); ++i)
             if (ids.data[i] != 0) differing += !std::equal(there.pixel(i), there.pixel(i) + 3, here.pixel(i));
@@ -217,15 +215,14 @@ TEST(Layers, AWhiteFurnaceHolds) {
     }
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
-    constexpr int coat = static_cast<int>(gpu::DEBUG_clearcoat),
-                  ids = static_cast<int>(gpu::DEBUG_material_id);
-    for (const Frame& frame : bothPaths(scene, settings, {litAmbient, coat, ids})) {
-        const Image& all = frame.channels.at(litAmbient);
+    for (const Frame& frame :
+         bothPaths(scene, settings, {Channel::lit_ambient, Channel::clearcoat, Channel::material_id})) {
+        const Image& all = frame.channels.at(Channel::lit_ambient);
         std::size_t coated = 0;
         for (std::size_t i = 0; i < all.pixels(); ++i) {
-            if (frame.channels.at(ids).data[i] < 0) continue;
+            if (frame.channels.at(Channel::material_id).data[i] < 0) continue;
             EXPECT_LE(all.pixel(i)[0], 1 + 1e-4f);
-            coated += frame.channels.at(coat).data[i] > 0.5f;
+            coated += frame.channels.at(Channel::clearcoat).data[i] > 0.5f;
         }
         EXPECT_GT(coated, 500u) << frame.name;
     }
@@ -259,8 +256,8 @@ void forEachTexel(Scene scene, std::initializer_list<TextureSlot Material::*> sl
     }
 }
 
-glm::vec3 layerAt(const Frame& frame, gpu::uint mode, int x, int y) {
-    return colorAt(frame, static_cast<int>(mode), x, y);
+glm::vec3 layerAt(const Frame& frame, Channel mode, int x, int y) {
+    return colorAt(frame, mode, x, y);
 }
 
 // Each slot reads its own component of its own texture.
@@ -272,22 +269,21 @@ TEST(Layers, EverySlotReadsItsTexture) {
     m.anisotropy = 0.6f;
     const auto each = [&](TextureSlot Material::*of, const auto& check) { forEachTexel(scene, {of}, check); };
     each(&Material::clearcoat_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat, x, y).x, 0.5f * t.r, float32) << f.name;
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat_roughness, x, y).x, t.r > 0 ? 0.8f : 0, float32)
-            << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::clearcoat, x, y).x, 0.5f * t.r, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::clearcoat_roughness, x, y).x, t.r > 0 ? 0.8f : 0, float32) << f.name;
     });
     each(&Material::clearcoat_roughness_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_clearcoat_roughness, x, y).x, 0.8f * t.g, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::clearcoat_roughness, x, y).x, 0.8f * t.g, float32) << f.name;
     });
     each(&Material::clearcoat_normal_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
-        expectColor(layerAt(f, gpu::DEBUG_clearcoat_normal, x, y), glm::normalize(glm::vec3(t) * 2.0f - 1.0f),
+        expectColor(layerAt(f, Channel::clearcoat_normal, x, y), glm::normalize(glm::vec3(t) * 2.0f - 1.0f),
                     1e-6f, f.name);
-        expectColor(layerAt(f, gpu::DEBUG_normals, x, y), {0, 0, 1}, 0, f.name);
+        expectColor(layerAt(f, Channel::normals, x, y), {0, 0, 1}, 0, f.name);
     });
     each(&Material::anisotropy_texture, [&](const Frame& f, int x, int y, const glm::vec4& t) {
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::anisotropy, x, y).x, 0.6f * t.b, float32) << f.name;
         const glm::vec3 along = glm::normalize(glm::vec3(t.r * 2 - 1, t.g * 2 - 1, 0)),
-                        seen = layerAt(f, gpu::DEBUG_anisotropy_direction, x, y);
+                        seen = layerAt(f, Channel::anisotropy_direction, x, y);
         // Either sign.
         EXPECT_NEAR(std::abs(glm::dot(seen, along)), t.b > 0 ? 1 : 0, float32) << f.name;
     });
@@ -314,23 +310,23 @@ TEST(Layers, SheensAndFilmsReadTheirTextures) {
     const glm::vec3 color(0.5f, 0.75f, 0.25f);
     const auto linear = [](float value) { return value > 0 && value < 1 ? grey : value; };
     const auto first = [&](const Frame& f, int x, int y, const glm::vec4& t) {
-        expectColor(layerAt(f, gpu::DEBUG_sheen_color, x, y),
+        expectColor(layerAt(f, Channel::sheen_color, x, y),
                     color * glm::vec3(linear(t.r), linear(t.g), linear(t.b)), srgbTexel, f.name);
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_thickness, x, y).x, 600 - 400 * t.g, 1e-3) << f.name;
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence, x, y).x, 0.8, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::iridescence_thickness, x, y).x, 600 - 400 * t.g, 1e-3) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::iridescence, x, y).x, 0.8, float32) << f.name;
     };
     forEachTexel(scene, {&Material::sheen_color_texture, &Material::iridescence_thickness_texture}, first);
-    forEachTexel(
-        scene, {&Material::sheen_roughness_texture, &Material::iridescence_texture},
-        [&](const Frame& f, int x, int y, const glm::vec4& t) {
-            expectColor(layerAt(f, gpu::DEBUG_sheen_color, x, y), color, float32, f.name);
-            EXPECT_NEAR(layerAt(f, gpu::DEBUG_sheen_roughness, x, y).x, 0.7f * t.a, float32) << f.name;
-            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence, x, y).x, 0.8f * t.r, float32) << f.name;
-            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_ior, x, y).x, t.r > 0 ? 1.6 : 0, float32) << f.name;
-            // Without a texture, the maximum.
-            EXPECT_NEAR(layerAt(f, gpu::DEBUG_iridescence_thickness, x, y).x, t.r > 0 ? 200 : 0, 1e-3)
-                << f.name;
-        });
+    forEachTexel(scene, {&Material::sheen_roughness_texture, &Material::iridescence_texture},
+                 [&](const Frame& f, int x, int y, const glm::vec4& t) {
+                     expectColor(layerAt(f, Channel::sheen_color, x, y), color, float32, f.name);
+                     EXPECT_NEAR(layerAt(f, Channel::sheen_roughness, x, y).x, 0.7f * t.a, float32) << f.name;
+                     EXPECT_NEAR(layerAt(f, Channel::iridescence, x, y).x, 0.8f * t.r, float32) << f.name;
+                     EXPECT_NEAR(layerAt(f, Channel::iridescence_ior, x, y).x, t.r > 0 ? 1.6 : 0, float32)
+                         << f.name;
+                     // Without a texture, the maximum.
+                     EXPECT_NEAR(layerAt(f, Channel::iridescence_thickness, x, y).x, t.r > 0 ? 200 : 0, 1e-3)
+                         << f.name;
+                 });
 }
 
 // Each slot of glass and of a leaf reads its own component.
@@ -340,8 +336,8 @@ TEST(Layers, GlassAndLeavesReadTheirTextures) {
     pane.transmission = 0.8f;
     pane.thickness = 2;
     const auto expectPane = [](const Frame& f, int x, int y, float transmission, float thickness) {
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_transmission, x, y).x, transmission, float32) << f.name;
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_transmission_thickness, x, y).x, transmission > 0 ? thickness : 0,
+        EXPECT_NEAR(layerAt(f, Channel::transmission, x, y).x, transmission, float32) << f.name;
+        EXPECT_NEAR(layerAt(f, Channel::transmission_thickness, x, y).x, transmission > 0 ? thickness : 0,
                     float32)
             << f.name;
     };
@@ -356,8 +352,8 @@ TEST(Layers, GlassAndLeavesReadTheirTextures) {
     m.diffuse_transmission_color = {0.5f, 0.75f, 0.25f};
     const auto linear = [](float value) { return value > 0 && value < 1 ? grey : value; };
     const auto expectLeaf = [&](const Frame& f, int x, int y, float weight, const glm::vec3& color) {
-        EXPECT_NEAR(layerAt(f, gpu::DEBUG_diffuse_transmission, x, y).x, weight, float32) << f.name;
-        expectColor(layerAt(f, gpu::DEBUG_diffuse_transmission_color, x, y),
+        EXPECT_NEAR(layerAt(f, Channel::diffuse_transmission, x, y).x, weight, float32) << f.name;
+        expectColor(layerAt(f, Channel::diffuse_transmission_color, x, y),
                     m.diffuse_transmission_color * color, srgbTexel, f.name);
     };
     constexpr auto weights = &Material::diffuse_transmission_texture,
@@ -399,12 +395,13 @@ TEST(Layers, ATexelOfZeroIsTheBaseToTheBit) {
     settings.ambient = {0.1f, 0.2f, 0.3f};
     const std::vector<Frame> with = bothPaths(scene, settings), without = bothPaths(plain, settings);
     for (std::size_t path = 0; path < 2; ++path)
-        for (const int mode : {lit, litLobe, litAmbient}) {
+        for (const Channel mode : {Channel::lit, Channel::lit_specular, Channel::lit_ambient}) {
             const Frame &a = with[path], &b = without[path];
             for (const auto& [x, y] : {std::pair(3, 0), {0, 3}}) {
-                EXPECT_EQ(colorAt(a, mode, x, y), colorAt(b, mode, x, y)) << a.name << " " << mode;
-                EXPECT_EQ(layerAt(a, gpu::DEBUG_sheen_roughness, x, y).x, 0) << a.name;
-                EXPECT_EQ(colorAt(a, litSheen, x, y), glm::vec3(0)) << a.name;
+                EXPECT_EQ(colorAt(a, mode, x, y), colorAt(b, mode, x, y))
+                    << a.name << " " << debugMode(mode).name;
+                EXPECT_EQ(layerAt(a, Channel::sheen_roughness, x, y).x, 0) << a.name;
+                EXPECT_EQ(colorAt(a, Channel::lit_sheen, x, y), glm::vec3(0)) << a.name;
             }
             for (const int corner : {0, 3})
                 EXPECT_NE(colorAt(a, mode, corner, corner), colorAt(b, mode, corner, corner)) << a.name;
@@ -418,7 +415,7 @@ TEST(Layers, TheDirectionIsRotated) {
         scene.materials[0].anisotropy = 1;
         scene.materials[0].anisotropy_rotation = glm::radians(degrees);
         for (const Frame& frame : draw(scene)) {
-            const glm::vec3 seen = colorAt(frame, static_cast<int>(gpu::DEBUG_anisotropy_direction), 1, 1),
+            const glm::vec3 seen = colorAt(frame, Channel::anisotropy_direction, 1, 1),
                             along(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0);
             EXPECT_NEAR(std::abs(glm::dot(seen, along)), 1, float32) << frame.name << " " << degrees;
         }
@@ -440,7 +437,12 @@ TEST(Layers, TheReferenceAgrees) {
     for (const Frame& path : bothPaths(renderer, settings)) {
         const Coverage covered = coverage(reference, path);
         ASSERT_GT(covered.count, 3000u);
-        for (const int mode : {lit, litLobe, litCoat, litSheen, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69}) {
+        for (const Channel mode :
+             {Channel::lit, Channel::lit_specular, Channel::lit_clearcoat, Channel::lit_sheen,
+              Channel::clearcoat, Channel::clearcoat_roughness, Channel::clearcoat_normal,
+              Channel::anisotropy, Channel::anisotropy_direction, Channel::sheen_color,
+              Channel::sheen_roughness, Channel::iridescence, Channel::iridescence_ior,
+              Channel::iridescence_thickness}) {
             const DebugMode& m = debugMode(mode);
             const ChannelStats stats =
                 channelStats(m.metric, m.kind, reference.channels.at(mode), path.channels.at(mode), covered);

@@ -66,12 +66,11 @@ DrawnLights drawnWith(Renderer& renderer, Path path, Assignment assign, LightKer
     settings.light_kernel = kernel;
     settings.gbuffer = GBufferEncoding::full;
     RenderOptions options;
-    options.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_light_count)};
+    options.channels = {Channel::lit, Channel::light_count};
     options.runs = 0;
     Frame frame = renderer.draw(settings, options);
     EXPECT_EQ(frame.counters.overflowed_lists, 0u);
-    return {std::move(frame.channels.at(gpu::DEBUG_lit)),
-            std::move(frame.channels.at(gpu::DEBUG_light_count))};
+    return {std::move(frame.channels.at(Channel::lit)), std::move(frame.channels.at(Channel::light_count))};
 }
 
 std::set<std::pair<int, int>> litPixels(const Image& image) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // With every light assignment the image equals that of assignment every, bit for bit.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"
@@ -18,10 +18,7 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int lightCount = static_cast<int>(gpu::DEBUG_light_count),
-              listOverflow = static_cast<int>(gpu::DEBUG_list_overflow);
-
-RenderOptions untimed(std::vector<int> channels = {lit}) {
+RenderOptions untimed(std::vector<Channel> channels = {Channel::lit}) {
     RenderOptions options;
     options.channels = std::move(channels);
     options.runs = 0;
@@ -76,7 +73,7 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
         EXPECT_EQ(frame.counters.overflowed_lists, 0u);
         EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
-        return std::move(frame.channels.at(lit));
+        return std::move(frame.channels.at(Channel::lit));
     }
     PreparedFrames frames = renderer.prepare({&settings, 1});
     frames.draw(0);
@@ -296,7 +293,7 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     const Settings every = picture({24, 14}, Path::forward_plus, Assignment::every);
     const Frame a = Renderer(device(), without, pipelines()).draw(every, untimed());
     const Frame b = Renderer(device(), dark, pipelines()).draw(every, untimed());
-    EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 100u);
+    EXPECT_GT(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 100u);
 }
 
 // The loops over reflectors, form factors and rims nest in the loop over lights, and lavapipe counts all of
@@ -318,8 +315,8 @@ TEST(LightLists, ManyTubesOnLayersAreShadedInSeveralDraws) {
     const Settings every = picture({12, 7}, Path::forward_plus, Assignment::every);
     const Frame many = Renderer(device(), scene, pipelines()).draw(every, untimed()),
                 one = Renderer(device(), few, pipelines()).draw(every, untimed());
-    EXPECT_EQ(wrongPixels(many.channels.at(lit), one.channels.at(lit)), 0u);
-    EXPECT_GT(*std::ranges::max_element(one.channels.at(lit).data), 0.1f);
+    EXPECT_EQ(wrongPixels(many.channels.at(Channel::lit), one.channels.at(Channel::lit)), 0u);
+    EXPECT_GT(*std::ranges::max_element(one.channels.at(Channel::lit).data), 0.1f);
 }
 
 // More pairs of lights and froxels than fit into the device's largest buffer.
@@ -335,14 +332,14 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     Renderer renderer(device(), scene, pipelines());
     const Size size{192, 24};
     const Frame every = renderer.draw(picture(size, Path::forward_plus, Assignment::every), untimed());
-    const Frame frame =
-        renderer.draw(picture(size, Path::deferred, Assignment::clustered), untimed({lit, listOverflow}));
+    const Frame frame = renderer.draw(picture(size, Path::deferred, Assignment::clustered),
+                                      untimed({Channel::lit, Channel::list_overflow}));
     if (device().limits().maxStorageBufferRange <= (128u << 20)) {
         EXPECT_GT(frame.counters.overflowed_lists, 0u);
-        const PixelData& overflow = frame.channels.at(listOverflow).data;
+        const PixelData& overflow = frame.channels.at(Channel::list_overflow).data;
         EXPECT_GT(std::count(overflow.begin(), overflow.end(), 1.0f), 0);
     }
-    EXPECT_EQ(wrongPixels(every.channels.at(lit), frame.channels.at(lit)), 0u);
+    EXPECT_EQ(wrongPixels(every.channels.at(Channel::lit), frame.channels.at(Channel::lit)), 0u);
 }
 
 // ---- counters and channels of the lists ----------------------------------------------------------------
@@ -350,7 +347,8 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
 TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
     const Scene scene = loadScene("builtin:spheres?lights=256");
     Renderer renderer(device(), scene, pipelines());
-    const RenderOptions options = untimed({lit, lightCount, listOverflow, 8});
+    const RenderOptions options =
+        untimed({Channel::lit, Channel::light_count, Channel::list_overflow, Channel::material_id});
     const auto counts = [&](Assignment assign) {
         return renderer.draw(picture({640, 360}, Path::forward_plus, assign), options);
     };
@@ -359,16 +357,17 @@ TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
         const Frame frame = counts(assign);
         double sum = 0;
         std::size_t covered = 0;
-        for (std::size_t i = 0; i < frame.channels.at(lightCount).pixels(); ++i) {
-            const float count = frame.channels.at(lightCount).pixel(i)[0];
-            const bool background = frame.channels.at(8).pixel(i)[0] < 0;
-            EXPECT_EQ(every.channels.at(lightCount).pixel(i)[0], background ? 0.0f : 257.0f) << "the sun too";
+        for (std::size_t i = 0; i < frame.channels.at(Channel::light_count).pixels(); ++i) {
+            const float count = frame.channels.at(Channel::light_count).pixel(i)[0];
+            const bool background = frame.channels.at(Channel::material_id).pixel(i)[0] < 0;
+            EXPECT_EQ(every.channels.at(Channel::light_count).pixel(i)[0], background ? 0.0f : 257.0f)
+                << "the sun too";
             EXPECT_LE(count, 257.0f);
             if (background) continue;
             EXPECT_GE(count, 1.0f) << "the sun";
             sum += double{count};
             ++covered;
-            EXPECT_EQ(frame.channels.at(listOverflow).pixel(i)[0], 0.0f);
+            EXPECT_EQ(frame.channels.at(Channel::list_overflow).pixel(i)[0], 0.0f);
         }
         // Known for this scene: on average 5.07 point lights reach a covered pixel; a list has a few more.
         const double mean = sum / static_cast<double>(covered) - 1;
@@ -381,9 +380,13 @@ TEST(LightLists, BothPathsHaveTheSameLists) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene, pipelines());
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {
-        const Frame a = renderer.draw(picture({213, 119}, Path::deferred, assign), untimed({lightCount}));
-        const Frame b = renderer.draw(picture({213, 119}, Path::forward_plus, assign), untimed({lightCount}));
-        EXPECT_EQ(differingPixels(a.channels.at(lightCount), b.channels.at(lightCount), true), 0u);
+        const Frame a =
+            renderer.draw(picture({213, 119}, Path::deferred, assign), untimed({Channel::light_count}));
+        const Frame b =
+            renderer.draw(picture({213, 119}, Path::forward_plus, assign), untimed({Channel::light_count}));
+        EXPECT_EQ(
+            differingPixels(a.channels.at(Channel::light_count), b.channels.at(Channel::light_count), true),
+            0u);
     }
 }
 
@@ -397,7 +400,7 @@ TEST(LightNegativeControls, OneMoreLightChangesEvery) {
     const Settings every = picture({160, 90}, Path::forward_plus, Assignment::every);
     const Frame a = Renderer(device(), scene, pipelines()).draw(every, untimed());
     const Frame b = Renderer(device(), more, pipelines()).draw(every, untimed());
-    EXPECT_GT(differingPixels(a.channels.at(lit), b.channels.at(lit)), 0u);
+    EXPECT_GT(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 0u);
 }
 
 TEST(LightNegativeControls, NoNanEqualsAnything) {
@@ -415,20 +418,20 @@ TEST(LightCutoff, GivesRangesAndSaysWhatIsCut) {
         if (light.kind == LightKind::point) light.range = std::numeric_limits<float>::infinity();
     Renderer renderer(device(), scene, pipelines());
     Settings settings = picture({160, 90}, Path::forward_plus, Assignment::clustered);
-    const Frame whole = renderer.draw(settings, untimed({lit, lightCount}));
+    const Frame whole = renderer.draw(settings, untimed({Channel::lit, Channel::light_count}));
     EXPECT_EQ(whole.counters.energy_cut, 0.0);
     double before = 0;
     for (const float cutoff : {1e-3f, 1e-2f, 1e-1f}) {
         settings.light_cutoff = cutoff;
-        const Frame cut = renderer.draw(settings, untimed({lit, lightCount}));
+        const Frame cut = renderer.draw(settings, untimed({Channel::lit, Channel::light_count}));
         EXPECT_GT(cut.counters.energy_cut, before);
         EXPECT_LT(cut.counters.energy_cut, 1.0);
         before = cut.counters.energy_cut;
-        EXPECT_GT(differingPixels(whole.channels.at(lit), cut.channels.at(lit)), 0u);
+        EXPECT_GT(differingPixels(whole.channels.at(Channel::lit), cut.channels.at(Channel::lit)), 0u);
         Settings every = settings;
         every.assign = Assignment::every;
         const Frame same = renderer.draw(every, untimed());
-        EXPECT_EQ(wrongPixels(same.channels.at(lit), cut.channels.at(lit)), 0u);
+        EXPECT_EQ(wrongPixels(same.channels.at(Channel::lit), cut.channels.at(Channel::lit)), 0u);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Deferred lighting in fragment and compute shaders (--lighting) gives the same bits.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/lighting_tiles.h"
 #include "tests/image/shadow_scenes.h"
@@ -29,10 +29,10 @@ Settings lightingSettings(Size size = {160, 90}) {
 // lit of the timed frame, not of a capture.
 Image timedLit(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
     options.recheck = false;
-    return renderer.draw(settings, options).channels.at(lit);
+    return renderer.draw(settings, options).channels.at(Channel::lit);
 }
 
 // Smallest compared radiance, W/(sr m^2). Lavapipe's fragments flush terms below 2^-126 to 0 in one
@@ -79,7 +79,7 @@ TEST_P(LightingOf, ChangesNoBit) {
     const Image image = expectSameLighting(uploaded(GetParam()).renderer, settings, GetParam());
     EXPECT_GT(distinctTexels(image), 100u) << "there is something to compare";
     settings.lighting = Lighting::compute;
-    const Frame frame = drawnBy(Path::deferred, uploaded(GetParam()).renderer, settings, {lit});
+    const Frame frame = drawnBy(Path::deferred, uploaded(GetParam()).renderer, settings, {Channel::lit});
     EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
     expectSameLighting(GetParam(), "four samples", [](Settings& s) { s.msaa = 4; });
 }

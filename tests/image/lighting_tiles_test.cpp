@@ -2,7 +2,7 @@
 // Deferred lighting by tiles (deferred/lighting_tiles.h): each tile of the image is listed once, by the
 // layers that its pixels have, and the image keeps its bits.
 #include "deferred/lighting_tiles.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
 #include "tests/probe/kernel_frame.h"
@@ -18,9 +18,6 @@
 
 namespace diptych::tests {
 namespace {
-
-constexpr auto coatWeight = static_cast<int>(gpu::DEBUG_clearcoat),
-               stretchStrength = static_cast<int>(gpu::DEBUG_anisotropy);
 
 // Balls with coats and anisotropy on the left, below all of them and above every other one, and of the base
 // on the right.
@@ -77,13 +74,13 @@ struct TilePixels {
 std::vector<TilePixels> pixelsOfTiles(const Scene& scene, const Settings& settings, const glm::uvec2& size) {
     Renderer renderer(device(), scene, pipelines());
     RenderOptions options;
-    options.channels = {lit, 8, coatWeight, stretchStrength};
-    options.every_sample = {8, coatWeight, stretchStrength};
+    options.channels = {Channel::lit, Channel::material_id, Channel::clearcoat, Channel::anisotropy};
+    options.every_sample = {Channel::material_id, Channel::clearcoat, Channel::anisotropy};
     options.runs = 0;
     Settings forward = settings;
     forward.path = Path::forward_plus;
     const Frame frame = renderer.draw(forward, options);
-    const auto anySample = [&](int mode, std::size_t i, auto&& is) {
+    const auto anySample = [&](Channel mode, std::size_t i, auto&& is) {
         bool any = is(frame.channels.at(mode).data[i]);
         if (const auto found = frame.further_samples.find(mode); found != frame.further_samples.end())
             for (const Image& image : found->second) any = any || is(image.data[i]);
@@ -91,12 +88,13 @@ std::vector<TilePixels> pixelsOfTiles(const Scene& scene, const Settings& settin
     };
     const auto positive = [](float value) { return value > 0; };
     std::vector<TilePixels> tiles(std::size_t{size.x} * size.y);
-    for (std::size_t i = 0; i < frame.channels.at(8).pixels(); ++i) {
+    for (std::size_t i = 0; i < frame.channels.at(Channel::material_id).pixels(); ++i) {
         const std::size_t x = i % static_cast<std::size_t>(settings.size.width),
                           y = i / static_cast<std::size_t>(settings.size.width);
         TilePixels& tile = tiles[y / gpu::LIGHTING_TILE * size.x + x / gpu::LIGHTING_TILE];
-        tile.drawn += anySample(8, i, [](float id) { return id >= 0; });
-        tile.layered += anySample(coatWeight, i, positive) || anySample(stretchStrength, i, positive);
+        tile.drawn += anySample(Channel::material_id, i, [](float id) { return id >= 0; });
+        tile.layered +=
+            anySample(Channel::clearcoat, i, positive) || anySample(Channel::anisotropy, i, positive);
     }
     return tiles;
 }
@@ -151,10 +149,10 @@ TEST(LightingTiles, OneSampleOfAPixelIsEnough) {
 // Reads the timed frame without values that some fragments flush to 0 (lighting_test.cpp).
 Image tiledLit(Renderer& renderer, const Settings& settings) {
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
     options.recheck = false;
-    Image image = renderer.draw(settings, options).channels.at(lit);
+    Image image = renderer.draw(settings, options).channels.at(Channel::lit);
     for (float& value : image.data)
         if (std::abs(value) < 1e-30f) value = 0;
     return image;

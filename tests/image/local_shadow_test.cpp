@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadows of point and spot lights: equal bits in both paths and with every assignment, comparison with
 // the reference's rays, and planes with known results.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/local_shadow_scenes.h"
@@ -14,9 +14,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int localMode = static_cast<int>(gpu::DEBUG_local_visibility),
-              ids = static_cast<int>(gpu::DEBUG_material_id);
-
 Settings locally(const Settings& settings, int lights, int size = 1024, int kernel = 3) {
     Settings result = settings;
     result.shadows = Shadows::pcf;
@@ -27,7 +24,7 @@ Settings locally(const Settings& settings, int lights, int size = 1024, int kern
 }
 
 Frame drawnOf(const Scene& scene, const Settings& settings,
-              const std::vector<int>& channels = {localMode, ids}) {
+              const std::vector<Channel>& channels = {Channel::local_visibility, Channel::material_id}) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -41,9 +38,9 @@ struct LocallySeen {
 };
 LocallySeen locallySeen(const Frame& frame, int material = 0) {
     LocallySeen seen;
-    for (std::size_t i = 0; i < frame.channels.at(localMode).pixels(); ++i) {
-        if (*frame.channels.at(ids).pixel(i) != static_cast<float>(material)) continue;
-        const float visibility = *frame.channels.at(localMode).pixel(i);
+    for (std::size_t i = 0; i < frame.channels.at(Channel::local_visibility).pixels(); ++i) {
+        if (*frame.channels.at(Channel::material_id).pixel(i) != static_cast<float>(material)) continue;
+        const float visibility = *frame.channels.at(Channel::local_visibility).pixel(i);
         seen.least = std::min(seen.least, visibility);
         seen.most = std::max(seen.most, visibility);
         ++seen.pixels;
@@ -75,14 +72,21 @@ TEST_P(LocalShadowPaths, SeeTheSame) {
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
         for (const int kernel : {1, 7}) {
             const Settings settings = locally(smallPicture(encoding), GetParam().lights, 512, kernel);
-            const std::vector<Frame> frames = bothPaths(renderer, settings, {localMode, lit});
-            EXPECT_EQ(differingPixels(frames[0].channels.at(localMode), frames[1].channels.at(localMode)), 0u)
+            const std::vector<Frame> frames =
+                bothPaths(renderer, settings, {Channel::local_visibility, Channel::lit});
+            EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::local_visibility),
+                                      frames[1].channels.at(Channel::local_visibility)),
+                      0u)
                 << kernel;
             if (encoding == GBufferEncoding::full) {
-                EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+                EXPECT_EQ(
+                    differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)),
+                    0u)
                     << kernel;
             } else {
-                EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].through_gbuffer.at(lit)), 0u)
+                EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit),
+                                          frames[1].through_gbuffer.at(Channel::lit)),
+                          0u)
                     << kernel;
             }
         }
@@ -98,7 +102,7 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     Settings truth = settings;
     truth.path = Path::reference;
     RenderOptions options;
-    options.channels = {localMode, ids};
+    options.channels = {Channel::local_visibility, Channel::material_id};
     options.runs = 0;
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.local_shadow_edge.empty());
@@ -107,11 +111,11 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     const double reach = path.local_shadow_reach * (3 * std::numbers::sqrt2 / 2 + 1) /
                          marginOf(AtlasRequest{.kernel = 3, .bias = double{settings.shadow_bias}});
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
-    for (std::size_t i = 0; i < path.channels.at(localMode).pixels(); ++i) {
-        if (*path.channels.at(ids).pixel(i) < 0) continue;
+    for (std::size_t i = 0; i < path.channels.at(Channel::local_visibility).pixels(); ++i) {
+        if (*path.channels.at(Channel::material_id).pixel(i) < 0) continue;
         ++covered;
-        const float seen = *path.channels.at(localMode).pixel(i),
-                    is = *reference.channels.at(localMode).pixel(i);
+        const float seen = *path.channels.at(Channel::local_visibility).pixel(i),
+                    is = *reference.channels.at(Channel::local_visibility).pixel(i);
         if (double{*reference.local_shadow_edge.pixel(i)} <= reach) {
             ++near;
             continue;
@@ -174,8 +178,8 @@ TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
             const Scene scene = ground({light}, {board(1)}, scale);
             Settings settings = locally(smallPicture(GBufferEncoding::standard), 1, 2048);
             settings.size = {320, 180};
-            const int position = int{gpu::DEBUG_position};
-            const Frame frame = drawnOf(scene, settings, {localMode, ids, position});
+            const Frame frame = drawnOf(scene, settings,
+                                        {Channel::local_visibility, Channel::material_id, Channel::position});
             // A texel of a point light's tile is 8 mm at the foot. At the shadow's end it is 16 mm of
             // height, twice that on the ground. The filter radius is two texels, and the bias up to one
             // and a half.
@@ -184,12 +188,12 @@ TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
             int dark = 0, open = 0;
             for (int y = 0; y < 180; ++y)
                 for (int x = 0; x < 320; ++x) {
-                    if (frame.channels.at(ids).at(x, y) != 0) continue;
-                    const Image& at = frame.channels.at(position);
+                    if (frame.channels.at(Channel::material_id).at(x, y) != 0) continue;
+                    const Image& at = frame.channels.at(Channel::position);
                     const double px = double{at.at(x, y, 0)} / scale + eye.x,
                                  pz = double{at.at(x, y, 2)} / scale + eye.z;
                     if (std::abs(pz) > 0.8) continue;
-                    const float seen = frame.channels.at(localMode).at(x, y);
+                    const float seen = frame.channels.at(Channel::local_visibility).at(x, y);
                     if (px < -gap && px > -2 + end) {
                         EXPECT_EQ(seen, 0) << px << " " << pz << " " << scale;
                         ++dark;
@@ -233,9 +237,9 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
 TEST(LocalShadowCasters, AreThoseThatAsk) {
     Scene scene = ground({castingPoint({2, 2, 0}), castingPoint({-2, 1, 0})}, {board(1)});
     Settings off = smallPicture(GBufferEncoding::standard), none = locally(off, 0), one = locally(off, 1);
-    const std::vector<int> channels{localMode, ids, lit};
+    const std::vector<Channel> channels{Channel::local_visibility, Channel::material_id, Channel::lit};
     const Frame without = drawnOf(scene, off, channels), asked = drawnOf(scene, none, channels);
-    EXPECT_EQ(differingPixels(without.channels.at(lit), asked.channels.at(lit)), 0u);
+    EXPECT_EQ(differingPixels(without.channels.at(Channel::lit), asked.channels.at(Channel::lit)), 0u);
     EXPECT_EQ(locallySeen(asked).least, 1);
     EXPECT_EQ(asked.local_shadow_reach, 0);
     EXPECT_TRUE(says(asked, "2 point or spot lights cast no shadow")) << "and it is said";
@@ -245,7 +249,7 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     EXPECT_TRUE(says(brightest, "shadows of 1 local light: "));
     scene.lights[0].shadow = true;
     const Frame itself = drawnOf(scene, none, channels);
-    EXPECT_EQ(differingPixels(itself.channels.at(lit), brightest.channels.at(lit)), 0u);
+    EXPECT_EQ(differingPixels(itself.channels.at(Channel::lit), brightest.channels.at(Channel::lit)), 0u);
     EXPECT_EQ(locallySeen(drawnOf(scene, off, channels)).least, 1) << "--shadows off";
 }
 
@@ -282,7 +286,7 @@ TEST(LocalShadowLists, AreNoDifference) {
     Settings settings = locally(smallPicture(GBufferEncoding::full), 3, 512);
     settings.lights = "spot:40,point:40,area:3";
     settings.assign = Assignment::every;
-    const std::vector<int> channels{localMode, lit};
+    const std::vector<Channel> channels{Channel::local_visibility, Channel::lit};
     const Frame every = drawnOf(scene, settings, channels);
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered, Assignment::per_object})
         for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather}) {
@@ -291,7 +295,7 @@ TEST(LocalShadowLists, AreNoDifference) {
             other.light_kernel = kernel;
             if (assign == Assignment::per_object) other.pixel_lights = 1000;
             const Frame frame = drawnOf(scene, other, channels);
-            for (const int mode : channels)
+            for (const Channel mode : channels)
                 EXPECT_EQ(differingPixels(every.channels.at(mode), frame.channels.at(mode)), 0u)
                     << nameOf(assign) << " " << nameOf(kernel) << " " << debugMode(mode).name;
         }
@@ -318,18 +322,17 @@ TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
     Settings settings = locally(smallPicture(GBufferEncoding::full), 0, 256);
     settings.size = {32, 18};
     settings.lights = "point:70000";
-    constexpr int sunMode = static_cast<int>(gpu::DEBUG_shadow_visibility);
-    const std::vector<int> channels{localMode, sunMode, lit};
+    const std::vector<Channel> channels{Channel::local_visibility, Channel::shadow_visibility, Channel::lit};
     for (const Path path : drawn_paths) {
         settings.path = path;
         settings.assign = Assignment::every;
         const Frame every = drawnOf(scene, settings, channels);
         settings.assign = Assignment::clustered;
         const Frame clustered = drawnOf(scene, settings, channels);
-        for (const int mode : channels)
+        for (const Channel mode : channels)
             EXPECT_EQ(differingPixels(every.channels.at(mode), clustered.channels.at(mode)), 0u)
                 << nameOf(path) << " " << debugMode(mode).name;
-        for (const int mode : {localMode, sunMode})
+        for (const Channel mode : {Channel::local_visibility, Channel::shadow_visibility})
             EXPECT_LT(*std::ranges::min_element(every.channels.at(mode).data), 0.1f);
     }
 }

@@ -114,7 +114,7 @@ CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, co
 glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at);
 
 // Values by channel (DEBUG_*), one per component of the channel; nothing in a hole of the cell.
-std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
-                                                             const CellDecode& decode);
+std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
+                                                                 const CellDecode& decode);
 
 }  // namespace diptych::tests

@@ -25,40 +25,40 @@ constexpr unsigned slotBit(gpu::uint slot) {
 }
 
 // Bit mask of the slots that may affect a channel of a cell.
-unsigned slotsOf(int mode, const Cell& cell) {
+unsigned slotsOf(Channel mode, const Cell& cell) {
     constexpr unsigned base = slotBit(gpu::SLOT_base_color);
     const unsigned glossy = cell.specular_glossiness ? slotBit(gpu::SLOT_specular_color) : 0,
                    rough = slotBit(gpu::SLOT_metallic_roughness) | glossy;
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_albedo:
+    switch (mode) {
+        case Channel::albedo:
             return base | glossy;
-        case gpu::DEBUG_material_id:
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
-        case gpu::DEBUG_geometric_normal:
-        case gpu::DEBUG_texcoords:
-        case gpu::DEBUG_tangent:
-        case gpu::DEBUG_handedness:
+        case Channel::material_id:
+        case Channel::depth:
+        case Channel::position:
+        case Channel::geometric_normal:
+        case Channel::texcoords:
+        case Channel::tangent:
+        case Channel::handedness:
             return base;
-        case gpu::DEBUG_normals:
-        case gpu::DEBUG_tangent_normal:
+        case Channel::normals:
+        case Channel::tangent_normal:
             return base | slotBit(gpu::SLOT_normal);
-        case gpu::DEBUG_metallic:
-        case gpu::DEBUG_roughness:
+        case Channel::metallic:
+        case Channel::roughness:
             return base | rough;
-        case gpu::DEBUG_emission:
+        case Channel::emission:
             return base | slotBit(gpu::SLOT_emissive);
-        case gpu::DEBUG_occlusion:
+        case Channel::occlusion:
             return base | slotBit(gpu::SLOT_occlusion);
-        case gpu::DEBUG_specular:
+        case Channel::specular:
             return base | rough | slotBit(gpu::SLOT_specular) | slotBit(gpu::SLOT_specular_color);
-        case gpu::DEBUG_dielectric_f90:
+        case Channel::dielectric_f90:
             return base | slotBit(gpu::SLOT_specular);
-        case gpu::DEBUG_dielectric_f0:
+        case Channel::dielectric_f0:
             return base | slotBit(gpu::SLOT_specular) | slotBit(gpu::SLOT_specular_color);
-        case gpu::DEBUG_lightmapped:
+        case Channel::lightmapped:
             return base;
-        case gpu::DEBUG_lightmap:
+        case Channel::lightmap:
             return base | slotBit(gpu::SLOT_lightmap);
         default:
             return ~0u;
@@ -103,20 +103,20 @@ double largestIn(const std::vector<double>& values) {
 // a decoded value and each product round by at most 2^-24: 2^-21 in all, relative. A normal's texel errs
 // by 2^-24, is doubled, scaled by up to 1.6 and mixed with unit vectors: 4e-7, and as much again for its
 // length.
-double roundingOf(int mode, const std::vector<double>& expected) {
+double roundingOf(Channel mode, const std::vector<double>& expected) {
     const double largest = largestIn(expected);
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_material_id:
+    switch (mode) {
+        case Channel::material_id:
             return 0;
-        case gpu::DEBUG_normals:
-        case gpu::DEBUG_geometric_normal:
-        case gpu::DEBUG_tangent:
-        case gpu::DEBUG_tangent_normal:
+        case Channel::normals:
+        case Channel::geometric_normal:
+        case Channel::tangent:
+        case Channel::tangent_normal:
             return 1e-6;
-        case gpu::DEBUG_texcoords:
+        case Channel::texcoords:
             return 1e-6;
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
+        case Channel::depth:
+        case Channel::position:
             return 2e-6 * largest;
         default:
             return largest * 0x1p-21;
@@ -128,7 +128,7 @@ double roundingOf(int mode, const std::vector<double>& expected) {
 constexpr double cornerGrid = 1.0 / 128;
 
 // Effect of that: on texture coordinates anywhere, on everything else if the wall is tilted.
-double movedBy(int mode, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
+double movedBy(Channel mode, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
     const CellPlace here = cellPlace(cells, camera, {x + 0.5, y + 0.5});
     double deeper = 0, aside = 0;
     for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
@@ -137,13 +137,13 @@ double movedBy(int mode, const std::vector<Cell>& cells, const CellCamera& camer
         aside = std::max({aside, std::abs(next.position.x - here.position.x),
                           std::abs(next.position.y - here.position.y)});
     }
-    switch (static_cast<gpu::uint>(mode)) {
-        case gpu::DEBUG_depth:
-        case gpu::DEBUG_position:
+    switch (mode) {
+        case Channel::depth:
+        case Channel::position:
             return deeper * cornerGrid;
-        case gpu::DEBUG_texcoords:
+        case Channel::texcoords:
             return aside * cornerGrid;
-        case gpu::DEBUG_geometric_normal:
+        case Channel::geometric_normal:
             // Over a cell of some 16 pixels, a snapped vertex tilts the triangle. The normal is also built
             // from position differences of neighbouring pixels, which float32 rounds.
             return deeper > 1e-9 ? deeper / aside * cornerGrid / 16 + 2 * here.depth * 0x1p-23 / aside : 0;
@@ -173,7 +173,7 @@ std::string placeName(const std::vector<Cell>& cells, const CellPlace& place, in
 // Ambient light adds the error of the paths' table of its integral (tests/image/ambient_test.cpp).
 constexpr double litRounding = 1e-5, ambientTable = 6e-5;
 
-std::vector<double> valuesAt(const Frame& frame, int mode, int x, int y) {
+std::vector<double> valuesAt(const Frame& frame, Channel mode, int x, int y) {
     const Image& image = frame.channels.at(mode);
     const float* p = image.pixel(static_cast<std::size_t>(y * image.width + x));
     return {p, p + image.components};
@@ -183,7 +183,8 @@ std::vector<double> valuesAt(const Frame& frame, int mode, int x, int y) {
 // with the same texels. A surface at another depth is off the wall's plane, which changes the lamp's light
 // by up to 2/3 per metre at 3 m distance. Nothing if there is no such neighbour in one direction.
 std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamera& camera,
-                                 const Frame& reference, int mode, const JudgedPixel& pixel, int x, int y) {
+                                 const Frame& reference, Channel mode, const JudgedPixel& pixel, int x,
+                                 int y) {
     if (camera.tilt == glm::dvec2(0)) return 0.0;
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
     const auto alike = [&](const glm::ivec2& at) {
@@ -195,7 +196,7 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
         return true;
     };
     const std::vector<double> here = valuesAt(reference, mode, x, y);
-    double moved = largestIn(here) * movedBy(static_cast<int>(gpu::DEBUG_depth), cells, camera, x, y) * 2 / 3;
+    double moved = largestIn(here) * movedBy(Channel::depth, cells, camera, x, y) * 2 / 3;
     for (const glm::ivec2 along : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
         const glm::ivec2 next(glm::ivec2(x, y) + along), last(glm::ivec2(x, y) - along);
         if (!alike(next) && !alike(last)) return {};
@@ -210,15 +211,14 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
 
 // Tolerance of a path's channel against the reference; nothing if it is not checked.
 std::optional<double> allowedBeside(const std::vector<Cell>& cells, const CellCamera& camera,
-                                    const Frame& reference, int mode, const JudgedPixel& pixel, int x,
+                                    const Frame& reference, Channel mode, const JudgedPixel& pixel, int x,
                                     int y) {
     const std::vector<double> expected = valuesAt(reference, mode, x, y);
     if (!isLit(mode)) return roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
     const auto moved = litMovedBy(cells, camera, reference, mode, pixel, x, y);
     if (!moved) return {};
-    const double ambient = largestIn(valuesAt(reference, static_cast<int>(gpu::DEBUG_lit_ambient), x, y));
-    const bool has =
-        mode == static_cast<int>(gpu::DEBUG_lit) || mode == static_cast<int>(gpu::DEBUG_lit_ambient);
+    const double ambient = largestIn(valuesAt(reference, Channel::lit_ambient, x, y));
+    const bool has = mode == Channel::lit || mode == Channel::lit_ambient;
     return litRounding * largestIn(expected) + (has ? ambientTable * ambient : 0) + *moved;
 }
 
@@ -243,14 +243,14 @@ ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cel
     for (int y = 0; y < camera.size.y; ++y)
         for (int x = 0; x < camera.size.x; ++x) {
             const std::optional<JudgedPixel> pixel = judgedPixel(cells, camera, x, y);
-            constexpr int id = static_cast<int>(gpu::DEBUG_material_id);
             if (!pixel) continue;
             const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
-            if (!pixel->shows(slotsOf(id, cell))) continue;
+            if (!pixel->shows(slotsOf(Channel::material_id, cell))) continue;
             const auto values = cellValues(cell, pixel->place, decode);
             const std::string where = placeName(cells, pixel->place, x, y);
             if (!values) {
-                judge(judgement[id], frame.channels.at(id).pixel(at(x, y)), {-1}, 0, where);
+                judge(judgement[Channel::material_id],
+                      frame.channels.at(Channel::material_id).pixel(at(x, y)), {-1}, 0, where);
                 continue;
             }
             for (const auto& [mode, expected] : *values) {

@@ -19,7 +19,7 @@ struct CheckedValues {
     double worst = 0;
     std::string worst_at;  // "cell NAME at X, Y: GOT, not EXPECTED"
 };
-using ChannelChecks = std::map<int, CheckedValues>;  // by channel
+using ChannelChecks = std::map<Channel, CheckedValues>;  // by channel
 
 // Whether any value is out of tolerance.
 bool anyWrong(const ChannelChecks& judgement);

@@ -2,7 +2,7 @@
 // Faults that would affect both paths alike. Every property, texture slot and use of texture coordinates
 // of a glTF material, cameras, and mirrored or rotated geometry: both paths and the reference match closed
 // forms. Light matches the reference in mode scene, which has its own materials, textures and camera.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/model/material_slots.h"
@@ -57,15 +57,15 @@ Frame materialReference(const Scene& scene, const CellCamera& camera) {
 }
 
 // All cells need the most pipelines: only material channels. A few cells: every channel.
-std::vector<int> channelsAt(const CellCamera& camera) {
+std::vector<Channel> channelsAt(const CellCamera& camera) {
     if (!camera.all) return allChannels();
-    std::vector<int> modes;
-    for (const gpu::uint mode :
-         {gpu::DEBUG_lit, gpu::DEBUG_albedo, gpu::DEBUG_normals, gpu::DEBUG_metallic, gpu::DEBUG_roughness,
-          gpu::DEBUG_emission, gpu::DEBUG_occlusion, gpu::DEBUG_specular, gpu::DEBUG_material_id,
-          gpu::DEBUG_depth, gpu::DEBUG_dielectric_f90, gpu::DEBUG_lightmap, gpu::DEBUG_tangent,
-          gpu::DEBUG_handedness, gpu::DEBUG_tangent_normal, gpu::DEBUG_dielectric_f0})
-        modes.push_back(static_cast<int>(mode));
+    std::vector<Channel> modes;
+    for (const Channel mode :
+         {Channel::lit, Channel::albedo, Channel::normals, Channel::metallic, Channel::roughness,
+          Channel::emission, Channel::occlusion, Channel::specular, Channel::material_id, Channel::depth,
+          Channel::dielectric_f90, Channel::lightmap, Channel::tangent, Channel::handedness,
+          Channel::tangent_normal, Channel::dielectric_f0})
+        modes.push_back(mode);
     return modes;
 }
 
@@ -129,14 +129,14 @@ INSTANTIATE_TEST_SUITE_P(Cameras, MaterialPictures, testing::ValuesIn(cellCamera
 
 struct MaterialFault {
     std::string name;
-    gpu::uint channel;  // where it must be detected
+    Channel channel;  // where it must be detected
     std::function<void(Scene&)> plant;
 };
 
 // The channel that shows a slot's texture.
-constexpr std::array<gpu::uint, cellSlots> channelOfSlot{
-    gpu::DEBUG_albedo,   gpu::DEBUG_roughness,      gpu::DEBUG_normals,  gpu::DEBUG_occlusion,
-    gpu::DEBUG_emission, gpu::DEBUG_dielectric_f90, gpu::DEBUG_specular, gpu::DEBUG_lightmap};
+constexpr std::array<Channel, cellSlots> channelOfSlot{
+    Channel::albedo,   Channel::roughness,      Channel::normals,  Channel::occlusion,
+    Channel::emission, Channel::dielectric_f90, Channel::specular, Channel::lightmap};
 
 TextureImage& imageOfSlot(Scene& scene, std::size_t slot) {
     return scene.images[static_cast<std::size_t>(scene.textures[slot].image)];
@@ -187,99 +187,99 @@ void addSlotFaults(std::vector<MaterialFault>& faults) {
         add(slot, "offset ignored", [](TextureSlot& t) { t.u.z = t.v.z = 0; });
         add(slot, "transform ignored", [](TextureSlot& t) { t.u = {1, 0, 0}, t.v = {0, 1, 0}; });
     }
-    for (const auto& [slot, a, b, channel] : {std::tuple{gpu::SLOT_base_color, 0u, 2u, gpu::DEBUG_albedo},
-                                              {gpu::SLOT_metallic_roughness, 0u, 1u, gpu::DEBUG_roughness},
-                                              {gpu::SLOT_metallic_roughness, 0u, 2u, gpu::DEBUG_metallic},
-                                              {gpu::SLOT_normal, 0u, 1u, gpu::DEBUG_normals},
-                                              {gpu::SLOT_occlusion, 0u, 1u, gpu::DEBUG_occlusion},
-                                              {gpu::SLOT_occlusion, 0u, 3u, gpu::DEBUG_occlusion},
-                                              {gpu::SLOT_emissive, 1u, 2u, gpu::DEBUG_emission},
-                                              {gpu::SLOT_specular, 0u, 3u, gpu::DEBUG_dielectric_f90},
-                                              {gpu::SLOT_specular_color, 0u, 1u, gpu::DEBUG_specular},
-                                              {gpu::SLOT_specular_color, 0u, 3u, gpu::DEBUG_roughness},
-                                              {gpu::SLOT_lightmap, 0u, 1u, gpu::DEBUG_lightmap}})
+    for (const auto& [slot, a, b, channel] : {std::tuple{gpu::SLOT_base_color, 0u, 2u, Channel::albedo},
+                                              {gpu::SLOT_metallic_roughness, 0u, 1u, Channel::roughness},
+                                              {gpu::SLOT_metallic_roughness, 0u, 2u, Channel::metallic},
+                                              {gpu::SLOT_normal, 0u, 1u, Channel::normals},
+                                              {gpu::SLOT_occlusion, 0u, 1u, Channel::occlusion},
+                                              {gpu::SLOT_occlusion, 0u, 3u, Channel::occlusion},
+                                              {gpu::SLOT_emissive, 1u, 2u, Channel::emission},
+                                              {gpu::SLOT_specular, 0u, 3u, Channel::dielectric_f90},
+                                              {gpu::SLOT_specular_color, 0u, 1u, Channel::specular},
+                                              {gpu::SLOT_specular_color, 0u, 3u, Channel::roughness},
+                                              {gpu::SLOT_lightmap, 0u, 1u, Channel::lightmap}})
         faults.push_back(
             {"slot " + std::to_string(slot) + ": another component", channel,
              [slot = slot, a = a, b = b](Scene& s) { swapComponents(imageOfSlot(s, slot), a, b); }});
 }
 
 void addMaterialFaults(std::vector<MaterialFault>& faults) {
-    const auto add = [&](const char* what, gpu::uint channel, void (*change)(Material&)) {
+    const auto add = [&](const char* what, Channel channel, void (*change)(Material&)) {
         faults.push_back({what, channel, [change](Scene& s) {
                               for (Material& m : s.materials) change(m);
                           }});
     };
     // Ignored where there is a texture.
-    const auto addFactor = [&](const char* what, std::size_t slot, gpu::uint channel,
+    const auto addFactor = [&](const char* what, std::size_t slot, Channel channel,
                                void (*change)(Material&)) {
         faults.push_back({what, channel, [slot, change](Scene& s) {
                               for (Material& m : s.materials)
                                   if ((m.*materialSlots[slot].texture).texture >= 0) change(m);
                           }});
     };
-    addFactor("base colour factor ignored", gpu::SLOT_base_color, gpu::DEBUG_albedo,
+    addFactor("base colour factor ignored", gpu::SLOT_base_color, Channel::albedo,
               [](Material& m) { m.base_color = glm::vec4(1, 1, 1, m.base_color.a); });
-    addFactor("alpha factor ignored", gpu::SLOT_base_color, gpu::DEBUG_material_id,
+    addFactor("alpha factor ignored", gpu::SLOT_base_color, Channel::material_id,
               [](Material& m) { m.base_color.a = 1; });
-    addFactor("metallic factor ignored", gpu::SLOT_metallic_roughness, gpu::DEBUG_metallic,
+    addFactor("metallic factor ignored", gpu::SLOT_metallic_roughness, Channel::metallic,
               [](Material& m) { m.metallic = 1; });
-    addFactor("roughness factor ignored", gpu::SLOT_metallic_roughness, gpu::DEBUG_roughness,
+    addFactor("roughness factor ignored", gpu::SLOT_metallic_roughness, Channel::roughness,
               [](Material& m) { m.roughness = 1; });
-    addFactor("normal scale ignored", gpu::SLOT_normal, gpu::DEBUG_normals,
+    addFactor("normal scale ignored", gpu::SLOT_normal, Channel::normals,
               [](Material& m) { m.normal_scale = 1; });
-    addFactor("occlusion strength ignored", gpu::SLOT_occlusion, gpu::DEBUG_occlusion,
+    addFactor("occlusion strength ignored", gpu::SLOT_occlusion, Channel::occlusion,
               [](Material& m) { m.occlusion_strength = 1; });
-    addFactor("emissive factor ignored", gpu::SLOT_emissive, gpu::DEBUG_emission, [](Material& m) {
+    addFactor("emissive factor ignored", gpu::SLOT_emissive, Channel::emission, [](Material& m) {
         m.emissive = {1, 1, 1};
     });
-    add("emissive strength ignored", gpu::DEBUG_emission, [](Material& m) { m.emissive *= 1 / 2.5f; });
-    addFactor("specular factor ignored", gpu::SLOT_specular, gpu::DEBUG_dielectric_f90,
+    add("emissive strength ignored", Channel::emission, [](Material& m) { m.emissive *= 1 / 2.5f; });
+    addFactor("specular factor ignored", gpu::SLOT_specular, Channel::dielectric_f90,
               [](Material& m) { m.specular = 1; });
-    addFactor("specular colour ignored", gpu::SLOT_specular_color, gpu::DEBUG_specular, [](Material& m) {
+    addFactor("specular colour ignored", gpu::SLOT_specular_color, Channel::specular, [](Material& m) {
         m.specular_color = {1, 1, 1};
     });
-    addFactor("lightmap's intensity ignored", gpu::SLOT_lightmap, gpu::DEBUG_lightmap,
+    addFactor("lightmap's intensity ignored", gpu::SLOT_lightmap, Channel::lightmap,
               [](Material& m) { m.lightmap_intensity = 1; });
-    add("index of refraction ignored", gpu::DEBUG_specular, [](Material& m) { m.ior = 1.5f; });
-    add("unlit ignored", gpu::DEBUG_albedo, [](Material& m) { m.unlit = false; });
-    add("specular-glossiness ignored", gpu::DEBUG_albedo, [](Material& m) { m.specular_glossiness = false; });
-    add("all are specular-glossiness", gpu::DEBUG_albedo, [](Material& m) { m.specular_glossiness = true; });
-    add("sides ignored", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = false; });
-    add("all are double-sided", gpu::DEBUG_material_id, [](Material& m) { m.double_sided = true; });
-    add("mask ignored", gpu::DEBUG_material_id, [](Material& m) { m.alpha_mode = AlphaMode::opaque; });
+    add("index of refraction ignored", Channel::specular, [](Material& m) { m.ior = 1.5f; });
+    add("unlit ignored", Channel::albedo, [](Material& m) { m.unlit = false; });
+    add("specular-glossiness ignored", Channel::albedo, [](Material& m) { m.specular_glossiness = false; });
+    add("all are specular-glossiness", Channel::albedo, [](Material& m) { m.specular_glossiness = true; });
+    add("sides ignored", Channel::material_id, [](Material& m) { m.double_sided = false; });
+    add("all are double-sided", Channel::material_id, [](Material& m) { m.double_sided = true; });
+    add("mask ignored", Channel::material_id, [](Material& m) { m.alpha_mode = AlphaMode::opaque; });
     // As <= instead of < would.
-    add("the cutoff itself is cut out", gpu::DEBUG_material_id,
+    add("the cutoff itself is cut out", Channel::material_id,
         [](Material& m) { m.alpha_cutoff = std::nextafter(m.alpha_cutoff, 2.0f); });
 }
 
 void addGeometryFaults(std::vector<MaterialFault>& faults) {
-    const auto add = [&](const char* what, gpu::uint channel, void (*change)(Primitive&)) {
+    const auto add = [&](const char* what, Channel channel, void (*change)(Primitive&)) {
         faults.push_back({what, channel, [change](Scene& s) {
                               for (Mesh& mesh : s.meshes)
                                   for (Primitive& p : mesh.primitives) change(p);
                           }});
     };
-    add("vertex colours ignored", gpu::DEBUG_albedo, [](Primitive& p) { p.colors.clear(); });
-    add("vertex colours decoded from sRGB", gpu::DEBUG_albedo, [](Primitive& p) {
+    add("vertex colours ignored", Channel::albedo, [](Primitive& p) { p.colors.clear(); });
+    add("vertex colours decoded from sRGB", Channel::albedo, [](Primitive& p) {
         for (glm::vec4& c : p.colors)
             for (int i = 0; i < 3; ++i)
                 c[i] = static_cast<float>(exactSrgb(static_cast<std::size_t>(std::lround(255 * c[i]))));
     });
-    add("vertex alpha ignored", gpu::DEBUG_material_id, [](Primitive& p) {
+    add("vertex alpha ignored", Channel::material_id, [](Primitive& p) {
         for (glm::vec4& c : p.colors) c.a = 1;
     });
-    add("the bitangent's sign ignored", gpu::DEBUG_normals, [](Primitive& p) {
+    add("the bitangent's sign ignored", Channel::normals, [](Primitive& p) {
         for (glm::vec4& t : p.tangents) t.w = 1;
     });
-    add("a bitangent of the other side", gpu::DEBUG_normals, [](Primitive& p) {
+    add("a bitangent of the other side", Channel::normals, [](Primitive& p) {
         for (glm::vec4& t : p.tangents) t.w *= -1;
     });
-    add("tangents ignored", gpu::DEBUG_normals, [](Primitive& p) {
+    add("tangents ignored", Channel::normals, [](Primitive& p) {
         for (glm::vec4& t : p.tangents) t = {1, 0, 0, t.w};
     });
     const auto mirrored = [&](const char* what, bool (*which)(const glm::dmat4&),
                               void (*change)(Primitive&)) {
-        faults.push_back({what, gpu::DEBUG_normals, [which, change](Scene& s) {
+        faults.push_back({what, Channel::normals, [which, change](Scene& s) {
                               for (const Node& node : s.nodes)
                                   if (node.mesh >= 0 && which(node.parent_from_node))
                                       for (Primitive& p :
@@ -298,14 +298,13 @@ void addGeometryFaults(std::vector<MaterialFault>& faults) {
     mirrored("normals seen from behind are not turned", isBehind, [](Primitive& p) {
         for (glm::vec3& n : p.normals) n = -n;
     });
-    const auto camera = [&](const char* what, gpu::uint channel, void (*change)(Camera&)) {
+    const auto camera = [&](const char* what, Channel channel, void (*change)(Camera&)) {
         faults.push_back({what, channel, [change](Scene& s) {
                               for (Camera& c : s.cameras) change(c);
                           }});
     };
-    camera("height in place of width", gpu::DEBUG_material_id, [](Camera& c) { c.ymag *= 1.5; });
-    camera("perspective in place of parallels", gpu::DEBUG_position,
-           [](Camera& c) { c.orthographic = false; });
+    camera("height in place of width", Channel::material_id, [](Camera& c) { c.ymag *= 1.5; });
+    camera("perspective in place of parallels", Channel::position, [](Camera& c) { c.orthographic = false; });
 }
 
 // The same checks detect each fault in its channel, in a scene that differs from the file only by the
@@ -328,11 +327,10 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
         Scene scene = sceneOf(camera);
         fault.plant(scene);
         // Without lightmaps: a lit environment takes longest, and other channels show the same materials.
-        if (fault.channel != gpu::DEBUG_lightmap)
+        if (fault.channel != Channel::lightmap)
             for (Material& m : scene.materials) m.lightmap_texture.texture = -1;
         const ChannelChecks judgement = judged(scene);
-        EXPECT_GT(judgement.at(static_cast<int>(fault.channel)).wrong, 3u) << fault.name << "\n"
-                                                                           << describe(judgement);
+        EXPECT_GT(judgement.at(fault.channel).wrong, 3u) << fault.name << "\n" << describe(judgement);
     }
 }
 

@@ -140,8 +140,8 @@ glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at) {
     return glm::min(glm::ivec2(texel), glm::ivec2(3));
 }
 
-std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
-                                                             const CellDecode& decode) {
+std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
+                                                                 const CellDecode& decode) {
     const auto texel = [&](std::size_t slot, bool srgb) {
         const int picture = cell.textures[slot].picture;
         glm::dvec4 value(1);
@@ -191,29 +191,29 @@ std::optional<std::map<int, std::vector<double>>> cellValues(const Cell& cell, c
         s.f0 = glm::mix(s.layer_f0, s.albedo, s.metallic);
     }
     const glm::dvec2 texcoord = firstTexcoord(cell, place.at);
-    const std::pair<gpu::uint, std::vector<double>> values[] = {
-        {gpu::DEBUG_albedo, components(s.albedo)},
-        {gpu::DEBUG_normals, components(s.normal)},
-        {gpu::DEBUG_metallic, {s.metallic}},
-        {gpu::DEBUG_roughness, {s.roughness}},
-        {gpu::DEBUG_emission, components(s.emission)},
-        {gpu::DEBUG_occlusion, {s.occlusion}},
-        {gpu::DEBUG_specular, components(s.f0)},
-        {gpu::DEBUG_material_id, {static_cast<double>(place.cell)}},
-        {gpu::DEBUG_texcoords, {texcoord.x, texcoord.y}},
-        {gpu::DEBUG_depth, {place.depth}},
-        {gpu::DEBUG_position, components(place.position)},
-        {gpu::DEBUG_geometric_normal, {0, 0, 1}},
-        {gpu::DEBUG_dielectric_f90, {s.f90}},
-        {gpu::DEBUG_lightmap, components(s.lightmap)},
-        {gpu::DEBUG_tangent, components(s.tangent)},
-        {gpu::DEBUG_handedness, {s.handedness}},
-        {gpu::DEBUG_tangent_normal, components(s.tangent_normal)},
-        {gpu::DEBUG_dielectric_f0, components(s.layer_f0)},
-        {gpu::DEBUG_lightmapped, {s.lightmapped ? 1.0 : 0.0}},
+    const std::pair<Channel, std::vector<double>> values[] = {
+        {Channel::albedo, components(s.albedo)},
+        {Channel::normals, components(s.normal)},
+        {Channel::metallic, {s.metallic}},
+        {Channel::roughness, {s.roughness}},
+        {Channel::emission, components(s.emission)},
+        {Channel::occlusion, {s.occlusion}},
+        {Channel::specular, components(s.f0)},
+        {Channel::material_id, {static_cast<double>(place.cell)}},
+        {Channel::texcoords, {texcoord.x, texcoord.y}},
+        {Channel::depth, {place.depth}},
+        {Channel::position, components(place.position)},
+        {Channel::geometric_normal, {0, 0, 1}},
+        {Channel::dielectric_f90, {s.f90}},
+        {Channel::lightmap, components(s.lightmap)},
+        {Channel::tangent, components(s.tangent)},
+        {Channel::handedness, {s.handedness}},
+        {Channel::tangent_normal, components(s.tangent_normal)},
+        {Channel::dielectric_f0, components(s.layer_f0)},
+        {Channel::lightmapped, {s.lightmapped ? 1.0 : 0.0}},
     };
-    std::map<int, std::vector<double>> byChannel;
-    for (const auto& [mode, value] : values) byChannel[static_cast<int>(mode)] = value;
+    std::map<Channel, std::vector<double>> byChannel;
+    for (const auto& [mode, value] : values) byChannel[mode] = value;
     return byChannel;
 }
 

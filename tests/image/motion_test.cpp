@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Animated scenes: both paths render the current pose. Bits are equal wherever it is computed and whatever
 // was rendered before, with every light assignment, shadows and haze. Positions match the reference's.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/motion/animation.h"
 #include "tests/image/scenes.h"
@@ -13,9 +13,6 @@
 
 namespace diptych::tests {
 namespace {
-
-constexpr int materialId = static_cast<int>(gpu::DEBUG_material_id),
-              depthMode = static_cast<int>(gpu::DEBUG_depth);
 
 // Everything that motion may affect: light lists, a shadowed sun, haze.
 Settings movingPicture(double time, const std::string& animation = {}) {
@@ -32,7 +29,7 @@ Settings movingPicture(double time, const std::string& animation = {}) {
     return settings;
 }
 
-Frame drawnOnce(Renderer& renderer, Settings settings, Path path, const std::vector<int>& channels) {
+Frame drawnOnce(Renderer& renderer, Settings settings, Path path, const std::vector<Channel>& channels) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -75,8 +72,8 @@ TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
     UploadedScene* const moving = scene();
     if (moving == nullptr)
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
-    const std::vector<int> channels{lit, materialId, depthMode,
-                                    static_cast<int>(gpu::DEBUG_shadow_visibility)};
+    const std::vector<Channel> channels{Channel::lit, Channel::material_id, Channel::depth,
+                                        Channel::shadow_visibility};
     std::size_t drawn = 0;
     for (std::size_t a = 0; a < moving->scene.animations.size(); ++a)
         for (const double part : {0.0, 0.5, 1.0}) {
@@ -115,22 +112,18 @@ TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
     Settings settings = movingPicture(0.7);
     // Each vertex attribute affects one of them.
-    const std::vector<int> channels{lit,
-                                    static_cast<int>(gpu::DEBUG_albedo),
-                                    static_cast<int>(gpu::DEBUG_normals),
-                                    materialId,
-                                    static_cast<int>(gpu::DEBUG_texcoords),
-                                    depthMode,
-                                    static_cast<int>(gpu::DEBUG_geometric_normal),
-                                    static_cast<int>(gpu::DEBUG_tangent),
-                                    static_cast<int>(gpu::DEBUG_handedness)};
+    const std::vector<Channel> channels{
+        Channel::lit,   Channel::albedo,           Channel::normals, Channel::material_id, Channel::texcoords,
+        Channel::depth, Channel::geometric_normal, Channel::tangent, Channel::handedness};
     const Frame forward = drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
-                deferred =
-                    drawnOnce(moving->renderer, settings, Path::deferred, {lit, materialId, depthMode});
+                deferred = drawnOnce(moving->renderer, settings, Path::deferred,
+                                     {Channel::lit, Channel::material_id, Channel::depth});
     expectSameChannels(deferred, forward, 3);
     settings.skinning = Skinning::vertex;
-    expectSameChannels(
-        deferred, drawnOnce(moving->renderer, settings, Path::deferred, {lit, materialId, depthMode}), 3);
+    expectSameChannels(deferred,
+                       drawnOnce(moving->renderer, settings, Path::deferred,
+                                 {Channel::lit, Channel::material_id, Channel::depth}),
+                       3);
     // A pre-pass computes the same depth as the shading draws.
     for (const Switch prepass : {Switch::on, Switch::off}) {
         settings.prepass = prepass;
@@ -165,14 +158,13 @@ TEST(Moving, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     Renderer renderer(device(), scene, pipelines());
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = {8, 8};
-    constexpr int normalsMode = static_cast<int>(gpu::DEBUG_normals);
     for (const auto& [normals, expected] :
          {std::pair{SkinNormals::joints, glm::vec3(1.5f, 0, 1)}, {SkinNormals::blended, glm::vec3(4, 0, 3)}})
         for (const Skinning skinning : {Skinning::compute, Skinning::vertex}) {
             settings.skin_normals = normals;
             settings.skinning = skinning;
-            for (const Frame& frame : bothPaths(renderer, settings, {normalsMode})) {
-                const float* const n = frame.channels.at(normalsMode).pixel(4 * 8 + 4);
+            for (const Frame& frame : bothPaths(renderer, settings, {Channel::normals})) {
+                const float* const n = frame.channels.at(Channel::normals).pixel(4 * 8 + 4);
                 EXPECT_LT(glm::distance(glm::vec3(n[0], n[1], n[2]), glm::normalize(expected)), 1e-6f)
                     << frame.name << ", " << nameOf(normals) << ", " << nameOf(skinning);
             }
@@ -197,7 +189,8 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
         std::vector<Image> alone;
         for (const Settings& settings : times) {
             Renderer renderer(device(), scene, pipelines());
-            alone.push_back(drawnOnce(renderer, settings, Path::forward_plus, {lit}).channels.at(lit));
+            alone.push_back(
+                drawnOnce(renderer, settings, Path::forward_plus, {Channel::lit}).channels.at(Channel::lit));
         }
         EXPECT_GT(differingPixels(alone[0], alone[1]), 100u);
         EXPECT_GT(differingPixels(alone[1], alone[2]), 100u);
@@ -216,17 +209,19 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
 // The clipmap caches pages between images, except those that a moving caster touches.
 TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
     const Scene scene = loadScene("builtin:motion");
-    const int seen = static_cast<int>(gpu::DEBUG_shadow_visibility);
     Settings before = movingPicture(0.2);
     before.shadows = Shadows::clipmap;
     before.clipmap_page_size = 32;
     Settings after = before;
     after.time = 0.9;
     Renderer kept(device(), scene, pipelines()), fresh(device(), scene, pipelines());
-    const Frame first = drawnOnce(kept, before, Path::deferred, {lit, seen}),
-                second = drawnOnce(kept, after, Path::deferred, {lit, seen});
-    expectSame(second, drawnOnce(fresh, after, Path::deferred, {lit, seen}), "pages that were kept");
-    EXPECT_GT(differingPixels(first.channels.at(seen), second.channels.at(seen)), 10u);
+    const Frame first = drawnOnce(kept, before, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
+                second = drawnOnce(kept, after, Path::deferred, {Channel::lit, Channel::shadow_visibility});
+    expectSame(second, drawnOnce(fresh, after, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
+               "pages that were kept");
+    EXPECT_GT(differingPixels(first.channels.at(Channel::shadow_visibility),
+                              second.channels.at(Channel::shadow_visibility)),
+              10u);
     EXPECT_LT(second.counters.shadow_pages.drawn, second.counters.shadow_pages.resident);
 }
 
@@ -272,7 +267,6 @@ Scene vanishingCasters() {
 
 TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
     const Scene scene = vanishingCasters();
-    const int seen = static_cast<int>(gpu::DEBUG_shadow_visibility);
     Settings before = movingPicture(0.5);
     before.haze = false;
     before.lights = "";
@@ -281,10 +275,13 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
     Settings after = before;
     after.time = 1.5;
     Renderer kept(device(), scene, pipelines()), fresh(device(), scene, pipelines());
-    const Frame first = drawnOnce(kept, before, Path::deferred, {lit, seen}),
-                second = drawnOnce(kept, after, Path::deferred, {lit, seen});
-    expectSame(second, drawnOnce(fresh, after, Path::deferred, {lit, seen}), "pages that were kept");
-    EXPECT_GT(differingPixels(first.channels.at(seen), second.channels.at(seen)), 100u);
+    const Frame first = drawnOnce(kept, before, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
+                second = drawnOnce(kept, after, Path::deferred, {Channel::lit, Channel::shadow_visibility});
+    expectSame(second, drawnOnce(fresh, after, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
+               "pages that were kept");
+    EXPECT_GT(differingPixels(first.channels.at(Channel::shadow_visibility),
+                              second.channels.at(Channel::shadow_visibility)),
+              100u);
 }
 
 // Another time of the same scene uploads only a pose and compiles nothing.
@@ -379,13 +376,13 @@ TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
     UploadedScene& moving = uploaded("builtin:motion");
     Settings settings = movingPicture(0.7);
     settings.transparency = Transparency::triangles;
-    const Frame triangles = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
+    const Frame triangles = drawnOnce(moving.renderer, settings, Path::forward_plus, {Channel::lit});
     settings.transparency = Transparency::list;
-    const Frame fragments = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
+    const Frame fragments = drawnOnce(moving.renderer, settings, Path::forward_plus, {Channel::lit});
     settings.transparency = Transparency::off;
-    const Frame without = drawnOnce(moving.renderer, settings, Path::forward_plus, {lit});
-    const Image &a = triangles.channels.at(lit), &b = fragments.channels.at(lit);
-    EXPECT_GT(differingPixels(a, without.channels.at(lit)), 50u);
+    const Frame without = drawnOnce(moving.renderer, settings, Path::forward_plus, {Channel::lit});
+    const Image &a = triangles.channels.at(Channel::lit), &b = fragments.channels.at(Channel::lit);
+    EXPECT_GT(differingPixels(a, without.channels.at(Channel::lit)), 50u);
     // Both blend float32 back to front; a list rounds each fragment's contribution once more.
     for (std::size_t i = 0; i < a.data.size(); ++i)
         ASSERT_NEAR(a.data[i], b.data[i], 1e-5f * std::max(1.0f, std::abs(b.data[i]))) << i;
@@ -403,23 +400,27 @@ TEST_P(MovingParity, SilhouettesAreTheReferences) {
         settings.haze = false;
         settings.lights = "";
         settings.shadow_lights = 0;
-        const Frame drawn =
-            drawnOnce(moving->renderer, settings, Path::forward_plus, {lit, materialId, depthMode});
+        const Frame drawn = drawnOnce(moving->renderer, settings, Path::forward_plus,
+                                      {Channel::lit, Channel::material_id, Channel::depth});
         Settings asked = settings;
         asked.reference_mode = ReferenceMode::scene;
-        const Frame truth = drawnOnce(moving->renderer, asked, Path::reference, {lit, materialId, depthMode});
-        EXPECT_LE(differingPixels(drawn.channels.at(materialId), truth.channels.at(materialId), true), 3u)
+        const Frame truth = drawnOnce(moving->renderer, asked, Path::reference,
+                                      {Channel::lit, Channel::material_id, Channel::depth});
+        EXPECT_LE(differingPixels(drawn.channels.at(Channel::material_id),
+                                  truth.channels.at(Channel::material_id), true),
+                  3u)
             << time;
         EXPECT_GT(coveredPixels(drawn), 100u);
-        const Image &a = drawn.channels.at(depthMode), &b = truth.channels.at(depthMode);
+        const Image &a = drawn.channels.at(Channel::depth), &b = truth.channels.at(Channel::depth);
         std::size_t apart = 0;
         for (std::size_t i = 0; i < a.data.size(); ++i)
             apart += std::abs(a.data[i] - b.data[i]) > 1e-4f * std::abs(b.data[i]);
         EXPECT_LE(apart, 3u) << time;
         // Control: a stale pose is far off.
         settings.time = 0;
-        const Frame stale = drawnOnce(moving->renderer, settings, Path::forward_plus, {lit});
-        EXPECT_GT(differingPixels(stale.channels.at(lit), drawn.channels.at(lit)), 20u) << time;
+        const Frame stale = drawnOnce(moving->renderer, settings, Path::forward_plus, {Channel::lit});
+        EXPECT_GT(differingPixels(stale.channels.at(Channel::lit), drawn.channels.at(Channel::lit)), 20u)
+            << time;
     }
 }
 

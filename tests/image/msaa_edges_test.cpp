@@ -14,8 +14,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int shaded = static_cast<int>(gpu::DEBUG_shaded_samples);
-
 Settings sampled(Size size, MsaaEdges edges) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.path = Path::deferred;
@@ -108,13 +106,16 @@ TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
     RecordProperty("similar_pairs", static_cast<int>(similar.pairs));
 
     const auto drawn = [&](MsaaEdges edges) {
-        return drawnBy(Path::deferred, renderer, sampled(size, edges), {lit, shaded});
+        return drawnBy(Path::deferred, renderer, sampled(size, edges),
+                       {Channel::lit, Channel::shaded_samples});
     };
     const Frame whole = drawn(MsaaEdges::exact);
-    const Image &lit_of_whole = whole.channels.at(lit), &shaded_of_whole = whole.channels.at(shaded);
+    const Image &lit_of_whole = whole.channels.at(Channel::lit),
+                &shaded_of_whole = whole.channels.at(Channel::shaded_samples);
     for (const MsaaEdges edges : {MsaaEdges::similar, MsaaEdges::coverage}) {
         const Frame frame = drawn(edges);
-        const Image &image = frame.channels.at(lit), &counts = frame.channels.at(shaded);
+        const Image &image = frame.channels.at(Channel::lit),
+                    &counts = frame.channels.at(Channel::shaded_samples);
         std::size_t elsewhere = 0, more = 0;
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             const bool fewer = counts.pixel(i)[0] < shaded_of_whole.pixel(i)[0];
@@ -146,9 +147,10 @@ TEST(MsaaEdges, SimilarSavesOnFineMeshes) {
     const Scene scene = fineMesh(96);
     Renderer renderer(device(), scene, pipelines());
     const auto surfaces = [&](MsaaEdges edges) {
-        const Frame frame = drawnBy(Path::deferred, renderer, sampled({64, 64}, edges), {lit, shaded});
+        const Frame frame = drawnBy(Path::deferred, renderer, sampled({64, 64}, edges),
+                                    {Channel::lit, Channel::shaded_samples});
         double sum = 0;
-        for (const float count : frame.channels.at(shaded).data) sum += double{count};
+        for (const float count : frame.channels.at(Channel::shaded_samples).data) sum += double{count};
         return sum / (64 * 64);
     };
     EXPECT_EQ(surfaces(MsaaEdges::all), 4);
@@ -164,8 +166,10 @@ TEST(MsaaEdges, TheChannelCountsSurfaces) {
     Renderer whole(device(), scene, pipelines());
     const auto countsOf = [](Renderer& renderer, MsaaEdges edges) {
         std::array<int, 5> pixels{};
-        const Frame frame = drawnBy(Path::deferred, renderer, sampled({8, 8}, edges), {shaded});
-        for (const float count : frame.channels.at(shaded).data) ++pixels.at(static_cast<std::size_t>(count));
+        const Frame frame =
+            drawnBy(Path::deferred, renderer, sampled({8, 8}, edges), {Channel::shaded_samples});
+        for (const float count : frame.channels.at(Channel::shaded_samples).data)
+            ++pixels.at(static_cast<std::size_t>(count));
         return pixels;
     };
     EXPECT_EQ(countsOf(whole, MsaaEdges::all), (std::array{0, 0, 0, 0, 64}));
@@ -201,10 +205,10 @@ TEST(MsaaEdges, TheChannelIsOfDeferredWithSeveralSamples) {
     const Scene scene = square();
     Renderer renderer(device(), scene, pipelines());
     Settings settings = sampled({4, 4}, MsaaEdges::exact);
-    EXPECT_TRUE(drawnBy(Path::deferred, renderer, settings).channels.contains(shaded));
-    EXPECT_FALSE(drawnBy(Path::forward_plus, renderer, settings).channels.contains(shaded));
+    EXPECT_TRUE(drawnBy(Path::deferred, renderer, settings).channels.contains(Channel::shaded_samples));
+    EXPECT_FALSE(drawnBy(Path::forward_plus, renderer, settings).channels.contains(Channel::shaded_samples));
     settings.msaa = 1;
-    EXPECT_FALSE(drawnBy(Path::deferred, renderer, settings).channels.contains(shaded));
+    EXPECT_FALSE(drawnBy(Path::deferred, renderer, settings).channels.contains(Channel::shaded_samples));
 }
 
 }  // namespace

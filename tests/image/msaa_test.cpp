@@ -29,7 +29,7 @@ Settings sampled(Size size, MsaaShading shading = MsaaShading::pixel) {
 }
 
 Frame litOf(Renderer& renderer, Settings settings, Path path) {
-    return drawnBy(path, renderer, std::move(settings), {lit});
+    return drawnBy(path, renderer, std::move(settings), {Channel::lit});
 }
 
 // Compares forward+ with deferred that shades every sample, and with deferred that shades each surface
@@ -41,7 +41,7 @@ void expectTheSame(Renderer& renderer, const Settings& settings, const std::stri
         Settings other = settings;
         other.msaa_edges = edges;
         const Frame deferred = litOf(renderer, other, Path::deferred);
-        EXPECT_EQ(differingPixels(forward.channels.at(lit), deferred.channels.at(lit)), 0u)
+        EXPECT_EQ(differingPixels(forward.channels.at(Channel::lit), deferred.channels.at(Channel::lit)), 0u)
             << what << " " << nameOf(edges);
         EXPECT_EQ(deferred.counters.unreproduced_pixels, 0u) << what << " " << nameOf(edges);
     }
@@ -170,7 +170,8 @@ TEST(Msaa, ListsHoldEveryLightOfAPixel) {
                 settings.assign = assign;
                 settings.prepass = Switch::on;
                 const Frame listed = litOf(renderer, settings, path);
-                EXPECT_EQ(differingPixels(every.channels.at(lit), listed.channels.at(lit)), 0u)
+                EXPECT_EQ(differingPixels(every.channels.at(Channel::lit), listed.channels.at(Channel::lit)),
+                          0u)
                     << nameOf(assign) << " " << nameOf(path) << " " << nameOf(shading);
             }
     }
@@ -179,17 +180,16 @@ TEST(Msaa, ListsHoldEveryLightOfAPixel) {
 // A square 1 m away covers all samples of every pixel. Channels show the first sample, which is shaded at the
 // mean location of its triangle's samples, or at its own.
 TEST(Msaa, SamplesAreShadedAtTheirMeanOrEach) {
-    constexpr auto position = static_cast<int>(gpu::DEBUG_position);
     const Scene scene = square();
     Renderer renderer(device(), scene, pipelines());
     for (const auto& [shading, place] :
          {std::pair{MsaaShading::pixel, glm::vec2(0.5f)}, {MsaaShading::sample, glm::vec2(0.375f, 0.125f)}})
-        for (const Frame& frame : bothPaths(renderer, sampled({4, 4}, shading), {position}))
+        for (const Frame& frame : bothPaths(renderer, sampled({4, 4}, shading), {Channel::position}))
             for (int y = 0; y < 4; ++y)
                 for (int x = 0; x < 4; ++x) {
                     if (x + y == 3) continue;  // both triangles cover it
                     const glm::vec2 at = (glm::vec2(x, y) + place) / 2.0f;
-                    expectColor(colorAt(frame, position, x, y), {at.x - 1, 1 - at.y, -1}, 1e-5f,
+                    expectColor(colorAt(frame, Channel::position, x, y), {at.x - 1, 1 - at.y, -1}, 1e-5f,
                                 fmt::format("{} {} {},{}", frame.name, nameOf(shading), x, y));
                 }
 }
@@ -227,8 +227,11 @@ TEST(Msaa, PackedDiffersByItsEncodingAlone) {
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
         Settings settings = sampled({96, 54});
         settings.gbuffer = encoding;
-        const std::vector<Frame> frames = bothPaths(uploaded("builtin:gallery").renderer, settings, {lit});
-        EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].through_gbuffer.at(lit)), 0u)
+        const std::vector<Frame> frames =
+            bothPaths(uploaded("builtin:gallery").renderer, settings, {Channel::lit});
+        EXPECT_EQ(
+            differingPixels(frames[0].channels.at(Channel::lit), frames[1].through_gbuffer.at(Channel::lit)),
+            0u)
             << nameOf(encoding);
     }
 }
@@ -250,7 +253,7 @@ TEST(Msaa, ResolvesAsItSays) {
         std::array<int, 5> seen{};
         for (const Path path : drawn_paths) {
             const Frame frame = litOf(renderer, settings, path);
-            const Image& image = frame.channels.at(lit);
+            const Image& image = frame.channels.at(Channel::lit);
             for (int y = 0; y < image.height; ++y)
                 for (int x = 0; x < image.width; ++x) {
                     bool known = false;
@@ -275,7 +278,7 @@ TEST(Msaa, CoverageMissesWhatInterpenetrates) {
     const Scene scene = crossingSquares();
     Renderer renderer(device(), scene, pipelines());
     const Frame forward = litOf(renderer, sampled({32, 32}), Path::forward_plus);
-    const Image& truth = forward.channels.at(lit);
+    const Image& truth = forward.channels.at(Channel::lit);
     const float most = *std::max_element(truth.data.begin(), truth.data.end());
     // By more than 1/255 of the maximum. The two triangles of a square are similar: shaded as one, they
     // differ by the distance of the two shading points.
@@ -283,7 +286,7 @@ TEST(Msaa, CoverageMissesWhatInterpenetrates) {
         Settings settings = sampled({32, 32});
         settings.msaa_edges = edges;
         const Frame frame = litOf(renderer, settings, Path::deferred);
-        const Image& image = frame.channels.at(lit);
+        const Image& image = frame.channels.at(Channel::lit);
         int count = 0;
         for (std::size_t i = 0; i < truth.data.size(); ++i)
             count += std::abs(image.data[i] - truth.data[i]) > most / 255;

@@ -16,7 +16,7 @@ Frame referenceLit(Renderer& renderer, Settings settings, int samples) {
     settings.reference_mode = ReferenceMode::scene;
     settings.spp = samples;
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
     return renderer.draw(settings, options);
 }
@@ -44,14 +44,14 @@ struct Flips {
 Flips flipsOf(const Scene& scene, const Settings& settings) {
     Renderer renderer(device(), scene, pipelines());
     const Frame truth = referenceLit(renderer, settings, 64);
-    const Image& radiance = truth.channels.at(lit);
+    const Image& radiance = truth.channels.at(Channel::lit);
     const Exposure exposure = exposureFor({}, &radiance, coverage(truth, truth));
     const Image seen = shown(radiance, exposure);
     const auto flip = [&](const Frame& frame) {
-        return ldrFlip(seen, shown(frame.channels.at(lit), exposure)).mean;
+        return ldrFlip(seen, shown(frame.channels.at(Channel::lit), exposure)).mean;
     };
-    return {{flip(drawnBy(Path::deferred, renderer, settings, {lit})),
-             flip(drawnBy(Path::forward_plus, renderer, settings, {lit}))},
+    return {{flip(drawnBy(Path::deferred, renderer, settings, {Channel::lit})),
+             flip(drawnBy(Path::forward_plus, renderer, settings, {Channel::lit}))},
             flip(referenceLit(renderer, settings, 4))};
 }
 
@@ -104,10 +104,11 @@ TEST(MsaaTruthNegativeControl, ResolvesDiffer) {
     const Scene scene = loadScene("builtin:gallery");
     Renderer renderer(device(), scene, pipelines());
     const Frame truth = referenceLit(renderer, fourSamples(Resolve::linear), 16);
-    const Image& radiance = truth.channels.at(lit);
+    const Image& radiance = truth.channels.at(Channel::lit);
     const Exposure exposure = exposureFor({}, &radiance, coverage(truth, truth));
     const Frame other = referenceLit(renderer, fourSamples(Resolve::tonemapped), 16);
-    EXPECT_GT(ldrFlip(shown(radiance, exposure), shown(other.channels.at(lit), exposure)).mean, 0.02);
+    EXPECT_GT(ldrFlip(shown(radiance, exposure), shown(other.channels.at(Channel::lit), exposure)).mean,
+              0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Msaa, MsaaTruth, testing::Values(Resolve::linear, Resolve::tonemapped),

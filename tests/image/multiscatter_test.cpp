@@ -8,11 +8,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int AMBIENT = static_cast<int>(gpu::DEBUG_lit_ambient),
-              METALLIC = static_cast<int>(gpu::DEBUG_metallic),
-              SURFACES = static_cast<int>(gpu::DEBUG_material_id),
-              SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
-              DIFFUSE = static_cast<int>(gpu::DEBUG_lit_diffuse);
 constexpr std::array compensations{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez};
 
 Settings inFurnace(Multiscatter multiscatter) {
@@ -28,14 +23,17 @@ Settings inFurnace(Multiscatter multiscatter) {
 TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
     UploadedScene& scene = uploaded("builtin:furnace");
     for (const Multiscatter each : compensations)
-        for (const Frame& frame : bothPaths(scene.renderer, inFurnace(each), {AMBIENT, METALLIC, SURFACES})) {
+        for (const Frame& frame :
+             bothPaths(scene.renderer, inFurnace(each),
+                       {Channel::lit_ambient, Channel::metallic, Channel::material_id})) {
             const std::string name = frame.name + " " + std::string(nameOf(each));
             float least = 2, most = 0, dielectric = 0;
-            const Image &radiance = frame.channels.at(AMBIENT), &id = frame.channels.at(SURFACES);
+            const Image &radiance = frame.channels.at(Channel::lit_ambient),
+                        &id = frame.channels.at(Channel::material_id);
             for (std::size_t i = 0; i < id.data.size(); ++i) {
                 if (id.data[i] < 0) continue;
                 const float value = radiance.data[3 * i];
-                if (frame.channels.at(METALLIC).data[i] == 0) {
+                if (frame.channels.at(Channel::metallic).data[i] == 0) {
                     dielectric = std::max(dielectric, value);
                     if (each != Multiscatter::off) {
                         EXPECT_NEAR(value, 1, 2e-3) << name << " " << i;
@@ -62,15 +60,17 @@ TEST(MultiscatterDirect, NeedsNoAmbientLight) {
         Settings settings = smallPicture(GBufferEncoding::full);
         settings.multiscatter = multiscatter;
         settings.ambient = {radiance, radiance, radiance};
-        return bothPaths(scene.renderer, settings, {SPECULAR});
+        return bothPaths(scene.renderer, settings, {Channel::lit_specular});
     };
     const std::vector<Frame> off = drawn(Multiscatter::off, 0);
     for (const Multiscatter each : {Multiscatter::energy, Multiscatter::fdez}) {
         const std::vector<Frame> without = drawn(each, 0), with = drawn(each, 0.5f);
         for (std::size_t path = 0; path < without.size(); ++path) {
-            const Image& direct = without[path].channels.at(SPECULAR);
-            EXPECT_EQ(differingPixels(direct, with[path].channels.at(SPECULAR)), 0u) << nameOf(each);
-            EXPECT_GT(differingPixels(direct, off[path].channels.at(SPECULAR)), 100u) << nameOf(each);
+            const Image& direct = without[path].channels.at(Channel::lit_specular);
+            EXPECT_EQ(differingPixels(direct, with[path].channels.at(Channel::lit_specular)), 0u)
+                << nameOf(each);
+            EXPECT_GT(differingPixels(direct, off[path].channels.at(Channel::lit_specular)), 100u)
+                << nameOf(each);
         }
     }
 }
@@ -92,16 +92,17 @@ TEST_P(MultiscatterReference, BothPathsAreTheReference) {
     Settings asked = settings;
     asked.path = Path::reference;
     RenderOptions options;
-    options.channels = {AMBIENT, SPECULAR, DIFFUSE, SURFACES};
+    options.channels = {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse,
+                        Channel::material_id};
     options.runs = 0;
     const Frame reference = scene.renderer.draw(asked, options);
     for (const Frame& path : bothPaths(scene.renderer, settings, options.channels)) {
         const Coverage covered = coverage(reference, path);
-        for (const int channel : {AMBIENT, SPECULAR, DIFFUSE}) {
+        for (const Channel channel : {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse}) {
             const DebugMode& mode = debugMode(channel);
             const ChannelStats stats = channelStats(mode.metric, mode.kind, reference.channels.at(channel),
                                                     path.channels.at(channel), covered);
-            EXPECT_LE(stats.p99, channel == AMBIENT || gallery ? 1e-4 : 1.2e-3)
+            EXPECT_LE(stats.p99, channel == Channel::lit_ambient || gallery ? 1e-4 : 1.2e-3)
                 << path.name << " " << mode.name << ", max " << stats.max;
         }
     }

@@ -11,8 +11,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int throughPane = static_cast<int>(gpu::DEBUG_lit_transmission);
-
 // A pane before a wall that emits (1, 2, 3), without other light towards the camera.
 Scene paneOf(const glm::vec3& color, float transmission, float metallic = 0) {
     Builder b;
@@ -154,23 +152,25 @@ TEST(Panes, LeavesAreInvisibleInAWhiteFurnace) {
     }
     Settings settings = blendedPicture();
     settings.ambient = {1, 1, 1};
-    for (const Frame& frame : bothPaths(scene, settings, {lit, 8, throughPane})) {
+    for (const Frame& frame :
+         bothPaths(scene, settings, {Channel::lit, Channel::material_id, Channel::lit_transmission})) {
         std::size_t shown = 0;
-        for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
-            const float id = frame.channels.at(8).data[i];
+        for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
+            const float id = frame.channels.at(Channel::material_id).data[i];
             if (id < 0) continue;
             ++shown;
-            EXPECT_NEAR(frame.channels.at(lit).pixel(i)[1], 1, 1e-5) << frame.name;
-            EXPECT_NEAR(frame.channels.at(throughPane).pixel(i)[1], 0.25f * id, 1e-5) << frame.name;
+            EXPECT_NEAR(frame.channels.at(Channel::lit).pixel(i)[1], 1, 1e-5) << frame.name;
+            EXPECT_NEAR(frame.channels.at(Channel::lit_transmission).pixel(i)[1], 0.25f * id, 1e-5)
+                << frame.name;
         }
         EXPECT_GT(shown, 500u);
     }
     for (Material& m : scene.materials) m.specular = 1;
     settings.multiscatter = Multiscatter::energy;
-    for (const Frame& frame : bothPaths(scene, settings, {lit, 8}))
-        for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i)
-            if (frame.channels.at(8).data[i] >= 0) {
-                EXPECT_NEAR(frame.channels.at(lit).pixel(i)[1], 1, 1e-3) << frame.name << ", glossy";
+    for (const Frame& frame : bothPaths(scene, settings, {Channel::lit, Channel::material_id}))
+        for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i)
+            if (frame.channels.at(Channel::material_id).data[i] >= 0) {
+                EXPECT_NEAR(frame.channels.at(Channel::lit).pixel(i)[1], 1, 1e-3) << frame.name << ", glossy";
             }
 }
 
@@ -201,14 +201,13 @@ TEST(Panes, EveryCombinationKeepsAWhiteFurnace) {
     Settings settings = blendedPicture();
     settings.ambient = {1, 1, 1};
     settings.multiscatter = Multiscatter::energy;
-    constexpr int transmission = static_cast<int>(gpu::DEBUG_transmission);
     for (const Layers way : {Layers::gbuffer, Layers::forward}) {
         settings.layers = way;
-        for (const Frame& frame : bothPaths(b.scene, settings, {lit, transmission})) {
+        for (const Frame& frame : bothPaths(b.scene, settings, {Channel::lit, Channel::transmission})) {
             std::size_t glass = 0;
-            for (std::size_t i = 0; i < frame.channels.at(lit).pixels(); ++i) {
-                EXPECT_NEAR(frame.channels.at(lit).pixel(i)[1], 1, 0.05) << frame.name << i;
-                glass += frame.channels.at(transmission).data[i] > 0;
+            for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
+                EXPECT_NEAR(frame.channels.at(Channel::lit).pixel(i)[1], 1, 0.05) << frame.name << i;
+                glass += frame.channels.at(Channel::transmission).data[i] > 0;
             }
             EXPECT_GT(glass, 400u) << frame.name;
         }
@@ -225,12 +224,14 @@ TEST(Panes, BothPathsAreEqualBitForBit) {
         settings.transparency = transparency;
         settings.shadows = Shadows::pcf;
         settings.haze = true;
-        const std::vector<Frame> frames = bothPaths(renderer, settings, {lit, throughPane});
+        const std::vector<Frame> frames =
+            bothPaths(renderer, settings, {Channel::lit, Channel::lit_transmission});
         expectSameChannels(frames[0], frames[1], 2);
         if (transparency == Transparency::off) continue;
         settings.transparency = Transparency::sorted;
-        EXPECT_EQ(differingPixels(frames[0].channels.at(lit),
-                                  drawnBy(Path::deferred, renderer, settings, {lit}).channels.at(lit)),
+        EXPECT_EQ(differingPixels(
+                      frames[0].channels.at(Channel::lit),
+                      drawnBy(Path::deferred, renderer, settings, {Channel::lit}).channels.at(Channel::lit)),
                   0u)
             << name << ": nothing is blended";
     }
@@ -244,10 +245,11 @@ TEST(Panes, AreOffWithWhatIsBlended) {
     settings.transparency = Transparency::off;
     for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), bare(device(), wall, pipelines());
-        const Frame off = drawnBy(path, renderer, settings, {lit, static_cast<int>(gpu::DEBUG_transmission)});
-        EXPECT_EQ(
-            differingPixels(off.channels.at(lit), drawnBy(path, bare, settings, {lit}).channels.at(lit)), 0u);
-        for (const float v : off.channels.at(static_cast<int>(gpu::DEBUG_transmission)).data) EXPECT_EQ(v, 0);
+        const Frame off = drawnBy(path, renderer, settings, {Channel::lit, Channel::transmission});
+        EXPECT_EQ(differingPixels(off.channels.at(Channel::lit),
+                                  drawnBy(path, bare, settings, {Channel::lit}).channels.at(Channel::lit)),
+                  0u);
+        for (const float v : off.channels.at(Channel::transmission).data) EXPECT_EQ(v, 0);
     }
 }
 
@@ -272,13 +274,15 @@ TEST(Panes, AWeightOfZeroIsTheBaseToTheBit) {
     EXPECT_EQ(m.transmission, 0);
     Settings settings = blendedPicture();
     settings.ambient = {0.1f, 0.2f, 0.3f};
-    const std::vector<int> light{lit, throughPane, static_cast<int>(gpu::DEBUG_attenuation_color)};
-    const std::vector<Frame> base = bothPaths(plain, settings, {lit});
+    const std::vector<Channel> light{Channel::lit, Channel::lit_transmission, Channel::attenuation_color};
+    const std::vector<Frame> base = bothPaths(plain, settings, {Channel::lit});
     for (const Scene* scene : {&through, &leafy})
         for (std::size_t path = 0; path < 2; ++path) {
             const Frame frame = bothPaths(*scene, settings, light)[path];
-            EXPECT_EQ(differingPixels(frame.channels.at(lit), base[path].channels.at(lit)), 0u) << frame.name;
-            for (const int mode : {throughPane, static_cast<int>(gpu::DEBUG_attenuation_color)}) {
+            EXPECT_EQ(differingPixels(frame.channels.at(Channel::lit), base[path].channels.at(Channel::lit)),
+                      0u)
+                << frame.name;
+            for (const Channel mode : {Channel::lit_transmission, Channel::attenuation_color}) {
                 if (!frame.channels.contains(mode)) continue;
                 for (const float v : frame.channels.at(mode).data) EXPECT_EQ(v, 0) << frame.name;
             }
@@ -307,8 +311,9 @@ TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     Settings settings = blendedPicture();
     settings.msaa = 4;
     settings.msaa_edges = MsaaEdges::similar;
-    const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-    const Image &deferred = frames[0].channels.at(lit), &forward = frames[1].channels.at(lit);
+    const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+    const Image &deferred = frames[0].channels.at(Channel::lit),
+                &forward = frames[1].channels.at(Channel::lit);
     const float most = *std::ranges::max_element(forward.data);
     EXPECT_GT(most, 0.1f);
     std::size_t differing = 0, mixed = 0;
@@ -338,16 +343,16 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     settings.size = {24, 14};
     settings.assign = Assignment::every;
     settings.ambient = {0.1f, 0.2f, 0.3f};
-    constexpr int count = static_cast<int>(gpu::DEBUG_light_count);
-    std::vector<int> light{count};
-    for (const int mode : litModes)
-        if (mode != static_cast<int>(gpu::DEBUG_lit_environment)) light.push_back(mode);
+    std::vector<Channel> light{Channel::light_count};
+    for (const Channel mode : litModes)
+        if (mode != Channel::lit_environment) light.push_back(mode);
     const std::vector<Frame> whole = bothPaths(few, settings, light),
                              parts = bothPaths(many, settings, light);
     for (std::size_t path = 0; path < 2; ++path) {
-        EXPECT_GT(*std::ranges::max_element(parts[path].channels.at(count).data), static_cast<float>(most));
+        EXPECT_GT(*std::ranges::max_element(parts[path].channels.at(Channel::light_count).data),
+                  static_cast<float>(most));
         for (const auto& [mode, image] : whole[path].channels) {
-            if (mode == count) continue;
+            if (mode == Channel::light_count) continue;
             EXPECT_EQ(differingPixels(image, parts[path].channels.at(mode)), 0u)
                 << parts[path].name << " " << debugMode(mode).name;
         }

@@ -28,7 +28,7 @@ void expectBitEqual(const std::vector<Frame>& frames, std::size_t leastChannels 
 // Deferred must equal what forward+ computes from surfaces that were encoded and decoded: there is no other
 // difference.
 void expectExplainedLight(const std::vector<Frame>& frames) {
-    const auto made = [&](int mode) { return frames[0].channels.contains(mode); };
+    const auto made = [&](Channel mode) { return frames[0].channels.contains(mode); };
     ASSERT_EQ(static_cast<std::ptrdiff_t>(frames[1].through_gbuffer.size()),
               std::ranges::count_if(litModes, made));
     ASSERT_GE(frames[1].through_gbuffer.size(), 5u);
@@ -40,7 +40,7 @@ void expectExplainedLight(const std::vector<Frame>& frames) {
 // Channels of light that scenes without layers have.
 std::size_t litWithoutLayers() {
     return static_cast<std::size_t>(
-        std::ranges::count_if(litModes, [](int mode) { return layerOf(mode) == 0; }));
+        std::ranges::count_if(litModes, [](Channel mode) { return layerOf(mode) == 0; }));
 }
 
 void expectExplained(const std::vector<Frame>& frames) {
@@ -51,12 +51,12 @@ void expectExplained(const std::vector<Frame>& frames) {
                          gpu::LAYER_IRIDESCENCE | gpu::LAYER_DIFFUSE_TRANSMISSION;
     all.min_emission = all.max_emission = all.max_lightmap = 1;
     const Coverage covered = coverage(frames[0], frames[1]);
-    for (const int mode : lightingFields())
+    for (const Channel mode : lightingFields())
         if (const auto use = encodingUse(debugMode(mode), FramePair{frames[0], frames[1], all, covered})) {
             EXPECT_LE(use->used, 1) << debugMode(mode).name;
         }
     // ids, depth, position and whether there is a lightmap do not depend on the encoding.
-    for (const int mode : {8, 10, 11, 56})
+    for (const Channel mode : {Channel::material_id, Channel::depth, Channel::position, Channel::lightmapped})
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
             << debugMode(mode).name;
 }
@@ -141,17 +141,17 @@ INSTANTIATE_TEST_SUITE_P(Asset, LayeredParity, testing::ValuesIn(layeredScenes()
 });
 
 TEST(DrawnTwice, NothingOrLitOrEveryChannel) {
-    const int lit = static_cast<int>(gpu::DEBUG_lit), albedo = static_cast<int>(gpu::DEBUG_albedo),
-              depth = static_cast<int>(gpu::DEBUG_depth);
     Settings settings = smallPicture(GBufferEncoding::standard);
     RenderOptions options;
-    options.channels = {lit, albedo, depth};
+    options.channels = {Channel::lit, Channel::albedo, Channel::depth};
     options.runs = 0;
-    const std::pair<Twice, std::set<int>> cases[] = {
-        {Twice::none, {}}, {Twice::lit, {lit}}, {Twice::all, {lit, albedo, depth}}};
+    const std::pair<Twice, std::set<Channel>> cases[] = {
+        {Twice::none, {}},
+        {Twice::lit, {Channel::lit}},
+        {Twice::all, {Channel::lit, Channel::albedo, Channel::depth}}};
     for (const auto& [twice, channels] : cases) {
         options.twice = twice;
-        std::set<int> drawn;
+        std::set<Channel> drawn;
         const Frame frame = uploaded("builtin:gallery").renderer.draw(settings, options);
         EXPECT_EQ(frame.changed_buffers, std::vector<std::string>());
         for (const auto& [mode, noise] : frame.noise) {
@@ -167,14 +167,13 @@ TEST(DrawnTwice, LitAloneIsDrawnOnce) {
     const Scene scene = loadScene("builtin:spheres");
     Renderer renderer(device(), scene);
     Settings settings = smallPicture(GBufferEncoding::standard);
-    const int lit = static_cast<int>(gpu::DEBUG_lit);
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 0;
-    const Image alone = renderer.draw(settings, options).channels.at(lit);
+    const Image alone = renderer.draw(settings, options).channels.at(Channel::lit);
     const std::size_t pipelines = renderer.pipelines();
-    options.channels.push_back(static_cast<int>(gpu::DEBUG_albedo));
-    EXPECT_EQ(differingPixels(alone, renderer.draw(settings, options).channels.at(lit)), 0u);
+    options.channels.push_back(Channel::albedo);
+    EXPECT_EQ(differingPixels(alone, renderer.draw(settings, options).channels.at(Channel::lit)), 0u);
     EXPECT_GT(renderer.pipelines(), pipelines);
 }
 
@@ -233,7 +232,7 @@ protected:
         return scene.bothPaths(smallPicture(encoding));
     }
     // Pixels that differ between deferred on the original scene and forward+ on the changed one.
-    std::size_t changedPixels(int mode) {
+    std::size_t changedPixels(Channel mode) {
         Renderer renderer(device(), changed, pipelines());
         const Frame faulty = drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::full));
         return differingPixels(sound(GBufferEncoding::full)[0].channels.at(mode), faulty.channels.at(mode));
@@ -244,24 +243,25 @@ protected:
 
 TEST_F(ParityNegativeControl, OneLightInAThousandthIsSeen) {
     changed.lights.back().intensity *= 1.001f;
-    EXPECT_GT(changedPixels(0), 0u);
+    EXPECT_GT(changedPixels(Channel::lit), 0u);
 }
 
 TEST_F(ParityNegativeControl, OneUlpOfAlbedoIsSeen) {
     for (Material& m : changed.materials) m.base_color.r = std::nextafter(m.base_color.r, 0.0f);
-    EXPECT_GT(changedPixels(1), 0u);
+    EXPECT_GT(changedPixels(Channel::albedo), 0u);
 }
 
 TEST_F(ParityNegativeControl, OneUlpOfRoughnessIsSeen) {
     for (Material& m : changed.materials) m.roughness = std::nextafter(m.roughness, 0.0f);
-    EXPECT_GT(changedPixels(4), 0u);
-    EXPECT_GT(changedPixels(0), 0u) << "and in lit";
+    EXPECT_GT(changedPixels(Channel::roughness), 0u);
+    EXPECT_GT(changedPixels(Channel::lit), 0u) << "and in lit";
 }
 
 TEST_F(ParityNegativeControl, APackedGBufferIsSeenByTheFullGate) {
     const Frame& full = sound(GBufferEncoding::full)[1];
     const Frame& packed = sound(GBufferEncoding::standard)[0];
-    for (const int mode : {0, 1, 2, 4, 40, 41})
+    for (const Channel mode : {Channel::lit, Channel::albedo, Channel::normals, Channel::roughness,
+                               Channel::lit_diffuse, Channel::lit_specular})
         EXPECT_GT(differingPixels(full.channels.at(mode), packed.channels.at(mode)), 0u)
             << debugMode(mode).name;
 }
@@ -269,7 +269,8 @@ TEST_F(ParityNegativeControl, APackedGBufferIsSeenByTheFullGate) {
 TEST_F(ParityNegativeControl, AnotherEncodingIsNotTheExplanation) {
     const Frame& compact = sound(GBufferEncoding::compact)[0];
     const Frame& standard = sound(GBufferEncoding::standard)[1];
-    EXPECT_GT(differingPixels(compact.channels.at(0), standard.through_gbuffer.at(0)), 0u);
+    EXPECT_GT(differingPixels(compact.channels.at(Channel::lit), standard.through_gbuffer.at(Channel::lit)),
+              0u);
 }
 
 }  // namespace

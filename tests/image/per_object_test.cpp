@@ -28,8 +28,7 @@ Settings picture(Assignment assign, int pixels, Size size = {160, 90}) {
 
 std::vector<Frame> drawnAll(const Scene& scene, const std::vector<Settings>& settings) {
     RenderOptions options;
-    options.channels = {lit, static_cast<int>(gpu::DEBUG_light_count),
-                        static_cast<int>(gpu::DEBUG_material_id)};
+    options.channels = {Channel::lit, Channel::light_count, Channel::material_id};
     options.runs = 0;
     return drawAll(scene, settings, options);
 }
@@ -61,11 +60,11 @@ TEST(PerObject, FewerLightsPerPixelAreFurtherFromEvery) {
     for (const char* name :
          {"builtin:spheres?lights=64", "builtin:points", "builtin:spots", "builtin:suns"}) {
         const Scene scene = loadScene(name);
-        const Image every = drawn(scene, Assignment::every, 0).channels.at(lit);
+        const Image every = drawn(scene, Assignment::every, 0).channels.at(Channel::lit);
         double last = 0;
         for (const int pixels : {8, 4, 2, 0}) {
             const Frame frame = drawn(scene, Assignment::per_object, pixels);
-            const double error = meanError(frame.channels.at(lit), every);
+            const double error = meanError(frame.channels.at(Channel::lit), every);
             EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
             EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
             EXPECT_GE(error, last * 0.99) << name << " " << pixels;
@@ -78,7 +77,7 @@ TEST(PerObject, FewerLightsPerPixelAreFurtherFromEvery) {
 TEST(PerObject, AsManyLightsAsAskedForAreShadedPerPixel) {
     const Scene scene = loadScene("builtin:spheres?lights=256");
     for (const int pixels : {1, 4, 8}) {
-        const Image counts = drawn(scene, Assignment::per_object, pixels).channels.at(gpu::DEBUG_light_count);
+        const Image counts = drawn(scene, Assignment::per_object, pixels).channels.at(Channel::light_count);
         const float most = *std::ranges::max_element(counts.data);
         EXPECT_LE(most, static_cast<float>(pixels + 1)) << "the sun is the base";
         EXPECT_GE(most, static_cast<float>(pixels));
@@ -89,8 +88,8 @@ TEST(PerObject, AsManyLightsAsAskedForAreShadedPerPixel) {
 // local radiance. That is the largest component of `every` at the pixel, at least 1/100 of the image's
 // mean: surfaces facing away from all lamps get a little light from harmonics.
 double popOf(const Frame& every, const Frame& everyNext, const Frame& object, const Frame& objectNext) {
-    const Image &a = every.channels.at(lit), &b = everyNext.channels.at(lit), &c = object.channels.at(lit),
-                &d = objectNext.channels.at(lit);
+    const Image &a = every.channels.at(Channel::lit), &b = everyNext.channels.at(Channel::lit),
+                &c = object.channels.at(Channel::lit), &d = objectNext.channels.at(Channel::lit);
     double largest = 0, mean = 0;
     for (const float v : a.data) mean += double{v} / static_cast<double>(a.data.size());
     for (std::size_t i = 0; i < a.pixels(); ++i) {
@@ -169,7 +168,7 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
         objects.assign = Assignment::per_object;
         objects.pixel_lights = 0;
         RenderOptions options;
-        options.channels = {static_cast<int>(gpu::DEBUG_lit_diffuse)};
+        options.channels = {Channel::lit_diffuse};
         options.runs = 0;
         double sum = 0;
         const std::vector<Frame> frames = drawAll(s, {objects}, options);
@@ -251,7 +250,8 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
         // 1e-5: a dozen float32 roundings of sums that partly cancel.
         for (const glm::ivec2 p : {glm::ivec2(0, 0), {2, 1}, {3, 3}})
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(frame.channels.at(lit).at(p.x, p.y, c), expected[c], 1e-5 * (1 + expected[c]))
+                EXPECT_NEAR(frame.channels.at(Channel::lit).at(p.x, p.y, c), expected[c],
+                            1e-5 * (1 + expected[c]))
                     << turn;
         from_harmonics += harmonics.g;
         from_lists += listed.g;
@@ -270,9 +270,11 @@ TEST(PerObject, VertexLightsReachTheBackOfADoubleSidedMaterial) {
     lamp.position = {0, 0, 20};
     lamp.intensity = 400;
     scene.lights = {lamp};
-    const float front = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
+    const float front =
+        drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(Channel::lit).at(8, 8, 0);
     scene.nodes[0].parent_from_node[0].x = scene.nodes[0].parent_from_node[2].z = -1;  // by 180 degrees
-    const float back = drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(lit).at(8, 8, 0);
+    const float back =
+        drawn(scene, Assignment::per_object, 0, {16, 16}).channels.at(Channel::lit).at(8, 8, 0);
     EXPECT_GT(front, 0.05f);
     EXPECT_NEAR(back, front, 1e-5f * front);
 }

@@ -15,8 +15,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int depthChannel = static_cast<int>(gpu::DEBUG_depth);
-
 // A floor from the near plane to the far plane, 0.1 m to 1000 m, seen at a grazing angle from 1 m above.
 Scene longFloor() {
     Scene scene = square();
@@ -40,7 +38,7 @@ Settings precise() {
 // The largest relative error of view depth over the floor's pixels. The floor is 1 m below the eye: a
 // row's depth is exactly 1 / -y of its ray.
 double worstDepth(const Frame& frame) {
-    const Image& depths = frame.channels.at(depthChannel);
+    const Image& depths = frame.channels.at(Channel::depth);
     double worst = 0;
     for (int y = 0; y < depths.height; ++y) {
         const double down = 2 * (y + 0.5) / depths.height - 1;  // of the ray at depth 1; fov is 90 degrees
@@ -71,7 +69,7 @@ TEST(Precision, DepthIsAsExactAsItsFormat) {
         for (const Path path : drawn_paths) {
             Settings settings = precise();
             settings.depth_format = row.format;
-            const double worst = worstDepth(drawnBy(path, renderer, settings, {depthChannel}));
+            const double worst = worstDepth(drawnBy(path, renderer, settings, {Channel::depth}));
             const std::string what = fmt::format("{}, {}: {:.3g}", nameOf(row.format), nameOf(path), worst);
             const double rounded = amplified * (row.step + row.rasterised);
             // The floor's triangles are a thousand times wider than the eye's height, which alone gives
@@ -81,12 +79,12 @@ TEST(Precision, DepthIsAsExactAsItsFormat) {
             EXPECT_GT(worst, 0.3 * amplified * row.step) << what;
         }
     // Reversed float depth is as accurate as the rasteriser.
-    EXPECT_LT(worstDepth(drawnBy(Path::deferred, renderer, precise(), {depthChannel})), 2e-5);
+    EXPECT_LT(worstDepth(drawnBy(Path::deferred, renderer, precise(), {Channel::depth})), 2e-5);
 }
 
 // With every format both paths give the same bits.
 TEST(Precision, BothPathsAreEqualBitForBit) {
-    const std::vector<int> shown{lit, depthChannel, static_cast<int>(gpu::DEBUG_lit_specular)};
+    const std::vector<Channel> shown{Channel::lit, Channel::depth, Channel::lit_specular};
     for (const char* name : {"builtin:cutout", "builtin:glass"})
         for (const auto& [option, value] : {std::pair("depth-format", "d32f-standard"),
                                             {"depth-format", "d24"},
@@ -114,7 +112,7 @@ TEST(Precision, BothPathsAreEqualBitForBit) {
 TEST(Precision, NothingIsLostToTheBackground) {
     for (const DepthFormat format : {DepthFormat::d32f_standard, DepthFormat::d24, DepthFormat::d16}) {
         Settings settings = smallPicture(GBufferEncoding::full);
-        const std::vector<int> idOnly{static_cast<int>(gpu::DEBUG_material_id)};
+        const std::vector<Channel> idOnly{Channel::material_id};
         const Frame plain = drawnBy(Path::deferred, uploaded("builtin:deep").renderer, settings, idOnly);
         settings.depth_format = format;
         for (const Path path : drawn_paths) {
@@ -138,13 +136,14 @@ TEST(Precision, RadianceIsRoundedToItsFormat) {
          {std::pair(LitFormat::fp16, std::array{10, 10, 10}), {LitFormat::b10g11r11, std::array{6, 6, 5}}}) {
         Settings settings = smallPicture(GBufferEncoding::full);
         UploadedScene& scene = uploaded("builtin:points");
-        const Frame exact = drawnBy(Path::forward_plus, scene.renderer, settings, {lit});
+        const Frame exact = drawnBy(Path::forward_plus, scene.renderer, settings, {Channel::lit});
         settings.lit_format = format;
-        const Frame rounded = drawnBy(Path::forward_plus, scene.renderer, settings, {lit});
+        const Frame rounded = drawnBy(Path::forward_plus, scene.renderer, settings, {Channel::lit});
         std::array<double, 3> worst{};
-        for (std::size_t i = 0; i < exact.channels.at(lit).pixels(); ++i)
+        for (std::size_t i = 0; i < exact.channels.at(Channel::lit).pixels(); ++i)
             for (std::size_t c = 0; c < 3; ++c) {
-                const double a = exact.channels.at(lit).pixel(i)[c], b = rounded.channels.at(lit).pixel(i)[c];
+                const double a = exact.channels.at(Channel::lit).pixel(i)[c],
+                             b = rounded.channels.at(Channel::lit).pixel(i)[c];
                 if (a < 1e-4) continue;  // 2^-14 is the smallest normal number
                 worst[c] = std::max(worst[c], std::abs(a - b) / a);
             }
@@ -160,7 +159,7 @@ TEST(Precision, RadianceIsRoundedToItsFormat) {
 TEST(Precision, HalfShadingIsNearAndFinite) {
     Settings settings = smallPicture(GBufferEncoding::full);
     UploadedScene& scene = uploaded("builtin:spheres");
-    const std::vector<int> shown{lit, static_cast<int>(gpu::DEBUG_lit_diffuse)};
+    const std::vector<Channel> shown{Channel::lit, Channel::lit_diffuse};
     const Frame exact = drawnBy(Path::deferred, scene.renderer, settings, shown);
     settings.shading_precision = ShadingPrecision::fp16;
     const Frame half = drawnBy(Path::deferred, scene.renderer, settings, shown);

@@ -23,7 +23,7 @@ Frame reference(const Scene& scene, const Settings& settings, ReferenceMode mode
     return reference(renderer, settings, mode);
 }
 
-ChannelStats against(const Frame& referenceFrame, const Frame& frame, int mode, const Coverage& covered) {
+ChannelStats against(const Frame& referenceFrame, const Frame& frame, Channel mode, const Coverage& covered) {
     const DebugMode& m = debugMode(mode);
     return channelStats(m.metric, m.kind, referenceFrame.channels.at(mode), frame.channels.at(mode), covered);
 }
@@ -48,7 +48,7 @@ void expectAgreement(const Scene& scene, Settings settings) {
     for (const Frame& path : bothPaths(renderer, settings)) {
         const Coverage covered = coverage(referenceFrame, path);
         ASSERT_GT(covered.count, 1000u);
-        for (const int mode : {0, 40, 41}) {
+        for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular}) {
             const ChannelStats stats = against(referenceFrame, path, mode, covered);
             EXPECT_LE(stats.p999, 1e-4) << path.name << " " << debugMode(mode).name << ", max " << stats.max;
             EXPECT_EQ(stats.infinite, 0u);
@@ -77,8 +77,8 @@ TEST(Reference, BothPathsDrawSponza) {
 // Pixels where both modes show the same surface point. Either of two coplanar triangles may be visible.
 // The rasterizer's depth on triangles of 200 km is accurate only to 6e-4.
 Coverage samePlaces(const Frame& a, const Frame& b) {
-    const Image &depth = a.channels.at(10), &other = b.channels.at(10);
-    const Image &id = a.channels.at(8), &other_id = b.channels.at(8);
+    const Image &depth = a.channels.at(Channel::depth), &other = b.channels.at(Channel::depth);
+    const Image &id = a.channels.at(Channel::material_id), &other_id = b.channels.at(Channel::material_id);
     Coverage same{std::vector<std::uint8_t>(depth.pixels()), 0, true};
     for (std::size_t i = 0; i < depth.pixels(); ++i) {
         if (id.data[i] < 0 || id.data[i] != other_id.data[i]) continue;
@@ -91,7 +91,7 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
 
 // The rasterizer snaps vertices to 1/256 pixel, so a pixel may err by 1/128 of the difference to its
 // neighbours. 1e-4 relative is allowed beyond that.
-double shareBeyond(const Frame& traced, const Frame& surface, int mode, const Coverage& same) {
+double shareBeyond(const Frame& traced, const Frame& surface, Channel mode, const Coverage& same) {
     const Image &expected = traced.channels.at(mode), &image = surface.channels.at(mode);
     const PixelError error(Metric::relative, debugMode(mode).kind, expected, same);
     std::size_t beyond = 0;
@@ -125,10 +125,10 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
                 traced = reference(renderer, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
-            const bool there = isMadeByReference(mode) && mayShow(mode.number, layers);
-            ASSERT_EQ(frame->channels.contains(mode.number), there) << mode.name;
+            const bool there = isMadeByReference(mode) && mayShow(mode.channel, layers);
+            ASSERT_EQ(frame->channels.contains(mode.channel), there) << mode.name;
             if (!there) continue;
-            EXPECT_EQ(frame->channels.at(mode.number).components, mode.width) << mode.name;
+            EXPECT_EQ(frame->channels.at(mode.channel).components, mode.width) << mode.name;
         }
     EXPECT_EQ(nonfinite(surface), 0u);
     EXPECT_EQ(nonfinite(traced), 0u);
@@ -138,9 +138,11 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
     const Coverage same = samePlaces(traced, surface);
     const double least = GetParam() == "builtin:coplanar" ? 0.85 : 0.98;
     EXPECT_GE(static_cast<double>(same.count), least * static_cast<double>(shown));
-    for (const int mode : {1, 3, 4, 5, 6, 7, 50})  // channels of the material
+    for (const Channel mode :
+         {Channel::albedo, Channel::metallic, Channel::roughness, Channel::emission, Channel::occlusion,
+          Channel::specular, Channel::dielectric_f90})  // channels of the material
         EXPECT_LE(against(traced, surface, mode, same).max, 1e-6) << debugMode(mode).name;
-    for (const int mode : {0, 40, 41})
+    for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
         EXPECT_LE(shareBeyond(traced, surface, mode, same), 2e-3) << debugMode(mode).name;
 }
 
@@ -150,7 +152,7 @@ TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
     const Frame surface = reference(scene, settings);
     scene.lights.front().intensity *= 1.01f;
     const Frame traced = reference(scene, settings, ReferenceMode::scene);
-    EXPECT_GT(shareBeyond(traced, surface, 0, samePlaces(traced, surface)), 0.3);
+    EXPECT_GT(shareBeyond(traced, surface, Channel::lit, samePlaces(traced, surface)), 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()),
@@ -199,7 +201,7 @@ protected:
     }
     static bool litFails(const Report& report, std::size_t comparison) {
         for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)
-            if (channel.mode->number == 0) return channel.verdict == Verdict::fail;
+            if (channel.mode->channel == Channel::lit) return channel.verdict == Verdict::fail;
         return false;
     }
 };

@@ -29,8 +29,6 @@
 
 namespace diptych::tests {
 
-inline constexpr int lit = static_cast<int>(gpu::DEBUG_lit);
-
 // With the Khronos validation layers: everything a test renders is validated, and no pipeline is compiled
 // twice. validation_test.cpp fails a process that got a message. DIPTYCH_VALIDATE=0 disables the layers,
 // as ctest does for some suites (CMakeLists.txt).
@@ -131,9 +129,9 @@ inline std::string testName(const std::string& text) {
     return name;
 }
 
-inline std::vector<int> allChannels() {
-    std::vector<int> modes;
-    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+inline std::vector<Channel> allChannels() {
+    std::vector<Channel> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.channel);
     return modes;
 }
 
@@ -148,7 +146,7 @@ inline std::vector<Frame> drawAll(const Scene& scene, const std::vector<Settings
 
 // The Frame of one path, untimed. Fewer channels need fewer pipelines.
 inline Frame drawnBy(Path path, Renderer& renderer, Settings settings,
-                     const std::vector<int>& channels = allChannels()) {
+                     const std::vector<Channel>& channels = allChannels()) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -159,14 +157,14 @@ inline Frame drawnBy(Path path, Renderer& renderer, Settings settings,
 
 // The Frames of deferred and of forward+.
 inline std::vector<Frame> bothPaths(Renderer& renderer, const Settings& settings,
-                                    const std::vector<int>& channels = allChannels()) {
+                                    const std::vector<Channel>& channels = allChannels()) {
     std::vector<Frame> frames;
     for (const Path path : {Path::deferred, Path::forward_plus})
         frames.push_back(drawnBy(path, renderer, settings, channels));
     return frames;
 }
 inline std::vector<Frame> bothPaths(const Scene& scene, const Settings& settings,
-                                    const std::vector<int>& channels = allChannels()) {
+                                    const std::vector<Channel>& channels = allChannels()) {
     Renderer renderer(device(), scene, pipelines());
     return bothPaths(renderer, settings, channels);
 }
@@ -251,7 +249,7 @@ inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t least
 }
 
 inline std::size_t coveredPixels(const Frame& frame) {
-    const Image& ids = frame.channels.at(8);
+    const Image& ids = frame.channels.at(Channel::material_id);
     return static_cast<std::size_t>(
         std::count_if(ids.data.begin(), ids.data.end(), [](float id) { return id >= 0; }));
 }

@@ -10,9 +10,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int materialIndex = static_cast<int>(gpu::DEBUG_material_id),
-              diffuseThrough = static_cast<int>(gpu::DEBUG_diffuse_transmission);
-
 // All layers; with --gbuffer full five of ten attachments.
 void addEveryLayer(Material& m) {
     m.metallic = 0;
@@ -36,10 +33,12 @@ bool hasSecondPass(const Scene& scene, const Settings& settings) {
 
 // Draws both paths, which must have the same bits, and returns the deferred path's frame.
 Frame expectOneImage(Renderer& renderer, const Settings& settings) {
-    std::vector<int> channels{lit, materialIndex, albedo, normals, diffuseThrough};
+    std::vector<Channel> channels{Channel::lit, Channel::material_id, albedo, normals,
+                                  Channel::diffuse_transmission};
     for (const DebugMode& mode : debugModes())
-        if (layerOf(mode.number) != 0 && mode.number >= 60 && mode.number < 70)
-            channels.push_back(mode.number);
+        if (layerOf(mode.channel) != 0 && mode.channel >= Channel::clearcoat &&
+            mode.channel < Channel::transmission)
+            channels.push_back(mode.channel);
     std::vector<Frame> frames = bothPaths(renderer, settings, channels);
     expectSameChannels(frames[0], frames[1], 10);
     EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u) << settings.msaa;
@@ -62,8 +61,9 @@ TEST(SecondGBuffer, SkinnedMorphedAndMaskedSurfacesAreBitEqual) {
         settings.alpha_to_coverage = samples > 1;
         ASSERT_TRUE(hasSecondPass(scene, settings));
         const Frame frame = expectOneImage(renderer, settings);
-        EXPECT_GT(pixelsAbove0(frame.channels.at(diffuseThrough)), 200u);
-        EXPECT_GT(coveredPixels(frame), pixelsAbove0(frame.channels.at(diffuseThrough)) + 1000);
+        EXPECT_GT(pixelsAbove0(frame.channels.at(Channel::diffuse_transmission)), 200u);
+        EXPECT_GT(coveredPixels(frame),
+                  pixelsAbove0(frame.channels.at(Channel::diffuse_transmission)) + 1000);
     }
 }
 
@@ -90,7 +90,7 @@ TEST(SecondGBuffer, OfTwoSurfacesAtOneDepthTheLastIsStored) {
             ASSERT_TRUE(hasSecondPass(scene, settings));
             Renderer renderer(device(), scene, pipelines());
             const Frame frame = expectOneImage(renderer, settings);
-            EXPECT_EQ(pixelsAbove0(frame.channels.at(diffuseThrough)), plain_last ? 0u : 64u);
+            EXPECT_EQ(pixelsAbove0(frame.channels.at(Channel::diffuse_transmission)), plain_last ? 0u : 64u);
         }
 }
 
@@ -106,12 +106,14 @@ TEST(SecondGBuffer, PackedLayersAreStored) {
         settings.size = {4, 4};
         settings.msaa = 4;
         ASSERT_TRUE(hasSecondPass(scene, settings));
-        constexpr int film = static_cast<int>(gpu::DEBUG_iridescence),
-                      sheen = static_cast<int>(gpu::DEBUG_sheen_roughness);
         Renderer renderer(device(), scene, pipelines());
-        const Frame frame = drawnBy(Path::deferred, renderer, settings, {film, sheen, diffuseThrough});
+        const Frame frame =
+            drawnBy(Path::deferred, renderer, settings,
+                    {Channel::iridescence, Channel::sheen_roughness, Channel::diffuse_transmission});
         constexpr float half_step = 0.5f / 255 + float32;
-        for (const auto& [mode, value] : {std::pair(film, 0.6f), {sheen, 0.5f}, {diffuseThrough, 0.4f}})
+        for (const auto& [mode, value] : {std::pair(Channel::iridescence, 0.6f),
+                                          {Channel::sheen_roughness, 0.5f},
+                                          {Channel::diffuse_transmission, 0.4f}})
             EXPECT_NEAR(frame.channels.at(mode).at(1, 2, 0), value, half_step) << debugMode(mode).name;
     }
 }

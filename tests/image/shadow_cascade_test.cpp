@@ -16,12 +16,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int seenMode = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              cascadeMode = static_cast<int>(gpu::DEBUG_cascade),
-              depthMode = static_cast<int>(gpu::DEBUG_depth),
-              idMode = static_cast<int>(gpu::DEBUG_material_id),
-              placeMode = static_cast<int>(gpu::DEBUG_position);
-
 Settings cascaded(const Size& size, int texels, int cascades) {
     Settings settings = smallPicture(GBufferEncoding::standard);
     settings.size = size;
@@ -33,7 +27,8 @@ Settings cascaded(const Size& size, int texels, int cascades) {
 
 Frame drawnCascades(Renderer& renderer, const Settings& settings) {
     return drawnBy(Path::forward_plus, renderer, settings,
-                   {seenMode, cascadeMode, depthMode, idMode, placeMode});
+                   {Channel::shadow_visibility, Channel::cascade, Channel::depth, Channel::material_id,
+                    Channel::position});
 }
 Frame drawnCascades(const Scene& scene, const Settings& settings) {
     Renderer renderer(device(), scene, pipelines());
@@ -90,14 +85,15 @@ Gap gapOf(const Contact& contact) {
     settings.shadow_kernel = contact.kernel;
     settings.shadow_distance = static_cast<float>(distance);
     const Frame frame = drawnCascades(scene, settings);
-    const Image &seen = frame.channels.at(seenMode), &place = frame.channels.at(placeMode);
+    const Image &seen = frame.channels.at(Channel::shadow_visibility),
+                &place = frame.channels.at(Channel::position);
     Gap gap;
     int rows = 0;
     for (int y = 0; y < size.height; ++y) {
         std::optional<double> begins;  // where visibility falls to a half, going away from the line
         for (int x = size.width - 1; x >= 0; --x) {
-            EXPECT_EQ(frame.channels.at(idMode).at(x, y), 0);
-            const auto serves = static_cast<std::size_t>(frame.channels.at(cascadeMode).at(x, y));
+            EXPECT_EQ(frame.channels.at(Channel::material_id).at(x, y), 0);
+            const auto serves = static_cast<std::size_t>(frame.channels.at(Channel::cascade).at(x, y));
             const double texel = frame.shadow_reach.at(serves).texel;
             const double behind = -double{place.at(x, y, 0)} * across / texel;
             const double v{seen.at(x, y)};
@@ -181,19 +177,22 @@ TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
         const int moved = i % 4;
         for (int y = 0; last && y < size.height; ++y)
             for (int x = 0; x + moved < size.width; ++x) {
-                const auto at = [&](const Frame& f, int mode, int column) {
+                const auto at = [&](const Frame& f, Channel mode, int column) {
                     return f.channels.at(mode).at(column, y);
                 };
-                const float now = at(frame, cascadeMode, x), before = at(*last, cascadeMode, x + moved);
-                if (now != before || now < 0 || at(frame, idMode, x) != at(*last, idMode, x + moved))
+                const float now = at(frame, Channel::cascade, x),
+                            before = at(*last, Channel::cascade, x + moved);
+                if (now != before || now < 0 ||
+                    at(frame, Channel::material_id, x) != at(*last, Channel::material_id, x + moved))
                     continue;
                 // Not where a cascade blends into the next.
                 const auto number = static_cast<std::size_t>(now);
-                if (std::max(at(frame, depthMode, x), at(*last, depthMode, x + moved)) >
+                if (std::max(at(frame, Channel::depth, x), at(*last, Channel::depth, x + moved)) >
                     frame.shadow_reach.at(number).depth)
                     continue;
                 ++same;
-                changed += std::abs(at(frame, seenMode, x) - at(*last, seenMode, x + moved)) > 1.0f / 256;
+                changed += std::abs(at(frame, Channel::shadow_visibility, x) -
+                                    at(*last, Channel::shadow_visibility, x + moved)) > 1.0f / 256;
             }
         last = std::move(frame);
     }
@@ -224,16 +223,20 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
     for (int y = size.height - 1; y >= 0; --y) {
         std::optional<Row> row;
         for (int x = 1; x < size.width; ++x) {
-            const auto value = [&](int mode, int column, int c = 0) {
+            const auto value = [&](Channel mode, int column, int c = 0) {
                 return double{frame.channels.at(mode).at(column, y, c)};
             };
-            if (value(idMode, x) != 0 || value(idMode, x - 1) != 0 || value(cascadeMode, x) < 0) continue;
-            const double left = value(seenMode, x - 1), right = value(seenMode, x);
+            if (value(Channel::material_id, x) != 0 || value(Channel::material_id, x - 1) != 0 ||
+                value(Channel::cascade, x) < 0)
+                continue;
+            const double left = value(Channel::shadow_visibility, x - 1),
+                         right = value(Channel::shadow_visibility, x);
             if (left >= 0.5 && right < 0.5 && !row) {
                 const double part = (left - 0.5) / (left - right);
-                const auto number = static_cast<std::size_t>(value(cascadeMode, x));
+                const auto number = static_cast<std::size_t>(value(Channel::cascade, x));
                 row = {static_cast<int>(number),
-                       value(placeMode, x - 1) + part * (value(placeMode, x) - value(placeMode, x - 1)),
+                       value(Channel::position, x - 1) +
+                           part * (value(Channel::position, x) - value(Channel::position, x - 1)),
                        frame.shadow_reach.at(number).texel};
             }
         }

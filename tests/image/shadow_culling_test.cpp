@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Culling shadow casters changes no bit of a shadow map that is sampled.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/shadow_scenes.h"
@@ -15,9 +15,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int sunMode = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              localMode = static_cast<int>(gpu::DEBUG_local_visibility);
-
 Settings shadowedBy(Shadows shadows, int size, int kernel) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.shadows = shadows;
@@ -29,12 +26,12 @@ Settings shadowedBy(Shadows shadows, int size, int kernel) {
 // Compares culled casters with all casters.
 void expectSame(Renderer& forNeeded, Renderer& forAll, Settings settings, const std::string& name) {
     RenderOptions options;
-    options.channels = {lit, sunMode, localMode};
+    options.channels = {Channel::lit, Channel::shadow_visibility, Channel::local_visibility};
     options.runs = 0;
     const Frame needed = forNeeded.draw(settings, options);
     settings.shadow_casters = ShadowCasters::all;
     const Frame all = forAll.draw(settings, options);
-    for (const int mode : options.channels)
+    for (const Channel mode : options.channels)
         EXPECT_EQ(differingPixels(needed.channels.at(mode), all.channels.at(mode)), 0u)
             << name << " " << debugMode(mode).name;
 }

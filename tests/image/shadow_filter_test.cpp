@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadow filters of the sun other than PCF: equal bits in both paths, correct edge widths, and maps that
 // cover everything in view.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -19,11 +19,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int sunSeen = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              served = static_cast<int>(gpu::DEBUG_cascade), viewDepths = static_cast<int>(gpu::DEBUG_depth),
-              materials = static_cast<int>(gpu::DEBUG_material_id),
-              places = static_cast<int>(gpu::DEBUG_position);
-
 Settings filteredBy(Shadows shadows, GBufferEncoding gbuffer, int size = 256, int kernel = 3) {
     Settings settings = smallPicture(gbuffer);
     settings.shadows = shadows;
@@ -32,13 +27,13 @@ Settings filteredBy(Shadows shadows, GBufferEncoding gbuffer, int size = 256, in
     return settings;
 }
 
-Frame drawnOnce(Renderer& renderer, const Settings& settings, const std::vector<int>& channels) {
+Frame drawnOnce(Renderer& renderer, const Settings& settings, const std::vector<Channel>& channels) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
     return renderer.draw(settings, options);
 }
-Frame drawnOnce(const Scene& scene, const Settings& settings, const std::vector<int>& channels) {
+Frame drawnOnce(const Scene& scene, const Settings& settings, const std::vector<Channel>& channels) {
     Renderer renderer(device(), scene, pipelines());
     return drawnOnce(renderer, settings, channels);
 }
@@ -63,12 +58,15 @@ TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
     // All filters would compile the gallery's many materials four times.
     const std::size_t count = GetParam() == "builtin:gallery" ? 1 : std::size(filters);
     for (const auto& [shadows, encoding] : std::span(filters).first(count)) {
-        const std::vector<Frame> frames = bothPaths(renderer, filteredBy(shadows, encoding), {lit, sunSeen});
-        const Image& seen = frames[0].channels.at(sunSeen);
-        EXPECT_EQ(differingPixels(seen, frames[1].channels.at(sunSeen)), 0u) << nameOf(shadows);
+        const std::vector<Frame> frames =
+            bothPaths(renderer, filteredBy(shadows, encoding), {Channel::lit, Channel::shadow_visibility});
+        const Image& seen = frames[0].channels.at(Channel::shadow_visibility);
+        EXPECT_EQ(differingPixels(seen, frames[1].channels.at(Channel::shadow_visibility)), 0u)
+            << nameOf(shadows);
         EXPECT_TRUE(std::ranges::all_of(seen.data, [](float v) { return v >= 0 && v <= 1; }));
         if (encoding == GBufferEncoding::full) {
-            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+            EXPECT_EQ(
+                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
                 << nameOf(shadows);
         }
     }
@@ -83,15 +81,17 @@ TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
     Renderer renderer(device(), scene, pipelines());
     const PreparedView standard(device(), shared, views.at(viewRequest(settings)), settings);
     settings.shadow_fit = ShadowFit::depth;
-    const std::vector<Frame> frames = bothPaths(renderer, settings, {sunSeen, served, viewDepths, materials});
-    for (const int mode : {sunSeen, served})
+    const std::vector<Frame> frames =
+        bothPaths(renderer, settings,
+                  {Channel::shadow_visibility, Channel::cascade, Channel::depth, Channel::material_id});
+    for (const Channel mode : {Channel::shadow_visibility, Channel::cascade})
         EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u);
     float near = std::numeric_limits<float>::infinity(), far = 0;
-    for (std::size_t i = 0; i < frames[0].channels.at(materials).pixels(); ++i) {
-        if (*frames[0].channels.at(materials).pixel(i) < 0) continue;
-        near = std::min(near, *frames[0].channels.at(viewDepths).pixel(i));
-        far = std::max(far, *frames[0].channels.at(viewDepths).pixel(i));
-        EXPECT_GE(*frames[0].channels.at(served).pixel(i), 0);
+    for (std::size_t i = 0; i < frames[0].channels.at(Channel::material_id).pixels(); ++i) {
+        if (*frames[0].channels.at(Channel::material_id).pixel(i) < 0) continue;
+        near = std::min(near, *frames[0].channels.at(Channel::depth).pixel(i));
+        far = std::max(far, *frames[0].channels.at(Channel::depth).pixel(i));
+        EXPECT_GE(*frames[0].channels.at(Channel::cascade).pixel(i), 0);
     }
     const PreparedView prepared(device(), shared, views.at(viewRequest(settings)), settings);
     ASSERT_TRUE(prepared.shadow.sun.shown());
@@ -117,10 +117,11 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowFilters,
 TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
     Renderer& renderer = uploaded("builtin:gallery").renderer;
     const auto by = [&](Shadows shadows) {
-        return drawnOnce(renderer, filteredBy(shadows, GBufferEncoding::full), {lit, sunSeen});
+        return drawnOnce(renderer, filteredBy(shadows, GBufferEncoding::full),
+                         {Channel::lit, Channel::shadow_visibility});
     };
     const Frame soft = by(Shadows::pcss), hard = by(Shadows::pcf);
-    for (const int mode : {lit, sunSeen})
+    for (const Channel mode : {Channel::lit, Channel::shadow_visibility})
         EXPECT_EQ(differingPixels(soft.channels.at(mode), hard.channels.at(mode)), 0u);
     EXPECT_TRUE(std::ranges::any_of(soft.notes, [](const std::string& note) {
         return note.find("has no angular size") != std::string::npos;
@@ -162,11 +163,11 @@ struct Crossed {
 std::vector<Crossed> across(const Frame& frame, bool along_z = false) {
     const double eye = 1.2;
     std::vector<Crossed> all;
-    const Image& position = frame.channels.at(places);
+    const Image& position = frame.channels.at(Channel::position);
     for (std::size_t i = 0; i < position.pixels(); ++i)
-        if (*frame.channels.at(materials).pixel(i) == 0)
+        if (*frame.channels.at(Channel::material_id).pixel(i) == 0)
             all.push_back({double{position.pixel(i)[along_z ? 2 : 0]} + eye,
-                           double{*frame.channels.at(sunSeen).pixel(i)},
+                           double{*frame.channels.at(Channel::shadow_visibility).pixel(i)},
                            frame.shadow_edge.empty() ? 0 : double{frame.shadow_edge.pixel(i)[0]}});
     return all;
 }
@@ -188,7 +189,8 @@ TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
                 settings.shadow_cascades = 1;
                 settings.size = {320, 180};
                 const Scene scene = underARoof(height, angle, along_z);
-                const Frame frame = drawnOnce(scene, settings, {sunSeen, materials, places});
+                const Frame frame = drawnOnce(
+                    scene, settings, {Channel::shadow_visibility, Channel::material_id, Channel::position});
                 constexpr double texel = 0.0095;  // 8 m, and margins for the widest filter
                 int penumbra = 0;
                 for (const Crossed& c : across(frame, along_z)) {
@@ -200,7 +202,9 @@ TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
                 if (along_z) continue;
                 settings.path = Path::reference;
                 settings.size = {160, 90};
-                for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places}))) {
+                for (const Crossed& c : across(
+                         drawnOnce(scene, settings,
+                                   {Channel::shadow_visibility, Channel::material_id, Channel::position}))) {
                     EXPECT_NEAR(c.visibility, seenOfDisc(c.at, height, double{angle}), 0.07) << c.at;
                     EXPECT_EQ(c.edge_distance == 0, c.visibility > 0 && c.visibility < 1);
                 }
@@ -220,7 +224,8 @@ TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
     settings.shadow_cascades = 1;
     settings.size = {320, 180};
     int penumbra = 0;
-    for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places}))) {
+    for (const Crossed& c : across(drawnOnce(
+             scene, settings, {Channel::shadow_visibility, Channel::material_id, Channel::position}))) {
         if (c.at > edge - low * std::tan(double{angle} / 2) - 2 * texel) continue;  // the board's shadow
         EXPECT_GE(c.visibility, seenOfDisc(c.at - texel, height, double{angle}) - 0.02) << c.at;
         EXPECT_LE(c.visibility, seenOfDisc(c.at + texel, height, double{angle}) + 0.02) << c.at;
@@ -243,7 +248,8 @@ TEST(ShadowMoments, AreBlurredAcrossAndDown) {
                 double from = 1, to = -1, middle = 0;
                 int pixels = 0;
                 const Frame frame =
-                    drawnOnce(underARoof(1, 0, along_z, 0.1), settings, {sunSeen, materials, places});
+                    drawnOnce(underARoof(1, 0, along_z, 0.1), settings,
+                              {Channel::shadow_visibility, Channel::material_id, Channel::position});
                 EXPECT_EQ(std::ranges::count(frame.notes, "--shadows evsm: exponent 40 in 32-bit floats"),
                           shadows == Shadows::evsm ? 1 : 0);
                 for (const Crossed& c : across(frame, along_z)) {
@@ -275,7 +281,9 @@ TEST(ShadowMoments, OfAPlaneLeaveItLit) {
                 Settings settings = filteredBy(shadows, GBufferEncoding::full, 512);
                 if (shadows != Shadows::msm4) settings.evsm_precision = precision;
                 double least = 1;
-                for (const Crossed& c : across(drawnOnce(scene, settings, {sunSeen, materials, places})))
+                for (const Crossed& c :
+                     across(drawnOnce(scene, settings,
+                                      {Channel::shadow_visibility, Channel::material_id, Channel::position})))
                     least = std::min(least, c.visibility);
                 EXPECT_GT(least, 0.98) << nameOf(shadows) << nameOf(precision) << " " << degrees;
             }

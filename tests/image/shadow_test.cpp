@@ -13,10 +13,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int visibility = static_cast<int>(gpu::DEBUG_shadow_visibility),
-              cascade = static_cast<int>(gpu::DEBUG_cascade), depth = static_cast<int>(gpu::DEBUG_depth),
-              ids = static_cast<int>(gpu::DEBUG_material_id);
-
 Settings shadowed(const Settings& settings, int size = 2048, int kernel = 3) {
     Settings result = settings;
     result.shadows = Shadows::pcf;
@@ -26,7 +22,8 @@ Settings shadowed(const Settings& settings, int size = 2048, int kernel = 3) {
 }
 
 Frame drawn(const Scene& scene, const Settings& settings,
-            const std::vector<int>& channels = {visibility, cascade, depth, ids}) {
+            const std::vector<Channel>& channels = {Channel::shadow_visibility, Channel::cascade,
+                                                    Channel::depth, Channel::material_id}) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -41,10 +38,10 @@ struct Seen {
 template <class Where>
 Seen seenWhere(const Frame& frame, const Where& where) {
     Seen seen;
-    const Image& image = frame.channels.at(visibility);
+    const Image& image = frame.channels.at(Channel::shadow_visibility);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            if (frame.channels.at(ids).at(x, y) < 0 || !where(x, y)) continue;
+            if (frame.channels.at(Channel::material_id).at(x, y) < 0 || !where(x, y)) continue;
             seen.least = std::min(seen.least, image.at(x, y));
             seen.most = std::max(seen.most, image.at(x, y));
             ++seen.pixels;
@@ -62,9 +59,10 @@ TEST_P(ShadowPaths, SeeTheSame) {
     for (const auto& [encoding, kernel] : std::span(kernels).subspan(first)) {
         const Settings settings = shadowed(smallPicture(encoding), 256, kernel);
         const std::vector<Frame> frames =
-            bothPaths(uploaded(GetParam()).renderer, settings, {visibility, cascade, lit});
+            bothPaths(uploaded(GetParam()).renderer, settings,
+                      {Channel::shadow_visibility, Channel::cascade, Channel::lit});
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
-        for (const int mode : {visibility, cascade})
+        for (const Channel mode : {Channel::shadow_visibility, Channel::cascade})
             EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                 << debugMode(mode).name << " " << kernel;
     }
@@ -79,21 +77,21 @@ TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
     truth.path = Path::reference;
     Renderer& renderer = uploaded(GetParam()).renderer;
     RenderOptions options;
-    options.channels = {visibility, depth, ids};
+    options.channels = {Channel::shadow_visibility, Channel::depth, Channel::material_id};
     options.runs = 0;
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.shadow_edge.empty());
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
-    for (std::size_t i = 0; i < path.channels.at(visibility).pixels(); ++i) {
-        if (*path.channels.at(ids).pixel(i) < 0) continue;
+    for (std::size_t i = 0; i < path.channels.at(Channel::shadow_visibility).pixels(); ++i) {
+        if (*path.channels.at(Channel::material_id).pixel(i) < 0) continue;
         ++covered;
-        const double z{*path.channels.at(depth).pixel(i)};
+        const double z{*path.channels.at(Channel::depth).pixel(i)};
         const auto reach =
             std::ranges::find_if(path.shadow_reach, [&](const ShadowReach& r) { return z <= r.depth; });
         ASSERT_NE(reach, path.shadow_reach.end());
         const float* const edge = reference.shadow_edge.pixel(i);
-        const float seen = *path.channels.at(visibility).pixel(i),
-                    is = *reference.channels.at(visibility).pixel(i);
+        const float seen = *path.channels.at(Channel::shadow_visibility).pixel(i),
+                    is = *reference.channels.at(Channel::shadow_visibility).pixel(i);
         if (double{edge[0]} <= reach->reach) {
             ++near;
             continue;
@@ -153,15 +151,18 @@ TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
         Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
         settings.size = {320, 180};
         const Scene scene = groundUnder(sunAt(degrees), {board(1)});
-        const Frame frame = drawn(scene, settings, {visibility, depth, ids, int{gpu::DEBUG_position}});
-        const Image& position = frame.channels.at(int{gpu::DEBUG_position});
+        const Frame frame =
+            drawn(scene, settings,
+                  {Channel::shadow_visibility, Channel::depth, Channel::material_id, Channel::position});
+        const Image& position = frame.channels.at(Channel::position);
         const double length = std::cos(0.3) / std::tan(degrees * std::numbers::pi / 180);
         // A texel covers about 6 mm of ground; the filter's radius is three.
         const double gap = 0.03;
         const auto onGround = [&](double from, double to) {
             return [&, from, to](int x, int y) {
                 const double at = double{position.at(x, y, 0)} + 0.4, z = double{position.at(x, y, 2)} + 2.5;
-                return frame.channels.at(ids).at(x, y) == 0 && at > from && at < to && std::abs(z) < 1.5;
+                return frame.channels.at(Channel::material_id).at(x, y) == 0 && at > from && at < to &&
+                       std::abs(z) < 1.5;
             };
         };
         const Seen shadow =
@@ -185,7 +186,9 @@ TEST(ShadowCasters, FollowTheirAlphaMode) {
         scene.materials[1].base_color.a = alpha;
         Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
         const Frame frame = drawn(scene, settings);
-        return seenWhere(frame, [&](int x, int y) { return frame.channels.at(ids).at(x, y) == 0; }).least;
+        return seenWhere(frame,
+                         [&](int x, int y) { return frame.channels.at(Channel::material_id).at(x, y) == 0; })
+            .least;
     };
     EXPECT_EQ(darkest(AlphaMode::opaque, 0.3f), 0);
     EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
@@ -199,15 +202,15 @@ TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     const Scene scene = groundUnder(sunAt(45), {board(1)});
     Settings settings = shadowed(smallPicture(GBufferEncoding::full));
     settings.assign = Assignment::every;
-    const Frame every = drawn(scene, settings, {lit, ids});
+    const Frame every = drawn(scene, settings, {Channel::lit, Channel::material_id});
     settings.assign = Assignment::per_object;
     settings.pixel_lights = 0;
-    const Frame objects = drawn(scene, settings, {lit, ids});
-    EXPECT_EQ(differingPixels(every.channels.at(lit), objects.channels.at(lit)), 0u);
-    const Image& image = every.channels.at(lit);
+    const Frame objects = drawn(scene, settings, {Channel::lit, Channel::material_id});
+    EXPECT_EQ(differingPixels(every.channels.at(Channel::lit), objects.channels.at(Channel::lit)), 0u);
+    const Image& image = every.channels.at(Channel::lit);
     std::size_t dark = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
-        dark += *every.channels.at(ids).pixel(i) == 0 && *image.pixel(i) == 0;
+        dark += *every.channels.at(Channel::material_id).pixel(i) == 0 && *image.pixel(i) == 0;
     EXPECT_GT(dark, 500u) << "of the ground";
 }
 
@@ -221,7 +224,9 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
     weak.intensity = 2;
     scene.lights.insert(scene.lights.begin(), weak);
     const Frame both = drawn(scene, settings);
-    EXPECT_EQ(differingPixels(alone.channels.at(visibility), both.channels.at(visibility)), 0u);
+    EXPECT_EQ(differingPixels(alone.channels.at(Channel::shadow_visibility),
+                              both.channels.at(Channel::shadow_visibility)),
+              0u);
     scene.lights.clear();
     Light lamp;
     lamp.position = {0, 2, 0};
@@ -253,7 +258,8 @@ TEST(ShadowMapsOfNothing, AreNotDrawn) {
     EXPECT_EQ(passes(scene, settings), 1);
     for (Material& material : scene.materials) material.alpha_mode = AlphaMode::blend;
     const auto ground = [](const Frame& frame) {
-        return seenWhere(frame, [&](int x, int y) { return frame.channels.at(ids).at(x, y) == 0; });
+        return seenWhere(frame,
+                         [&](int x, int y) { return frame.channels.at(Channel::material_id).at(x, y) == 0; });
     };
     const Frame open = drawn(scene, settings);
     EXPECT_TRUE(says(open, "nothing casts"));

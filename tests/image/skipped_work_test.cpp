@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Optimisations that skip work on the device (gathered uniforms, unread inputs, triangle normals) change
 // no bit of the image.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/scene/load.h"
 #include "tests/image/changed_view.h"
 #include "tests/image/scenes.h"
@@ -65,11 +65,12 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
             Settings settings = smallFrame(path);
             settings.gbuffer = encoding;
             RenderOptions lit, all;
-            lit.channels = {static_cast<int>(gpu::DEBUG_lit)};
+            lit.channels = {Channel::lit};
             all.channels = allChannels();
             const Frame one = drawAll(scene, {settings}, lit).front(),
                         every = drawAll(scene, {settings}, all).front();
-            EXPECT_EQ(differingPixels(one.channels.at(0), every.channels.at(0), true), 0u)
+            EXPECT_EQ(differingPixels(one.channels.at(Channel::lit), every.channels.at(Channel::lit), true),
+                      0u)
                 << nameOf(path) << ", " << nameOf(encoding);
         }
 }
@@ -82,7 +83,7 @@ TEST(SkippedWork, OverdrawIsThatOfEverySize) {
         settings.prepass = Switch::automatic;
         settings.size = size;
         RenderOptions options;
-        options.channels = {lit};
+        options.channels = {Channel::lit};
         options.runs = 0;
         std::vector<std::string> said;
         options.on_step = [&](const std::string& step) { said.push_back(step); };

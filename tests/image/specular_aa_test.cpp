@@ -151,11 +151,11 @@ TEST(SpecularAa, AFlatSurfaceKeepsItsRoughnessBitForBit) {
             Settings settings = filtered(fullPicture({161, 91}));
             settings.spec_aa_variance = 100;
             settings.spec_aa_limit = 1;
-            for (const Frame& frame : bothPaths(scene, settings, {roughness, 8})) {
+            for (const Frame& frame : bothPaths(scene, settings, {roughness, Channel::material_id})) {
                 const Image& drawn = frame.channels.at(roughness);
                 std::size_t other = 0;
                 for (std::size_t i = 0; i < drawn.data.size(); ++i)
-                    other += frame.channels.at(8).data[i] >= 0 && drawn.data[i] != rough;
+                    other += frame.channels.at(Channel::material_id).data[i] >= 0 && drawn.data[i] != rough;
                 EXPECT_EQ(other, 0u) << frame.name << " " << degrees << " " << rough;
                 EXPECT_GT(coveredPixels(frame), 1000u);
             }
@@ -236,7 +236,7 @@ class SpecularAaBuiltin : public testing::TestWithParam<const char*> {};
 TEST_P(SpecularAaBuiltin, BothPathsFilterAlike) {
     UploadedScene& scene = uploaded(GetParam());
     for (const SpecularNormals of : {SpecularNormals::geometry, SpecularNormals::mapped}) {
-        const std::vector<int> channels{lit, roughness, 8};
+        const std::vector<Channel> channels{Channel::lit, roughness, Channel::material_id};
         const std::vector<Frame> on = bothPaths(scene.renderer, filtered(fullPicture(), of), channels),
                                  off = bothPaths(scene.renderer, fullPicture(), channels);
         expectSameChannels(on[0], on[1], 3);
@@ -254,7 +254,7 @@ TEST_P(SpecularAaBuiltin, TheStandardGBufferKeepsItWithinAStep) {
     UploadedScene& scene = uploaded(GetParam());
     Settings settings = filtered(fullPicture());
     settings.gbuffer = GBufferEncoding::standard;
-    const std::vector<Frame> frames = bothPaths(scene.renderer, settings, {roughness, 8});
+    const std::vector<Frame> frames = bothPaths(scene.renderer, settings, {roughness, Channel::material_id});
     const PixelData &packed = frames[0].channels.at(roughness).data,
                     &plain = frames[1].channels.at(roughness).data;
     double largest = 0;
@@ -289,14 +289,14 @@ TEST(SpecularAa, SeveralSamplesFilterAlike) {
 TEST(SpecularAa, TheReferenceShadesWhatWasFiltered) {
     UploadedScene& scene = uploaded("builtin:normals");
     const Settings settings = filtered(fullPicture({96, 54}));
-    const std::vector<int> channels{lit, roughness, 8};
+    const std::vector<Channel> channels{Channel::lit, roughness, Channel::material_id};
     const Frame reference = drawnBy(Path::reference, scene.renderer, settings, channels);
     for (const Frame& path : bothPaths(scene.renderer, settings, channels)) {
         EXPECT_EQ(differingPixels(reference.channels.at(roughness), path.channels.at(roughness)), 0u);
         const Coverage covered = coverage(reference, path);
-        const DebugMode& mode = debugMode(lit);
-        const ChannelStats stats =
-            channelStats(mode.metric, mode.kind, reference.channels.at(lit), path.channels.at(lit), covered);
+        const DebugMode& mode = debugMode(Channel::lit);
+        const ChannelStats stats = channelStats(mode.metric, mode.kind, reference.channels.at(Channel::lit),
+                                                path.channels.at(Channel::lit), covered);
         EXPECT_LE(stats.p999, 1e-4) << path.name << ", max " << stats.max;
     }
 }

@@ -7,8 +7,6 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int SPECULAR = static_cast<int>(gpu::DEBUG_lit_specular),
-              SURFACES = static_cast<int>(gpu::DEBUG_material_id);
 Settings picture(bool filtered, float variance = Settings().spec_aa_variance, Size size = {96, 54}) {
     Settings settings = smallPicture(GBufferEncoding::full);
     settings.size = size;
@@ -38,9 +36,10 @@ OverPhases overPhases(Renderer& renderer, std::size_t first, const Settings& set
     for (int i = 0; i < phases; ++i) {
         Settings phase = settings;
         phase.camera = std::to_string(first + static_cast<std::size_t>(i));
-        const Frame frame = drawnBy(Path::forward_plus, renderer, phase, {lit, SPECULAR, SURFACES});
-        flicker.add(frame, SPECULAR);
-        result.mean += meanOf(frame.channels.at(lit)) / phases;
+        const Frame frame = drawnBy(Path::forward_plus, renderer, phase,
+                                    {Channel::lit, Channel::lit_specular, Channel::material_id});
+        flicker.add(frame, Channel::lit_specular);
+        result.mean += meanOf(frame.channels.at(Channel::lit)) / phases;
     }
     result.highlights = flicker.shimmer();
     return result;
@@ -78,7 +77,8 @@ TEST_P(SpecularShimmer, HalvesAndKeepsTheLight) {
     Settings truth = picture(false);
     truth.reference_mode = ReferenceMode::scene;
     truth.spp = GetParam().samples;
-    const double expected = meanOf(drawnBy(Path::reference, renderer, truth, {lit}).channels.at(lit));
+    const double expected =
+        meanOf(drawnBy(Path::reference, renderer, truth, {Channel::lit}).channels.at(Channel::lit));
     EXPECT_NEAR(on.mean / expected, 1, GetParam().energy);
     RecordProperty("flicker", std::to_string(off.highlights.rmse / on.highlights.rmse));
     RecordProperty("energy", std::to_string(on.mean / expected));
@@ -101,7 +101,8 @@ TEST(SpecularEnergy, DoesNotDependOnResolutionOrSamples) {
     const auto mean = [&](Size size, int samples) {
         Settings settings = picture(true, Settings().spec_aa_variance, size);
         settings.msaa = samples;
-        return meanOf(drawnBy(Path::forward_plus, renderer, settings, {lit}).channels.at(lit));
+        return meanOf(
+            drawnBy(Path::forward_plus, renderer, settings, {Channel::lit}).channels.at(Channel::lit));
     };
     const double standard = mean({192, 108}, 1);
     EXPECT_NEAR(mean({96, 54}, 1) / standard, 1, 0.05);

@@ -13,7 +13,8 @@
 
 namespace diptych::tests {
 
-constexpr int albedo = 1, normals = 2, metallic = 3, roughness = 4, emission = 5, occlusion = 6, specular = 7;
+using Channel::albedo, Channel::normals, Channel::metallic, Channel::roughness, Channel::emission,
+    Channel::occlusion, Channel::specular;
 
 // Corners (-1, -1) to (1, 1) in z = 0, uv (0, 0) at the top left; camera at (0, 0, 1), 90 degrees.
 inline Scene square() {
@@ -82,7 +83,7 @@ inline std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
     return bothPaths(scene, settings);
 }
 
-inline glm::vec3 colorAt(const Frame& frame, int mode, int x, int y) {
+inline glm::vec3 colorAt(const Frame& frame, Channel mode, int x, int y) {
     const Image& image = frame.channels.at(mode);
     glm::vec3 value(0);
     for (int c = 0; c < image.components; ++c) value[c] = image.at(x, y, c);

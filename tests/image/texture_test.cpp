@@ -200,7 +200,7 @@ TEST(Textures, EndlessCoordinatesGiveNumbers) {
                 expectSameChannels(frames[0], frames[1]);
                 for (const Frame& frame : frames) {
                     EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << scale << offset;
-                    for (const int mode : {albedo, normals})
+                    for (const Channel mode : {albedo, normals})
                         for (const float value : frame.channels.at(mode).data)
                             ASSERT_TRUE(value >= -1 && value <= 1) << frame.name << scale << offset;
                 }

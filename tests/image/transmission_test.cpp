@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_transmission, _volume, _dispersion and _diffuse_transmission in both paths, compared with
 // closed forms, with the picture of what is behind, and with each other.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"
@@ -28,7 +28,7 @@ Settings picture() {
 
 Image litOf(Path path, const Scene& scene, const Settings& settings) {
     Renderer renderer(device(), scene, pipelines());
-    return drawnBy(path, renderer, settings, {lit}).channels.at(lit);
+    return drawnBy(path, renderer, settings, {Channel::lit}).channels.at(Channel::lit);
 }
 
 // A pane one metre before a chequered wall, without light of its own.

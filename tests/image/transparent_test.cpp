@@ -62,10 +62,12 @@ TEST(Transparent, WhatIsOpaqueHidesAllBehindItAndOpacity0Nothing) {
     std::vector<glm::vec4> more = front;
     more.insert(more.begin() + 1, glm::vec4(5, 5, 5, 0));
     for (const Path path : drawn_paths) {
-        const Image whole = drawnBlended(path, layers(colors), blendedPicture()).channels.at(lit);
-        EXPECT_EQ(
-            differingPixels(whole, drawnBlended(path, layers(front), blendedPicture()).channels.at(lit)), 0u);
-        EXPECT_EQ(differingPixels(whole, drawnBlended(path, layers(more), blendedPicture()).channels.at(lit)),
+        const Image whole = drawnBlended(path, layers(colors), blendedPicture()).channels.at(Channel::lit);
+        EXPECT_EQ(differingPixels(
+                      whole, drawnBlended(path, layers(front), blendedPicture()).channels.at(Channel::lit)),
+                  0u);
+        EXPECT_EQ(differingPixels(
+                      whole, drawnBlended(path, layers(more), blendedPicture()).channels.at(Channel::lit)),
                   0u);
     }
 }
@@ -79,11 +81,12 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
             settings.assign = assign;
             settings.lights = "point:200,spot:56";
             settings.light_cutoff = 0;
-            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+            EXPECT_EQ(
+                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
                 << name << " " << nameOf(assign);
-            if (!first) first = frames[0].channels.at(lit);
-            EXPECT_EQ(differingPixels(*first, frames[0].channels.at(lit)), 0u)
+            if (!first) first = frames[0].channels.at(Channel::lit);
+            EXPECT_EQ(differingPixels(*first, frames[0].channels.at(Channel::lit)), 0u)
                 << name << " " << nameOf(assign) << " leaves out a light";
         }
         for (const Shadows shadows : {Shadows::pcf, Shadows::evsm}) {
@@ -93,8 +96,9 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
             settings.haze_density = 2000;
             settings.transparency = Transparency::unsorted;
             settings.ambient = {0.2f, 0.3f, 0.4f};
-            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+            EXPECT_EQ(
+                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
                 << name << " " << nameOf(shadows);
         }
     }
@@ -107,19 +111,17 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
         std::erase_if(mesh.primitives, [&](const Primitive& p) {
             return opaque.materials[static_cast<std::size_t>(p.material)].alpha_mode == AlphaMode::blend;
         });
-    const std::vector<int> channels{lit, static_cast<int>(gpu::DEBUG_albedo),
-                                    static_cast<int>(gpu::DEBUG_depth),
-                                    static_cast<int>(gpu::DEBUG_lit_diffuse)};
+    const std::vector<Channel> channels{Channel::lit, Channel::albedo, Channel::depth, Channel::lit_diffuse};
     for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), without(device(), opaque, pipelines());
         const Frame all = drawnBy(path, renderer, blendedPicture(), channels),
                     rest = drawnBy(path, without, blendedPicture(), channels);
-        const auto most = [&](int mode) {
+        const auto most = [&](Channel mode) {
             const DebugMode& m = debugMode(mode);
             const Image &a = rest.channels.at(mode), &b = all.channels.at(mode);
             return channelStats(m.metric, m.kind, a, b, everyPixel(a.pixels())).max;
         };
-        EXPECT_GT(most(lit), 0.1) << nameOf(path);
+        EXPECT_GT(most(Channel::lit), 0.1) << nameOf(path);
         EXPECT_EQ(most(channels[1]), 0) << nameOf(path);
         EXPECT_EQ(most(channels[2]), 0) << nameOf(path);
         // F0 is then read, not a constant: some blended materials are unlit.
@@ -130,7 +132,7 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
 // For every mode: no pass, no memory and no constant of blending without blended surfaces.
 TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
     RenderOptions options;
-    options.channels = {lit};
+    options.channels = {Channel::lit};
     options.runs = 1;
     for (const Path path : drawn_paths) {
         std::optional<Frame> first;
@@ -145,7 +147,9 @@ TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
                 EXPECT_EQ(frame.bytes.images, first->bytes.images) << name;
                 EXPECT_EQ(frame.bytes.buffers, first->bytes.buffers) << name;
                 EXPECT_EQ(frame.passes.size(), first->passes.size()) << name;
-                EXPECT_EQ(differingPixels(frame.channels.at(lit), first->channels.at(lit)), 0u) << name;
+                EXPECT_EQ(differingPixels(frame.channels.at(Channel::lit), first->channels.at(Channel::lit)),
+                          0u)
+                    << name;
             }
         }
     }
@@ -154,7 +158,7 @@ TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
 TEST(Transparent, WithoutBlendingThereIsNoPass) {
     for (const auto& [name, blends] : {std::pair("builtin:glass", true), {"builtin:cutout", false}}) {
         RenderOptions options;
-        options.channels = {lit};
+        options.channels = {Channel::lit};
         options.runs = 1;
         Settings settings = blendedPicture();
         settings.path = Path::deferred;
@@ -227,19 +231,21 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
     EXPECT_EQ(failedChannels(scene, renderer, settings).size(), 2u) << "sorted";
     settings.transparency = Transparency::triangles;
     EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
-    const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-    EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u);
+    const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+    EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u);
     // Another order of the same draws: their light lists stay the same.
     Settings every = settings, object = settings;
     every.assign = Assignment::every;
     object.assign = Assignment::per_object;
     for (const Path path : drawn_paths)
-        EXPECT_EQ(differingPixels(drawnBy(path, renderer, every, {lit}).channels.at(lit),
-                                  drawnBy(path, renderer, settings, {lit}).channels.at(lit)),
-                  0u)
+        EXPECT_EQ(
+            differingPixels(drawnBy(path, renderer, every, {Channel::lit}).channels.at(Channel::lit),
+                            drawnBy(path, renderer, settings, {Channel::lit}).channels.at(Channel::lit)),
+            0u)
             << nameOf(path);
-    EXPECT_EQ(differingPixels(drawnBy(Path::forward_plus, renderer, every, {lit}).channels.at(lit),
-                              drawnBy(Path::forward_plus, renderer, object, {lit}).channels.at(lit)),
+    EXPECT_EQ(differingPixels(
+                  drawnBy(Path::forward_plus, renderer, every, {Channel::lit}).channels.at(Channel::lit),
+                  drawnBy(Path::forward_plus, renderer, object, {Channel::lit}).channels.at(Channel::lit)),
               0u);
 }
 
@@ -289,11 +295,12 @@ TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     settings.transparency = Transparency::list;
     settings.transparency_layers = 32;
     settings.haze = true;
-    const Image opaque =
-        drawnBlended(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings).channels.at(lit);
+    const Image opaque = drawnBlended(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings)
+                             .channels.at(Channel::lit);
     EXPECT_GT(*std::ranges::max_element(opaque.data), 0.0f);
     for (const Path path : drawn_paths) {
-        const Image made = drawnBlended(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(lit);
+        const Image made =
+            drawnBlended(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(Channel::lit);
         double most = 0;
         for (std::size_t i = 0; i < made.data.size(); ++i)
             most = std::max(most, std::abs(double{made.data[i]} - double{opaque.data[i]}) /
@@ -310,8 +317,9 @@ TEST(Transparent, WhereEverythingBlendsBothPathsAreAlikeInEveryMode) {
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
             Settings settings = blendedPicture();
             settings.transparency = transparency;
-            const std::vector<Frame> frames = bothPaths(renderer, settings, {lit});
-            EXPECT_EQ(differingPixels(frames[0].channels.at(lit), frames[1].channels.at(lit)), 0u)
+            const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+            EXPECT_EQ(
+                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
                 << each << " " << name;
             EXPECT_EQ(frames[0].counters.nonfinite_pixels, 0u) << each << " " << name;
         }

@@ -4,7 +4,7 @@
 #include "compare/experiment/two_devices.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/verdict/pair_reports.h"
 #include "tests/image/scenes.h"
 
@@ -30,7 +30,7 @@ std::array<Settings, 2> drawnSettings() {
 
 RenderOptions drawnOptions() {
     RenderOptions options;
-    for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
+    for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.channel);
     options.runs = 0;
     options = judgedOptions(options, std::vector<Settings>(1), false, true, Twice::none);
     return options;

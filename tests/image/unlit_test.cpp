@@ -34,12 +34,12 @@ TEST(Unlit, EmitsItsBaseColourAndReflectsNothing) {
     const glm::vec3 colour(0.5f, 0.25f, 0.125f), black(0);
     for (const Frame& frame : draw(unlitSquare()))
         for (const int x : {0, 3}) {
-            EXPECT_EQ(colorAt(frame, lit, x, 1), colour) << frame.name;
+            EXPECT_EQ(colorAt(frame, Channel::lit, x, 1), colour) << frame.name;
             EXPECT_EQ(colorAt(frame, emission, x, 1), colour) << frame.name;
             EXPECT_EQ(colorAt(frame, albedo, x, 1), black) << frame.name;
             EXPECT_EQ(colorAt(frame, specular, x, 1), black) << frame.name;
-            EXPECT_EQ(colorAt(frame, 40, x, 1), black) << frame.name << " diffuse";
-            EXPECT_EQ(colorAt(frame, 41, x, 1), black) << frame.name << " specular";
+            EXPECT_EQ(colorAt(frame, Channel::lit_diffuse, x, 1), black) << frame.name << " diffuse";
+            EXPECT_EQ(colorAt(frame, Channel::lit_specular, x, 1), black) << frame.name << " specular";
             EXPECT_EQ(colorAt(frame, normals, x, 1), glm::vec3(0, 0, 1)) << frame.name;
             EXPECT_EQ(colorAt(frame, metallic, x, 1).x, 0.0f) << frame.name;
             EXPECT_EQ(colorAt(frame, roughness, x, 1).x, 1.0f) << frame.name;
@@ -52,7 +52,7 @@ TEST(Unlit, TheSameMaterialLitIsAnother) {
     Scene scene = unlitSquare();
     scene.materials[0].unlit = false;
     for (const Frame& frame : draw(scene))
-        EXPECT_NE(colorAt(frame, lit, 0, 1), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
+        EXPECT_NE(colorAt(frame, Channel::lit, 0, 1), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
 }
 
 // The green texel (0, 1, 0) and the grey one, times factor and COLOR_0 (1, 0.5, 0.25).
@@ -61,8 +61,8 @@ TEST(Unlit, TextureAndVertexColourMultiply) {
     scene.materials[0].base_color_texture.texture = 0;
     scene.meshes[0].primitives[0].colors.assign(4, {1, 0.5f, 0.25f, 1});
     for (const Frame& frame : draw(scene)) {
-        expectColor(colorAt(frame, lit, 3, 0), {0, 0.125f, 0}, srgbTexel, frame.name);
-        expectColor(colorAt(frame, lit, 3, 3), grey * glm::vec3(0.5f, 0.125f, 0.03125f), srgbTexel,
+        expectColor(colorAt(frame, Channel::lit, 3, 0), {0, 0.125f, 0}, srgbTexel, frame.name);
+        expectColor(colorAt(frame, Channel::lit, 3, 3), grey * glm::vec3(0.5f, 0.125f, 0.03125f), srgbTexel,
                     frame.name);
     }
 }
@@ -88,7 +88,7 @@ TEST(Unlit, DoubleSidednessCounts) {
     for (const Frame& frame : draw(scene)) EXPECT_EQ(coveredPixels(frame), 0u) << frame.name;
     scene.materials[0].double_sided = true;
     for (const Frame& frame : draw(scene))
-        EXPECT_EQ(colorAt(frame, lit, 0, 0), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
+        EXPECT_EQ(colorAt(frame, Channel::lit, 0, 0), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
 }
 
 // A black unlit surface emits nothing and must also reflect nothing, although it has a specular
@@ -101,7 +101,7 @@ TEST(Unlit, BlackStaysBlackUnderAnyLight) {
         Settings settings = smallPicture(encoding);
         settings.size = {4, 4};
         for (const Frame& frame : bothPaths(scene, settings))
-            EXPECT_EQ(colorAt(frame, lit, 2, 2), glm::vec3(0)) << frame.name;
+            EXPECT_EQ(colorAt(frame, Channel::lit, 2, 2), glm::vec3(0)) << frame.name;
     }
 }
 
@@ -111,7 +111,7 @@ TEST(Unlit, PackedEncodingsKeepThePowersOfTwo) {
         Settings settings = smallPicture(encoding);
         settings.size = {4, 4};
         for (const Frame& frame : bothPaths(unlitSquare(), settings))
-            EXPECT_EQ(colorAt(frame, lit, 2, 2), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
+            EXPECT_EQ(colorAt(frame, Channel::lit, 2, 2), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;
     }
 }
 

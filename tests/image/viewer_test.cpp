@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The window's drawing thread produces the same results as the other commands, and it survives errors.
 #include "compare/explain/pixel_words.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/picture/picture.h"
-#include "compare/render/frame_facts.h"
 #include "compare/render/renderer.h"
 #include "compare/viewer/drawing_thread.h"
 #include "compare/viewer/fly_camera.h"
@@ -18,8 +18,6 @@
 
 namespace diptych::viewer {
 namespace {
-
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id);
 
 DrawingOptions validated() {
     DrawingOptions options;
@@ -54,7 +52,8 @@ bool isDrawn(DrawingThread& drawing, const Order& order) {
     });
 }
 
-Frame drawn(Device& device, const Scene& scene, const Settings& settings, const std::vector<int>& channels) {
+Frame drawn(Device& device, const Scene& scene, const Settings& settings,
+            const std::vector<Channel>& channels) {
     RenderOptions options;
     options.channels = channels;
     options.runs = 0;
@@ -72,15 +71,17 @@ TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
     for (std::size_t i = 0; i < 2; ++i) {
         Settings settings = order.subject.settings;
         settings.path = drawn_paths.at(i);
-        frames.at(i) = drawn(device, scene, settings, {lit, ids});
+        frames.at(i) = drawn(device, scene, settings, {Channel::lit, Channel::material_id});
     }
-    const Exposure exposure = exposureFor({}, &frames[0].channels.at(lit), coverage(frames[0], frames[0]));
+    const Exposure exposure =
+        exposureFor({}, &frames[0].channels.at(Channel::lit), coverage(frames[0], frames[0]));
     const Frame* both[] = {&frames[0], &frames[1]};
-    const PictureScale scale = scaleFor(debugMode(lit), exposure, both);
+    const PictureScale scale = scaleFor(debugMode(Channel::lit), exposure, both);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(shown->panels.at(i).name, nameOf(drawn_paths.at(i)));
-        EXPECT_EQ(shown->panels.at(i).values.data, frames.at(i).channels.at(lit).data);
-        EXPECT_EQ(shown->panels.at(i).picture.data, channelPicture(debugMode(lit), frames.at(i), scale).data);
+        EXPECT_EQ(shown->panels.at(i).values.data, frames.at(i).channels.at(Channel::lit).data);
+        EXPECT_EQ(shown->panels.at(i).picture.data,
+                  channelPicture(debugMode(Channel::lit), frames.at(i), scale).data);
         EXPECT_FALSE(shown->paths.at(i).passes.empty());
         EXPECT_GT(shown->paths.at(i).ms, 0);
     }
@@ -92,7 +93,7 @@ TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
     EXPECT_EQ(judged->report.comparisons.at(0).channels.size(), debugModes().size() - 1);
     EXPECT_FALSE(shown->plan.empty());
     // The drag pivot is known with the image: from depth, equal to the position channel.
-    const Image& position = judged->report.frames.at(0).channels.at(static_cast<int>(gpu::DEBUG_position));
+    const Image& position = judged->report.frames.at(0).channels.at(Channel::position);
     std::size_t seen = 0;
     for (int y = 0; y < position.height; y += 3)
         for (int x = 0; x < position.width; x += 3) {
@@ -119,8 +120,8 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
     EXPECT_EQ(shown->panels[0].name, "reference");
     const Scene scene = loadScene("builtin:points");
     Device device({});
-    const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {lit});
-    EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(lit).data);
+    const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {Channel::lit});
+    EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(Channel::lit).data);
     // Both paths are compared with it and with each other.
     ASSERT_TRUE(soon([&] { return drawing.judged() && drawing.judged()->report.comparisons.size() == 3; }));
     EXPECT_TRUE(drawing.judged()->report.passed());
@@ -213,7 +214,7 @@ TEST(DrawingThread, EveryChannelOfBothPathsIsThereOrSaysWhyNot) {
     DrawingThread drawing(validated());
     Order order = orderOf("builtin:points", 32, 18);
     for (const DebugMode& mode : debugModes()) {
-        order.look.mode = mode.number;
+        order.look.mode = mode.channel;
         order.look.difference = Difference::absolute;
         ASSERT_TRUE(isDrawn(drawing, order)) << mode.name << drawing.status().error;
         for (const Panel& panel : drawing.shown()->panels) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "shared/frame/frame.h"
-#include "tests/support/modes.h"
 
 #include <string>
 
@@ -15,8 +14,8 @@ inline Frame flatFrame(Path path, int width, int height, float value = 0, float 
     frame.name = std::string(nameOf(path));
     frame.settings.path = path;
     frame.settings.size = {width, height};
-    frame.channels[litMode] = Image(width, height, 3, value);
-    frame.channels[idMode] = Image(width, height, 1, id);
+    frame.channels[Channel::lit] = Image(width, height, 3, value);
+    frame.channels[Channel::material_id] = Image(width, height, 1, id);
     return frame;
 }
 

@@ -71,7 +71,7 @@ inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>&
 struct Drawn {
     Pose pose;
     Picture picture;
-    const Image& operator[](gpu::uint mode) const { return picture.channels.at(static_cast<int>(mode)); }
+    const Image& operator[](Channel mode) const { return picture.channels.at(mode); }
 };
 // `shadows`: of every light and of the environment. `keep`: stem of the checkpoint.
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,

@@ -69,7 +69,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
         frame.passes = {{"shade", 1.5}};
         for (const DebugMode& mode : debugModes()) {
             if (!notMadeBecause(frame.settings, mode).empty()) continue;
-            Image& image = frame.channels[mode.number] = Image(4, 3, mode.width);
+            Image& image = frame.channels[mode.channel] = Image(4, 3, mode.width);
             if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
             if (isAngle(mode.metric)) {
@@ -79,7 +79,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
             }
         }
     }
-    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    for (const Channel mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

@@ -24,9 +24,9 @@ namespace diptych {
 inline Report smallReport(const std::string& scene = "builtin:one") {
     std::vector<Frame> frames = bothFrames(scene);
     for (Frame& frame : frames) {
-        frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
+        frame.requested = {Channel::lit, Channel::normals};
         std::erase_if(frame.channels, [&](const auto& channel) {
-            return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
+            return !frame.isRequested(channel.first) && channel.first != Channel::material_id;
         });
     }
     frames[1].through_gbuffer = frames[0].channels;

@@ -22,17 +22,15 @@ std::vector<Frame> numberedPair(std::size_t i, const std::string& scene) {
     for (Frame& frame : pair) {
         frame.settings.camera = i % 2 == 0 ? "" : "1";
         // Few channels: making these reports takes longer than the test itself.
-        frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals),
-                           static_cast<int>(gpu::DEBUG_roughness), static_cast<int>(gpu::DEBUG_depth)};
+        frame.requested = {Channel::lit, Channel::normals, Channel::roughness, Channel::depth};
         std::erase_if(frame.channels, [&](const auto& channel) {
-            return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
+            return !frame.isRequested(channel.first) && channel.first != Channel::material_id;
         });
     }
-    if (i % 10 == 7)
-        pair[1].channels.at(gpu::DEBUG_roughness).at(1, 2) = 0.51f + 1e-4f * static_cast<float>(i);
+    if (i % 10 == 7) pair[1].channels.at(Channel::roughness).at(1, 2) = 0.51f + 1e-4f * static_cast<float>(i);
     for (Frame& frame : pair)
         if (frame.settings.path == Path::forward_plus)
-            frame.channels.at(gpu::DEBUG_lit).at(1, 2, 0) += 1e-5f * static_cast<float>(i % 97);
+            frame.channels.at(Channel::lit).at(1, 2, 0) += 1e-5f * static_cast<float>(i % 97);
     pair[1].through_gbuffer = pair[0].channels;
     return pair;
 }

@@ -27,14 +27,14 @@ inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
                 for (std::size_t i = 0; i < image.pixels(); ++i)
                     std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
         }
-        Image& lit = frame.channels.at(gpu::DEBUG_lit);
+        Image& lit = frame.channels.at(Channel::lit);
         for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] = 0.1f + 1e-3f * static_cast<float>(i);
         frame.through_gbuffer.clear();
     }
-    Image& roughness = frames[1].channels.at(gpu::DEBUG_roughness);
+    Image& roughness = frames[1].channels.at(Channel::roughness);
     roughness.at(40, 20) = 0.75f;
     roughness.at(80, 50) = 0.625f;
-    for (const int mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
+    for (const Channel mode : litModes) frames[1].through_gbuffer[mode] = frames[0].channels.at(mode);
     return frames;
 }
 

@@ -13,12 +13,12 @@ Report several(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         std::vector<Frame> pair = bothFrames(fmt::format("scenes/{}.glb", i));
         for (Frame& frame : pair) {
-            frame.requested = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_normals)};
+            frame.requested = {Channel::lit, Channel::normals};
             std::erase_if(frame.channels, [&](const auto& channel) {
-                return !frame.isRequested(channel.first) && channel.first != gpu::DEBUG_material_id;
+                return !frame.isRequested(channel.first) && channel.first != Channel::material_id;
             });
         }
-        if (i % 10 == 7) pair[1].channels.at(gpu::DEBUG_normals).at(1, 2, 0) = -0.5f;
+        if (i % 10 == 7) pair[1].channels.at(Channel::normals).at(1, 2, 0) = -0.5f;
         std::ranges::move(pair, std::back_inserter(frames));
     }
     return reportOf(std::move(frames));

@@ -11,7 +11,7 @@ using nlohmann::json;
 Report twoGreys() {
     std::vector<Frame> frames = rampFrames();
     for (Frame& frame : frames)
-        std::ranges::fill(frame.channels.at(gpu::DEBUG_roughness).data,
+        std::ranges::fill(frame.channels.at(Channel::roughness).data,
                           frame.settings.path == Path::deferred ? 0.25f : 0.75f);
     return reportOf(std::move(frames));
 }

@@ -64,7 +64,8 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
     EXPECT_GT(seen.told["images"], 60);
     EXPECT_EQ(seen.told["broken"], nlohmann::json::array());
     EXPECT_EQ(seen.told["cards"], 2 * std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
-                                      return mode.maker != MadeBy::deferred_only && layerOf(mode.number) == 0;
+                                      return mode.maker != MadeBy::deferred_only &&
+                                             layerOf(mode.channel) == 0;
                                   }));
     EXPECT_EQ(seen.told["unread"], nlohmann::json::array());
     EXPECT_GE(seen.told["timed"], 4) << "a bar for each path of each scene at least";
@@ -78,9 +79,9 @@ TEST(PageReport, TheFirstScreenShowsPictures) {
     const Folder folder;
     for (const bool fails : {false, true}) {
         std::vector<Frame> frames = rampFrames();
-        if (!fails) frames[1].channels.at(gpu::DEBUG_roughness) = frames[0].channels.at(gpu::DEBUG_roughness);
+        if (!fails) frames[1].channels.at(Channel::roughness) = frames[0].channels.at(Channel::roughness);
         // A difference within tolerance, so that lit has a difference image.
-        frames[1].channels.at(gpu::DEBUG_lit).at(3, 4) += 1e-5f;
+        frames[1].channels.at(Channel::lit).at(3, 4) += 1e-5f;
         const Report report = reportOf(std::move(frames));
         ASSERT_EQ(report.passed(), !fails);
         writeReport(report, folder / (fails ? "fail" : "pass"), {});

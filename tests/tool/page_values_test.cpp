@@ -13,7 +13,7 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     std::vector<Frame> frames = rampFrames();
-    frames[1].channels[gpu::DEBUG_albedo].at(3, 2, 1) = std::numeric_limits<float>::infinity();
+    frames[1].channels[Channel::albedo].at(3, 2, 1) = std::numeric_limits<float>::infinity();
     const Visit seen = visit(folder, written(folder, reportOf(frames)), R"(
       const read = async (id, x, y, width = 96, height = 54) => {
         const card = $(id); card.open = true;
@@ -31,7 +31,7 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
     ASSERT_TRUE(seen.told.is_object()) << seen.told;
     using nlohmann::json;
     EXPECT_EQ(seen.told["before"], json::array()) << "nothing is loaded before somebody points";
-    const Image& lit = frames[0].channels.at(gpu::DEBUG_lit);
+    const Image& lit = frames[0].channels.at(Channel::lit);
     const std::string triple = fmt::format("{} {} {}", lit.at(5, 3, 0), lit.at(5, 3, 1), lit.at(5, 3, 2));
     EXPECT_EQ(seen.told["lit"],
               (json{"5, 3 exact", "deferred " + triple, "forward_plus " + triple, "difference 0"}));
@@ -50,11 +50,11 @@ TEST(PageValues, LargerPicturesAreQuantisedAndSaySo) {
     const Folder folder;
     std::vector<Frame> frames = rampFrames(256, 192);
     for (Frame& frame : frames) {
-        Image& position = frame.channels.at(gpu::DEBUG_position);
+        Image& position = frame.channels.at(Channel::position);
         for (std::size_t i = 0; i < position.data.size(); ++i)
             position.data[i] = 1e6f + 16 * static_cast<float>(i % 977);  // beyond float16's own range
     }
-    frames[1].channels.at(gpu::DEBUG_position).at(200, 100, 2) += 0.25f;
+    frames[1].channels.at(Channel::position).at(200, 100, 2) += 0.25f;
     const Visit seen = visit(folder, written(folder, reportOf(frames)), R"(
       const card = $('#c0-position'), out = card.querySelector('.readout');
       location.hash = '#c0-position@200,100';
@@ -63,7 +63,7 @@ TEST(PageValues, LargerPicturesAreQuantisedAndSaySo) {
     EXPECT_EQ(seen.console, "");
     ASSERT_TRUE(seen.told.is_array() && seen.told.size() == 4) << seen.told;
     EXPECT_EQ(seen.told[0], "200, 100 quantised: float16, 11 bits");
-    const Image& position = frames[0].channels.at(gpu::DEBUG_position);
+    const Image& position = frames[0].channels.at(Channel::position);
     for (const int row : {1, 2}) {
         std::istringstream words(seen.told[row].get<std::string>());
         std::string name;
@@ -76,9 +76,8 @@ TEST(PageValues, LargerPicturesAreQuantisedAndSaySo) {
             EXPECT_NEAR(value, exact, exact / 4096 + 500) << seen.told;
         }
     }
-    const Image errors =
-        errorImage(Metric::relative, ChannelKind::vector, position,
-                   frames[1].channels.at(gpu::DEBUG_position), everyPixel(position.pixels()));
+    const Image errors = errorImage(Metric::relative, ChannelKind::vector, position,
+                                    frames[1].channels.at(Channel::position), everyPixel(position.pixels()));
     const std::string difference = seen.told[3];
     ASSERT_TRUE(difference.starts_with("difference ")) << difference;
     EXPECT_NEAR(std::stod(difference.substr(11)), errors.at(200, 100), errors.at(200, 100) * 6e-4);

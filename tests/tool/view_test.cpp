@@ -80,7 +80,7 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     // C cycles through those beyond 9.
     std::vector<std::string> beyond;
     for (const DebugMode& mode : debugModes())
-        if (mode.number > 9) beyond.emplace_back(mode.name);
+        if (channelNumber(mode.channel) > 9) beyond.emplace_back(mode.name);
     keyAndSettle("c");
     EXPECT_EQ(differing(rendered(scene + beyond[0]), 1, single()), 0);
     keyAndSettle("c");
@@ -133,7 +133,7 @@ TEST_F(View, APixelsValuesAreThoseOfTheExr) {
                         static_cast<int>(place.placement.top + (y + 0.5) * place.placement.scale)));
         await("view: pixel ", before);
         const auto words = [&, x = x, y = y](const Frame& frame) {
-            return viewer::valueWords(frame.channels.at(static_cast<int>(gpu::DEBUG_lit)), x, y);
+            return viewer::valueWords(frame.channels.at(Channel::lit), x, y);
         };
         EXPECT_EQ(lastLine("pixel "), fmt::format("pixel {},{}  deferred: {}  forward_plus: {}", x, y,
                                                   words(deferred), words(forward)));

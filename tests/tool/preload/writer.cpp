@@ -18,11 +18,11 @@ int main(int argc, char** argv) {
         // Few files, so that a test reaches every writing call in a short time.
         for (Frame& frame : frames)
             std::erase_if(frame.channels, [](const auto& channel) {
-                return channel.first != gpu::DEBUG_albedo && channel.first != gpu::DEBUG_roughness &&
-                       channel.first != gpu::DEBUG_material_id;
+                return channel.first != Channel::albedo && channel.first != Channel::roughness &&
+                       channel.first != Channel::material_id;
             });
         // In the new report roughness differs, which adds a difference image.
-        if (which == "new") frames[1].channels[gpu::DEBUG_roughness].at(1, 2, 0) = 0.25f;
+        if (which == "new") frames[1].channels[Channel::roughness].at(1, 2, 0) = 0.25f;
         if (which == "check")
             checkReplaceable({OutputKind::folder, argv[2]}, "report.json", false);
         else

@@ -108,6 +108,37 @@ TEST(Conventions, APlantedQuestionForTheKindOfDeviceIsFound) {
               Faults{"compare/render/planted.cpp"});
 }
 
+// A channel is a Channel; numbers stand in JSON, in shaders and on the command line. Only channel.h casts.
+Faults channelCasts(const Files& files) {
+    static const std::regex casts(
+        "\\bDEBUG_[a-z]\\w*|static_cast<Channel>|\\bChannel\\{\\w|"
+        "static_cast<[\\w:]+>\\((?:Channel::\\w+|mode|(?:\\w+(?:\\.|->))*channel)\\)");
+    Faults faults;
+    for (const auto& [path, text] : files)
+        if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("shared/contract/") &&
+            !path.starts_with("tests/unit/architecture/") && path != "shared/frame/channel.h")
+            for (std::sregex_iterator it(text.begin(), text.end(), casts), end; it != end; ++it)
+                faults.push_back(path + ": " + it->str());
+    return faults;
+}
+
+TEST(Conventions, OnlyOneFileTurnsChannelsIntoNumbers) {
+    EXPECT_EQ(joined(channelCasts(sources())), "");
+}
+
+TEST(Conventions, APlantedChannelNumberIsFound) {
+    const auto plant = [](const std::string& line) {
+        return channelCasts({{"compare/render/planted.cpp", line}}).size();
+    };
+    EXPECT_EQ(plant("const int a = static_cast<int>(Channel::lit);"), 1u);
+    EXPECT_EQ(plant("const int a = static_cast<int>(row.mode->channel);"), 1u);
+    EXPECT_EQ(plant("const auto a = static_cast<gpu::uint>(mode);"), 1u);
+    EXPECT_EQ(plant("const Channel a{4}, b = Channel{number};"), 1u);
+    EXPECT_EQ(plant("const auto a = static_cast<Channel>(4);"), 1u);
+    EXPECT_EQ(plant("const int a = gpu::DEBUG_lit;"), 1u);
+    EXPECT_EQ(plant("const int a = channelNumber(mode.channel) + static_cast<int>(modes);"), 0u);
+}
+
 // One place queries Vulkan about a device. Exceptions: the viewer's window surface, and instances, which
 // list their devices and layers. Matching the functions' names also finds wrappers.
 Faults askersOfVulkan(const Files& files) {

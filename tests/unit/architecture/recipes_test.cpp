@@ -32,10 +32,10 @@ struct Example {
     std::vector<std::string> words;
 };
 const std::vector<Example> examples = {
-    {"a channel", {"X(6,  occlusion", "DEBUG_occlusion", "VALUE_occlusion"}},
-    {"a channel that bounds another", {"X(4,  roughness", "DEBUG_roughness", "VALUE_roughness"}},
-    {"a channel of light", {"X(47, lit_sheen", "DEBUG_lit_sheen", "VALUE_lit_sheen"}},
-    {"a term of `lit`", {"X(42, lit_ambient", "DEBUG_lit_ambient", "VALUE_lit_ambient"}},
+    {"a channel", {"X(6,  occlusion", "Channel::occlusion", "VALUE_occlusion"}},
+    {"a channel that bounds another", {"X(4,  roughness", "Channel::roughness", "VALUE_roughness"}},
+    {"a channel of light", {"X(47, lit_sheen", "Channel::lit_sheen", "VALUE_lit_sheen"}},
+    {"a term of `lit`", {"X(42, lit_ambient", "Channel::lit_ambient", "VALUE_lit_ambient"}},
     {"an input from vertex to fragment shader", {"v_color", "vertex_color", "FEATURE_vertex_color"}},
     {"a light kind",
      {"LightKind::tube", "rect, disc, tube", "disc = 0, tube", "lights.tube", "result.tube", "\"tube\"",
@@ -194,9 +194,10 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         return recipeFaults(page, files);
     };
     EXPECT_EQ(
-        planted("compare/planted.cpp", "int occlusion = DEBUG_occlusion;"),
+        planted("compare/planted.cpp", "int occlusion = Channel::occlusion;"),
         Faults{"a channel: compare/planted.cpp mentions X(6,  occlusion and the recipe does not name it"});
-    EXPECT_EQ(planted("compare/planted.cpp", "// DEBUG_occlusion\n/* mae */ int DEBUG_occlusion2;"), Faults{})
+    EXPECT_EQ(planted("compare/planted.cpp", "// Channel::occlusion\n/* mae */ int Channel::occlusion2;"),
+              Faults{})
         << "a comment, and a longer word";
     EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// VALUE_occlusion").size(), 4u)
         << "and the other examples of channels";

@@ -57,8 +57,8 @@ TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
         if (unread.contains(field)) continue;
         const auto renamed = names.find(field);
         const std::string& channel = renamed == names.end() ? field : renamed->second;
-        EXPECT_TRUE(
-            std::ranges::any_of(lightingFields(), [&](int mode) { return debugMode(mode).name == channel; }))
+        EXPECT_TRUE(std::ranges::any_of(lightingFields(),
+                                        [&](Channel mode) { return debugMode(mode).name == channel; }))
             << field << " has no channel that judges it with lit: add it to lightingFields()";
     }
     for (const auto& [field, reason] : unread) {

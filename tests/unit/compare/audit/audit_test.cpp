@@ -6,7 +6,7 @@
 #include "compare/audit/reduce.h"
 #include "compare/audit/small_scene.h"
 #include "compare/audit/words.h"
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
 #include "tests/support/files.h"

@@ -23,13 +23,6 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr auto relatedLight = static_cast<int>(gpu::DEBUG_lit),
-               relatedNormal = static_cast<int>(gpu::DEBUG_normals),
-               relatedFacet = static_cast<int>(gpu::DEBUG_geometric_normal),
-               relatedDepth = static_cast<int>(gpu::DEBUG_depth),
-               relatedId = static_cast<int>(gpu::DEBUG_material_id),
-               relatedRoughness = static_cast<int>(gpu::DEBUG_roughness),
-               relatedAlbedo = static_cast<int>(gpu::DEBUG_albedo);
 constexpr int relatedWidth = 16, relatedHeight = 8;
 
 // Without a sheen and a film: two walls, of material 0 on the left at 2 m and of material 1 on the right at 3
@@ -37,19 +30,19 @@ constexpr int relatedWidth = 16, relatedHeight = 8;
 Frame twoWalls() {
     Frame frame;
     frame.settings.size = {relatedWidth, relatedHeight};
-    for (const int mode : relatedChannels())
+    for (const Channel mode : relatedChannels())
         frame.channels[mode] = Image(relatedWidth, relatedHeight, debugMode(mode).width, 0.5f);
     for (int y = 0; y < relatedHeight; ++y)
         for (int x = 0; x < relatedWidth; ++x) {
             const bool right = x >= relatedWidth / 2;
-            frame.channels[relatedId].at(x, y) = right ? 1.0f : 0.0f;
-            frame.channels[relatedDepth].at(x, y) = right ? 3.0f : 2.0f;
-            for (const int mode : {relatedNormal, relatedFacet})
+            frame.channels[Channel::material_id].at(x, y) = right ? 1.0f : 0.0f;
+            frame.channels[Channel::depth].at(x, y) = right ? 3.0f : 2.0f;
+            for (const Channel mode : {Channel::normals, Channel::geometric_normal})
                 for (int c = 0; c < 3; ++c) frame.channels[mode].at(x, y, c) = c == 2 ? 1.0f : 0.0f;
         }
-    for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence,
-                                 gpu::DEBUG_iridescence_thickness})
-        std::ranges::fill(frame.channels.at(static_cast<int>(mode)).data, 0.0f);
+    for (const Channel mode : {Channel::sheen_color, Channel::sheen_roughness, Channel::iridescence,
+                               Channel::iridescence_thickness})
+        std::ranges::fill(frame.channels.at(mode).data, 0.0f);
     return frame;
 }
 
@@ -66,8 +59,8 @@ bool passesTurned(const Frame& given, double slope) {
     Frame changed = given;
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 1e-5;
-    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
-    changed.channels[relatedLight].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
+    changed.channels[Channel::normals].at(2, 3, 0) = 0.9e-5f;
+    changed.channels[Channel::lit].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
     return evaluate(given, changed, tolerance).passes();
 }
 
@@ -105,7 +98,7 @@ TEST(Relations, BitsAreTheSameOrNot) {
     const Frame given = twoWalls();
     EXPECT_TRUE(evaluate(given, given, toleranceFor(Equality::bits)).passes());
     EXPECT_EQ(evaluate(given, given, toleranceFor(Equality::bits)).worst(), nullptr);
-    for (const int mode : relatedChannels()) {
+    for (const Channel mode : relatedChannels()) {
         Frame changed = given;
         float& value = changed.channels[mode].at(3, 2, debugMode(mode).width - 1);
         value = above(value);
@@ -124,7 +117,7 @@ TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
     RelationTolerance tolerance = toleranceFor(Equality::bits);
     tolerance.ulps = 16;
     Frame changed = given;
-    float& value = changed.channels[relatedLight].at(3, 2, 1);
+    float& value = changed.channels[Channel::lit].at(3, 2, 1);
     value = above(value, 16);
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     EXPECT_EQ(evaluate(given, changed, tolerance).worst()->error, 16);
@@ -134,30 +127,29 @@ TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
 
 // Light of a coat moves with the coat's own normal.
 TEST(Relations, ACoatsNormalMovesLight) {
-    const int normals = static_cast<int>(gpu::DEBUG_clearcoat_normal);
     Frame given = twoWalls();
-    given.channels[normals] = given.channels[relatedNormal];
+    given.channels[Channel::clearcoat_normal] = given.channels[Channel::normals];
     Frame changed = given;
-    changed.channels[relatedLight].at(3, 2, 0) *= 1 + 1e-4f;
+    changed.channels[Channel::lit].at(3, 2, 0) *= 1 + 1e-4f;
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 2e-5;  // of the normal
-    changed.channels[normals].at(3, 2, 0) = 1e-5f;
+    changed.channels[Channel::clearcoat_normal].at(3, 2, 0) = 1e-5f;
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    for (Frame* frame : {&given, &changed}) frame->channels.erase(normals);
+    for (Frame* frame : {&given, &changed}) frame->channels.erase(Channel::clearcoat_normal);
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "without a coat";
 }
 
 // The base's lobe grants 12 times the normal's rotation, a sheen of roughness 0.1 204 times more.
 TEST(Relations, ASheensLightMovesWithTheNormal) {
     Frame given = twoWalls();
-    std::ranges::fill(given.channels[gpu::DEBUG_sheen_roughness].data, 0.1f);
+    std::ranges::fill(given.channels[Channel::sheen_roughness].data, 0.1f);
     EXPECT_FALSE(passesTurned(given, 200)) << "a sheen without colour is none";
-    std::ranges::fill(given.channels[gpu::DEBUG_sheen_color].data, 0.5f);
+    std::ranges::fill(given.channels[Channel::sheen_color].data, 0.5f);
     EXPECT_TRUE(passesTurned(given, 200));
     EXPECT_FALSE(passesTurned(given, 230));
     // No sheen is smoother than 0.045.
-    std::ranges::fill(given.channels[gpu::DEBUG_sheen_roughness].data, 0.0f);
+    std::ranges::fill(given.channels[Channel::sheen_roughness].data, 0.0f);
     EXPECT_TRUE(passesTurned(given, 900));
     EXPECT_FALSE(passesTurned(given, 1100));
 }
@@ -165,7 +157,7 @@ TEST(Relations, ASheensLightMovesWithTheNormal) {
 TEST(Relations, AFilmsLightMovesWithTheNormal) {
     Frame given = twoWalls();
     EXPECT_FALSE(passesTurned(given, 35));
-    std::ranges::fill(given.channels[gpu::DEBUG_iridescence].data, 0.5f);
+    std::ranges::fill(given.channels[Channel::iridescence].data, 0.5f);
     EXPECT_TRUE(passesTurned(given, 35));
     EXPECT_FALSE(passesTurned(given, 60));
 }
@@ -173,45 +165,44 @@ TEST(Relations, AFilmsLightMovesWithTheNormal) {
 // A half's rounding of a thickness is relative to it.
 TEST(Relations, APackedThicknessIsGrantedItsPart) {
     Frame given = twoWalls();
-    constexpr auto thickness = static_cast<int>(gpu::DEBUG_iridescence_thickness);
-    std::ranges::fill(given.channels[thickness].data, 400.0f);
+    std::ranges::fill(given.channels[Channel::iridescence_thickness].data, 400.0f);
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
-    tolerance.packed[thickness] = 0x1p-11;
+    tolerance.packed[Channel::iridescence_thickness] = 0x1p-11;
     Frame changed = given;
-    changed.channels[thickness].at(3, 2, 0) += 0.9f * 2 * 400 * 0x1p-11f;
+    changed.channels[Channel::iridescence_thickness].at(3, 2, 0) += 0.9f * 2 * 400 * 0x1p-11f;
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    changed.channels[thickness].at(3, 2, 0) += 0.2f * 2 * 400 * 0x1p-11f;
+    changed.channels[Channel::iridescence_thickness].at(3, 2, 0) += 0.2f * 2 * 400 * 0x1p-11f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
 TEST(Relations, SumsAreGrantedByComponent) {
     Frame given = twoWalls();
-    given.channels[relatedLight].at(5, 5, 2) = 1e-6f;
+    given.channels[Channel::lit].at(5, 5, 2) = 1e-6f;
     Frame changed = given;
-    changed.channels[relatedLight].at(3, 2, 0) *= 1 + 5e-7f;
+    changed.channels[Channel::lit].at(3, 2, 0) *= 1 + 5e-7f;
     EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
     // Small for the pixel, but large for its blue component.
-    changed.channels[relatedLight].at(5, 5, 2) = 1.1e-6f;
+    changed.channels[Channel::lit].at(5, 5, 2) = 1.1e-6f;
     const FrameResult result = evaluate(given, changed, toleranceFor(Equality::sums));
     EXPECT_FALSE(result.passes());
     EXPECT_EQ(result.worst()->x, 5);
     // Surface channels are not sums of light.
     changed = given;
-    changed.channels[relatedAlbedo].at(3, 2, 0) = above(0.5f);
+    changed.channels[Channel::albedo].at(3, 2, 0) = above(0.5f);
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
 }
 
 TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
     Frame given = twoWalls();
-    for (int y = 0; y < relatedHeight; ++y) given.channels[relatedLight].at(4, y, 0) = 0.6f;
+    for (int y = 0; y < relatedHeight; ++y) given.channels[Channel::lit].at(4, y, 0) = 0.6f;
     Frame changed = given;
-    changed.channels[relatedLight].at(4, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
+    changed.channels[Channel::lit].at(4, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
     EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
-    changed.channels[relatedLight].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
+    changed.channels[Channel::lit].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     // No tolerance where neighbouring pixels are equal.
     changed = given;
-    changed.channels[relatedLight].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
+    changed.channels[Channel::lit].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
 }
 
@@ -221,10 +212,10 @@ TEST(Relations, LightFollowsANormalAsFastAsItsLobe) {
     // Roughness 0.5, alpha 0.25: light may change by 12 times the normal's rotation.
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 1e-5;
-    changed.channels[relatedNormal].at(2, 3, 0) = 0.9e-5f;
-    changed.channels[relatedLight].at(2, 3, 0) *= 1 + 11 * 0.9e-5f;
+    changed.channels[Channel::normals].at(2, 3, 0) = 0.9e-5f;
+    changed.channels[Channel::lit].at(2, 3, 0) *= 1 + 11 * 0.9e-5f;
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    changed.channels[relatedLight].at(2, 3, 0) *= 1 + 5 * 0.9e-5f;
+    changed.channels[Channel::lit].at(2, 3, 0) *= 1 + 5 * 0.9e-5f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
@@ -232,9 +223,9 @@ TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
     const Frame given = twoWalls();
     const auto shows = [&](int x, int y) {
         Frame changed = given;
-        changed.channels[relatedId].at(x, y) = 1;
-        changed.channels[relatedDepth].at(x, y) = 3;
-        changed.channels[relatedLight].at(x, y, 0) = 0.9f;
+        changed.channels[Channel::material_id].at(x, y) = 1;
+        changed.channels[Channel::depth].at(x, y) = 3;
+        changed.channels[Channel::lit].at(x, y, 0) = 0.9f;
         return changed;
     };
     const FrameResult beside =
@@ -248,7 +239,8 @@ TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
     Frame changed = given;
     for (int y = 0; y < relatedHeight; ++y)
         for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
-            changed.channels[relatedId].at(x, y) = 1 - given.channels.at(relatedId).at(x, y);
+            changed.channels[Channel::material_id].at(x, y) =
+                1 - given.channels.at(Channel::material_id).at(x, y);
     EXPECT_GT(evaluate(given, changed, toleranceFor(Equality::rounding)).aside, 8u);
     EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
     // Bitwise equality has no tolerance at edges.
@@ -260,15 +252,15 @@ TEST(Relations, OfOneDepthEitherSurfaceMayBeSeen) {
     RelationTolerance tolerance = toleranceFor(Equality::bits);
     tolerance.reorders = true;
     Frame changed = given;
-    changed.channels[relatedId].at(2, 3) = 1;
-    changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
+    changed.channels[Channel::material_id].at(2, 3) = 1;
+    changed.channels[Channel::lit].at(2, 3, 0) = 0.9f;
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     EXPECT_EQ(evaluate(given, changed, tolerance).aside, 1u);
-    changed.channels[relatedDepth].at(2, 3) = 1.5f;
+    changed.channels[Channel::depth].at(2, 3) = 1.5f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
     // The same surface must have the same light.
     changed = given;
-    changed.channels[relatedLight].at(2, 3, 0) = 0.9f;
+    changed.channels[Channel::lit].at(2, 3, 0) = 0.9f;
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
 }
 
@@ -278,16 +270,16 @@ TEST(Relations, AFilterMayWeightOtherwiseOfFewPixels) {
     tolerance.textured = {true, false};
     tolerance.filter_step = 0x1p-7;
     Frame changed = given;
-    changed.channels[relatedAlbedo].at(2, 3, 1) += 0x1p-8f;
-    changed.channels[relatedLight].at(2, 3, 1) += 0x1p-8f;
+    changed.channels[Channel::albedo].at(2, 3, 1) += 0x1p-8f;
+    changed.channels[Channel::lit].at(2, 3, 1) += 0x1p-8f;
     EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
     EXPECT_EQ(evaluate(given, changed, tolerance).filtered, 1u);
     Frame wrong = changed;
-    wrong.channels[relatedAlbedo].at(2, 3, 1) += 0.25f;
+    wrong.channels[Channel::albedo].at(2, 3, 1) += 0.25f;
     EXPECT_FALSE(evaluate(given, wrong, tolerance).passes()) << "its light alone is excused";
     Frame more = given;
     for (int y = 0; y < relatedHeight; ++y)
-        for (int x = 0; x < 2; ++x) more.channels[relatedAlbedo].at(x, y, 1) += 0x1p-8f;
+        for (int x = 0; x < 2; ++x) more.channels[Channel::albedo].at(x, y, 1) += 0x1p-8f;
     EXPECT_FALSE(evaluate(given, more, tolerance).passes());
     tolerance.textured = {false, false};
     EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "there is no texture";
@@ -297,21 +289,21 @@ TEST(Relations, WhatIsNoNumberIsBroken) {
     const Frame given = twoWalls();
     for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding}) {
         Frame changed = given;
-        changed.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
+        changed.channels[Channel::lit].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
         EXPECT_FALSE(evaluate(given, changed, toleranceFor(equality)).passes()) << nameOf(equality);
     }
     // A share of infinite light is infinite and must not allow anything.
     Frame endless = given;
-    endless.channels[relatedLight].at(2, 3, 0) = std::numeric_limits<float>::infinity();
+    endless.channels[Channel::lit].at(2, 3, 0) = std::numeric_limits<float>::infinity();
     for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding})
         EXPECT_FALSE(evaluate(endless, given, toleranceFor(equality)).passes()) << nameOf(equality);
 }
 
 TEST(Relations, PicturesAreMappedBack) {
     Frame changed = twoWalls();
-    changed.channels[relatedLight].at(5, 2, 0) = 8;
-    changed.channels[relatedNormal].at(5, 2, 0) = 1;
-    changed.channels[relatedNormal].at(5, 2, 2) = 0;
+    changed.channels[Channel::lit].at(5, 2, 0) = 8;
+    changed.channels[Channel::normals].at(5, 2, 0) = 1;
+    changed.channels[Channel::normals].at(5, 2, 2) = 0;
     PictureMap map;
     map.border = 1;
     map.mirrored = true;
@@ -322,11 +314,11 @@ TEST(Relations, PicturesAreMappedBack) {
     const Frame back = mappedBack(changed, map);
     EXPECT_EQ(back.settings.size, (Size{relatedWidth - 2, relatedHeight - 2}));
     const int x = relatedWidth - 2 - 1 - (5 - 1), y = 1;
-    EXPECT_EQ(back.channels.at(relatedLight).at(x, y, 0), 2);
-    EXPECT_EQ(back.channels.at(relatedDepth).at(x, y), 1);
-    EXPECT_EQ(back.channels.at(relatedId).at(x, y), 1);
-    EXPECT_EQ(back.channels.at(relatedNormal).at(x, y, 2), 1) << "+X of the changed one was +Z";
-    EXPECT_EQ(back.channels.at(relatedNormal).at(x, y, 0), 0);
+    EXPECT_EQ(back.channels.at(Channel::lit).at(x, y, 0), 2);
+    EXPECT_EQ(back.channels.at(Channel::depth).at(x, y), 1);
+    EXPECT_EQ(back.channels.at(Channel::material_id).at(x, y), 1);
+    EXPECT_EQ(back.channels.at(Channel::normals).at(x, y, 2), 1) << "+X of the changed one was +Z";
+    EXPECT_EQ(back.channels.at(Channel::normals).at(x, y, 0), 0);
 }
 
 TEST(Relations, EachChangesSomethingOrSaysWhyNot) {

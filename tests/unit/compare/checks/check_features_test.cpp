@@ -43,7 +43,7 @@ TEST(CheckFeatures, AFrameShowsItsSceneAsItWasDrawn) {
         makeSceneView(scene, {0, "eye=0,0,0 target=0,0,-1 fov=90 near=1", 200, 100, "", 0});
     Frame frame;
     EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), (Boxes{{75, 25, 125, 75}}));
-    frame.channels[static_cast<int>(gpu::DEBUG_material_id)] = Image(200, 100, 1, -1);
+    frame.channels[Channel::material_id] = Image(200, 100, 1, -1);
     EXPECT_EQ(boxesOf(visualChecksOf(scene, view, frame)), Boxes{});
 }
 

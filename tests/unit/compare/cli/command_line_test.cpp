@@ -54,8 +54,8 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
              "--no-tonemap", "--device", "llvmpipe", "--validate", "-o",         "out",
              "--force",      "--json",   "-v",       "--runs",     "3"});
         EXPECT_EQ(options.scenes, std::vector<std::string>{"a.glb"});
-        EXPECT_EQ(options.shown, 2);
-        EXPECT_EQ(options.channels, (std::vector<int>{0, 1, 2}));
+        EXPECT_EQ(options.shown, Channel::normals);
+        EXPECT_EQ(options.channels, (std::vector{Channel::lit, Channel::albedo, Channel::normals}));
         EXPECT_EQ(options.picture.ev100, -2.5);
         EXPECT_FALSE(options.picture.tonemap);
         EXPECT_EQ(options.device, "llvmpipe");
@@ -114,12 +114,12 @@ TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
         words.insert(words.begin(), "render");
         return parseCommandLine(words).shown;
     };
-    EXPECT_EQ(shown({}), static_cast<int>(gpu::DEBUG_lit));
-    EXPECT_EQ(shown({"--debug", "depth"}), static_cast<int>(gpu::DEBUG_depth));
-    EXPECT_EQ(shown({"--heat"}), static_cast<int>(gpu::DEBUG_light_count));
-    EXPECT_EQ(shown({"--heat=true"}), static_cast<int>(gpu::DEBUG_light_count));
-    EXPECT_EQ(shown({"--heat", "on"}), static_cast<int>(gpu::DEBUG_light_count));
-    EXPECT_EQ(shown({"--heat", "off"}), static_cast<int>(gpu::DEBUG_lit));
+    EXPECT_EQ(shown({}), Channel::lit);
+    EXPECT_EQ(shown({"--debug", "depth"}), Channel::depth);
+    EXPECT_EQ(shown({"--heat"}), Channel::light_count);
+    EXPECT_EQ(shown({"--heat=true"}), Channel::light_count);
+    EXPECT_EQ(shown({"--heat", "on"}), Channel::light_count);
+    EXPECT_EQ(shown({"--heat", "off"}), Channel::lit);
     EXPECT_TRUE(parseCommandLine({"render", "--debug", "lit"}).debug_given);
     EXPECT_FALSE(parseCommandLine({"render", "--heat"}).debug_given);
     EXPECT_TRUE(parseCommandLine({"render", "--path", "deferred"}).path_given);
@@ -417,7 +417,8 @@ TEST(CommandLine, APixelIsTwoNumbersFromTheTopLeft) {
 TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
     const std::string what = whatIsThrown({"render", "--channels", "gloss"});
     for (const DebugMode& mode : debugModes())
-        EXPECT_NE(what.find(std::to_string(mode.number) + " " + std::string(mode.name)), std::string::npos)
+        EXPECT_NE(what.find(std::to_string(channelNumber(mode.channel)) + " " + std::string(mode.name)),
+                  std::string::npos)
             << what;
 }
 

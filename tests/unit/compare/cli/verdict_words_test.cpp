@@ -64,7 +64,7 @@ TEST(VerdictWords, CompareIsTold) {
     EXPECT_TRUE(told({"--strict"}).strict);
     EXPECT_TRUE(told({"--allow-empty"}).allow_empty);
     EXPECT_EQ(told({"--baseline", "forward_plus"}).baseline, Path::forward_plus);
-    EXPECT_EQ(told({"--channels", "lit,depth"}).required, (std::vector<int>{0, 10}));
+    EXPECT_EQ(told({"--channels", "lit,depth"}).required, (std::vector{Channel::lit, Channel::depth}));
     EXPECT_EQ(told({"--ignore-edges", "3"}).selection.ignore_edges, 3);
     EXPECT_EQ(told({"--strict"}).words, VerdictWordList{"--strict"});
 }

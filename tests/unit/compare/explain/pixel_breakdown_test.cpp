@@ -12,9 +12,9 @@
 namespace diptych {
 namespace {
 
-PixelStep stepOf(gpu::uint mode, const PixelValue& a, const PixelValue& b, double tolerance) {
+PixelStep stepOf(Channel mode, const PixelValue& a, const PixelValue& b, double tolerance) {
     PixelStep step;
-    step.mode = &debugMode(static_cast<int>(mode));
+    step.mode = &debugMode(mode);
     step.values = {a, b};
     step.difference = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
@@ -38,19 +38,19 @@ PixelBreakdown breakdownOf(std::vector<PixelStep> steps) {
 
 // A channel that is not a step would be omitted silently.
 TEST(PixelBreakdown, EveryChannelIsAStepOnce) {
-    std::vector<int> steps(pixelSteps().begin(), pixelSteps().end()), all;
+    std::vector<Channel> steps(pixelSteps().begin(), pixelSteps().end()), all;
     std::ranges::sort(steps);
-    for (const DebugMode& mode : debugModes()) all.push_back(mode.number);
+    for (const DebugMode& mode : debugModes()) all.push_back(mode.channel);
     EXPECT_EQ(steps, all);
-    EXPECT_EQ(pixelSteps().back(), static_cast<int>(gpu::DEBUG_lit)) << "what all else makes";
+    EXPECT_EQ(pixelSteps().back(), Channel::lit) << "what all else makes";
     // The light terms come after the inputs of lighting and before its results.
-    EXPECT_TRUE(std::ranges::is_partitioned(pixelSteps(), [](int mode) { return !isAfterTerms(mode); }));
+    EXPECT_TRUE(std::ranges::is_partitioned(pixelSteps(), [](Channel mode) { return !isAfterTerms(mode); }));
 }
 
 TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
-    PixelBreakdown breakdown = breakdownOf({stepOf(gpu::DEBUG_depth, {1}, {1}, 0),
-                                            stepOf(gpu::DEBUG_roughness, {0.3}, {0.30012}, 0.002),
-                                            stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
+    PixelBreakdown breakdown =
+        breakdownOf({stepOf(Channel::depth, {1}, {1}, 0), stepOf(Channel::roughness, {0.3}, {0.30012}, 0.002),
+                     stepOf(Channel::lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
     EXPECT_EQ(
         firstDifference(breakdown),
         "the first step that differs by more than rounding: roughness (0.30012 against 0.3, 0.00012 in its "
@@ -70,7 +70,7 @@ TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
 // If only light differs, its term comes before the channels it affects.
 TEST(PixelBreakdown, ATermComesBeforeTheLightItMakes) {
     PixelBreakdown breakdown = breakdownOf(
-        {stepOf(gpu::DEBUG_depth, {1}, {1}, 0), stepOf(gpu::DEBUG_lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
+        {stepOf(Channel::depth, {1}, {1}, 0), stepOf(Channel::lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
     breakdown.lights.push_back({.name = "lamp", .kind = "point"});
     PixelTerm lamp{.lights = {0}};
     lamp.values = {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 1.5}};
@@ -85,7 +85,7 @@ TEST(PixelBreakdown, ATermComesBeforeTheLightItMakes) {
 }
 
 TEST(PixelBreakdown, ShowsAsManyDigitsAsADifferenceTakes) {
-    const PixelBreakdown breakdown = breakdownOf({stepOf(gpu::DEBUG_metallic, {0.25}, {0.25000003}, 1)});
+    const PixelBreakdown breakdown = breakdownOf({stepOf(Channel::metallic, {0.25}, {0.25000003}, 1)});
     EXPECT_NE(firstDifference(breakdown).find("0.25000003 against 0.25,"), std::string::npos)
         << firstDifference(breakdown);
 }

@@ -2,6 +2,7 @@
 #include "shared/frame/settings.h"
 #include "compare/explain/channel_lighting.h"
 #include "compare/explain/explain.h"
+#include "compare/frames/frame_facts.h"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +23,11 @@ TEST(ExplainSettings, ThoseInChannelsAreThere) {
 
 // The surface, the result, whose material each pixel is, and whether a lightmap lights it.
 TEST(ExplainSettings, ChannelsAreTheSurfacesAndWhatTheyMake) {
-    std::set<int> expected(surfaceChannels().begin(), surfaceChannels().end());
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_material_id, gpu::DEBUG_lightmapped})
-        EXPECT_TRUE(expected.insert(static_cast<int>(mode)).second);
-    const std::vector<int> channels = explainedChannels();
-    EXPECT_EQ(channels, std::vector<int>(expected.begin(), expected.end()));
+    std::set<Channel> expected(surfaceChannels().begin(), surfaceChannels().end());
+    for (const Channel mode : {Channel::lit, Channel::material_id, Channel::lightmapped})
+        EXPECT_TRUE(expected.insert(mode).second);
+    const std::vector<Channel> channels = explainedChannels();
+    EXPECT_EQ(channels, std::vector<Channel>(expected.begin(), expected.end()));
 }
 
 }  // namespace

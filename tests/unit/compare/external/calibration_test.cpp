@@ -196,11 +196,11 @@ private:
         settings.path = Path::reference;
         settings.reference_mode = ReferenceMode::scene;
         RenderOptions options;
-        options.channels = {static_cast<int>(gpu::DEBUG_lit)};
+        options.channels = {Channel::lit};
         options.runs = 0;
         const Frame frame =
             std::move(drawWithoutDevice(scene, {referenceSettings(settings)}, options).front());
-        const Image& whole = frame.channels.at(static_cast<int>(gpu::DEBUG_lit));
+        const Image& whole = frame.channels.at(Channel::lit);
         ChartReference shown{Image(whole_size.width, whole_size.height, 3), {}};
         for (int y = 0; y < whole_size.height; ++y)
             for (int x = 0; x < whole_size.width; ++x)

@@ -163,7 +163,7 @@ TEST(Metrics, SizesMustAgree) {
 Frame ids(PixelData values) {
     Frame frame;
     frame.settings.size = {static_cast<int>(values.size()), 1};
-    frame.channels[gpu::DEBUG_material_id] = rowOf(1, std::move(values));
+    frame.channels[Channel::material_id] = rowOf(1, std::move(values));
     return frame;
 }
 
@@ -177,18 +177,18 @@ TEST(Coverage, APixelIsBackgroundOnlyInBoth) {
 TEST(Coverage, DepthTellsWhereThereAreNoIds) {
     Frame frame;
     frame.settings.size = {2, 1};
-    frame.channels[gpu::DEBUG_depth] = rowOf(1, {0, 5});
+    frame.channels[Channel::depth] = rowOf(1, {0, 5});
     EXPECT_EQ(coverage(frame, frame).covered, (std::vector<std::uint8_t>{0, 1}));
     Frame bare;
     bare.settings.size = {2, 1};
-    bare.channels[gpu::DEBUG_lit] = rowOf(3, {0, 0, 0, 1, 1, 1});
+    bare.channels[Channel::lit] = rowOf(3, {0, 0, 0, 1, 1, 1});
     EXPECT_FALSE(coverage(bare, bare).known);
     EXPECT_EQ(coverage(bare, bare).count, 2u);
 }
 
 TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
     Frame frame = ids({0, 1});
-    frame.channels[gpu::DEBUG_depth] = rowOf(1, {0, 5, 6});
+    frame.channels[Channel::depth] = rowOf(1, {0, 5, 6});
     EXPECT_THROW(coverage(frame, frame), std::runtime_error);
 }
 

@@ -5,7 +5,6 @@
 #include "compare/picture/picture.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
-#include "tests/support/modes.h"
 #include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
@@ -150,8 +149,8 @@ Report withErrors(const std::array<double, 4>& errors) {
         frame.scene = "builtin:one";
         frame.settings.path = path;
         frame.settings.size = {4, 1};
-        frame.channels[idMode] = Image(4, 1, 1, 3.0f);
-        Image& roughness = frame.channels[gpu::DEBUG_roughness] = Image(4, 1, 1);
+        frame.channels[Channel::material_id] = Image(4, 1, 1, 3.0f);
+        Image& roughness = frame.channels[Channel::roughness] = Image(4, 1, 1);
         for (std::size_t i = 0; i < 4 && path == Path::forward_plus; ++i)
             roughness.data[i] = static_cast<float>(errors[i]);
     }
@@ -161,8 +160,8 @@ Report withErrors(const std::array<double, 4>& errors) {
 // Quantization error bound of roughness.
 double roughnessTolerance() {
     const Report report = withErrors({0, 0, 0, 0});
-    return std::ranges::find(report.comparisons[0].channels, gpu::DEBUG_roughness,
-                             [](const ChannelDiff& c) { return static_cast<gpu::uint>(c.mode->number); })
+    return std::ranges::find(report.comparisons[0].channels, Channel::roughness,
+                             [](const ChannelDiff& c) { return c.mode->channel; })
         ->tolerance.max;
 }
 
@@ -213,16 +212,16 @@ TEST(ErrorPicture, TheLegendNamesItsEnd) {
 
 // ---- Channels over their range ----
 
-Frame rowFrame(int mode, std::vector<float> values) {
+Frame rowFrame(Channel mode, std::vector<float> values) {
     Frame frame;
     const int width = static_cast<int>(values.size()) / debugMode(mode).width;
     frame.settings.size = {width, 1};
-    frame.channels[idMode] = Image(width, 1, 1, 3.0f);
+    frame.channels[Channel::material_id] = Image(width, 1, 1, 3.0f);
     Image& image = frame.channels[mode] = Image(width, 1, debugMode(mode).width);
     std::ranges::copy(values, image.data.begin());
     return frame;
 }
-std::pair<Image8, std::string> shown(int mode, const std::vector<Frame>& frames) {
+std::pair<Image8, std::string> shown(Channel mode, const std::vector<Frame>& frames) {
     std::vector<const Frame*> all;
     for (const Frame& frame : frames) all.push_back(&frame);
     const PictureScale range = scaleFor(debugMode(mode), {}, all);
@@ -231,20 +230,20 @@ std::pair<Image8, std::string> shown(int mode, const std::vector<Frame>& frames)
 
 // Both images share a range; bytes are linear in it.
 TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
-    const auto [depth, words] = shown(gpu::DEBUG_depth, {rowFrame(gpu::DEBUG_depth, {1, 2, 3, 4}),
-                                                         rowFrame(gpu::DEBUG_depth, {5, 2, 2, 2})});
+    const auto [depth, words] = shown(
+        Channel::depth, {rowFrame(Channel::depth, {1, 2, 3, 4}), rowFrame(Channel::depth, {5, 2, 2, 2})});
     EXPECT_EQ(words, "grey, 1 to 5 m");
     for (std::size_t i = 0; i < 4; ++i)
         for (const std::uint8_t byte : pixelOf(depth, i))
             EXPECT_EQ(byte, std::lround(255 * static_cast<double>(i) / 4)) << i;
     const auto [normals, axes] =
-        shown(gpu::DEBUG_normals, {rowFrame(gpu::DEBUG_normals, {0, 0, 1, -1, 0, 0, 0.6f, -0.5f, 0})});
+        shown(Channel::normals, {rowFrame(Channel::normals, {0, 0, 1, -1, 0, 0, 0.6f, -0.5f, 0})});
     EXPECT_EQ(axes, "x, y, z as red, green, blue, -1 to 1");
     EXPECT_EQ(pixelOf(normals, 0), (Rgb{128, 128, 255}));
     EXPECT_EQ(pixelOf(normals, 1), (Rgb{0, 128, 128}));
     EXPECT_EQ(pixelOf(normals, 2), (Rgb{204, 64, 128})) << "255 x 0.8, 255 x 0.25, 127.5";
     const auto [rough, grey] =
-        shown(gpu::DEBUG_roughness, {rowFrame(gpu::DEBUG_roughness, {0, 0.25f, 1, 0.75f})});
+        shown(Channel::roughness, {rowFrame(Channel::roughness, {0, 0.25f, 1, 0.75f})});
     EXPECT_EQ(grey, "grey, 0 to 1");
     EXPECT_EQ(pixelOf(rough, 1), (Rgb{64, 64, 64}));
     EXPECT_EQ(pixelOf(rough, 3), (Rgb{191, 191, 191}));
@@ -258,7 +257,7 @@ constexpr Rgb heatStops[] = {{20, 20, 90},   {20, 130, 190},  {40, 190, 90},
 
 TEST(HeatPicture, CountsHaveTheLegendsColours) {
     const auto [picture, words] =
-        shown(gpu::DEBUG_light_count, {rowFrame(gpu::DEBUG_light_count, {0, 4, 8, 12, 16, 20, 2, 10})});
+        shown(Channel::light_count, {rowFrame(Channel::light_count, {0, 4, 8, 12, 16, 20, 2, 10})});
     EXPECT_EQ(words, "heat map, 0 to 20 lights");
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pixelOf(picture, i), heatStops[i]) << 4 * i << " of 20";
     EXPECT_EQ(pixelOf(picture, 6), (Rgb{20, 75, 140})) << "a tenth: half way from dark blue to cyan";
@@ -287,8 +286,8 @@ TEST(HeatPicture, TheTopIsTheNextRoundNumber) {
 TEST(HeatPicture, ThePagesLegendStandsBelowWithTitleAndUnit) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames) {
-        std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);  // all pixels show a surface
-        Image& counts = frame.channels.at(gpu::DEBUG_light_count);
+        std::ranges::fill(frame.channels.at(Channel::material_id).data, 3.0f);  // all pixels show a surface
+        Image& counts = frame.channels.at(Channel::light_count);
         for (std::size_t i = 0; i < counts.pixels(); ++i) counts.data[i] = static_cast<float>(i % 6 * 4);
     }
     const Report report = reportOf(std::move(frames));

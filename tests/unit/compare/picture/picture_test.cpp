@@ -37,16 +37,15 @@ TEST(Picture, ExposureIsForTheNinetyFifthPercentile) {
 // Neither a film's index nor its thickness is between 0 and 1, and only the thickness has a unit.
 TEST(Picture, FilmsAreShownOverTheirRange) {
     Frame frame = bothFrames()[0];
-    for (const auto& [number, value, words] :
-         {std::tuple{gpu::DEBUG_iridescence_ior, 1.5f, "grey, 0 to 1.5"},
-          {gpu::DEBUG_iridescence_thickness, 400.0f, "grey, 0 to 400 nm"},
-          {gpu::DEBUG_transmission_thickness, 0.5f, "grey, 0 to 0.5 m"},
-          {gpu::DEBUG_attenuation_distance, 3.0f, "grey, 0 to 3 m"},
-          {gpu::DEBUG_dispersion, 1.5f, "grey, 0 to 1.5"}}) {
-        const DebugMode& mode = debugMode(static_cast<int>(number));
-        Image& image = frame.channels.at(mode.number);
+    for (const auto& [shown, value, words] : {std::tuple{Channel::iridescence_ior, 1.5f, "grey, 0 to 1.5"},
+                                              {Channel::iridescence_thickness, 400.0f, "grey, 0 to 400 nm"},
+                                              {Channel::transmission_thickness, 0.5f, "grey, 0 to 0.5 m"},
+                                              {Channel::attenuation_distance, 3.0f, "grey, 0 to 3 m"},
+                                              {Channel::dispersion, 1.5f, "grey, 0 to 1.5"}}) {
+        const DebugMode& mode = debugMode(shown);
+        Image& image = frame.channels.at(mode.channel);
         image.at(1, 2) = value;
-        Image& ids = frame.channels.at(gpu::DEBUG_material_id);
+        Image& ids = frame.channels.at(Channel::material_id);
         ids.at(2, 2) = 1;  // a surface without a film
         const Frame* frames[] = {&frame};
         const PictureScale scale = scaleFor(mode, {}, frames);
@@ -58,8 +57,8 @@ TEST(Picture, FilmsAreShownOverTheirRange) {
 // One object has one colour; neighbouring ids have different colours.
 TEST(Picture, AnIdHasItsColour) {
     Frame frame = bothFrames()[0];
-    const DebugMode& ids = debugMode(gpu::DEBUG_material_id);
-    Image& image = frame.channels.at(gpu::DEBUG_material_id);
+    const DebugMode& ids = debugMode(Channel::material_id);
+    Image& image = frame.channels.at(Channel::material_id);
     for (int x = 0; x < 4; ++x) image.at(x, 2) = static_cast<float>(std::array{0, 1, 2, 0}[x]);
     const Frame* frames[] = {&frame};
     const Image8 picture = channelPicture(ids, frame, scaleFor(ids, {}, frames));
@@ -83,11 +82,10 @@ TEST(Picture, AnIdHasItsColour) {
 
 TEST(Picture, BackgroundAndExposure) {
     const Frame frame = bothFrames()[0];
-    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
+    const DebugMode& lit = debugMode(Channel::lit);
     PictureChoice choice;
     choice.tonemap = false;
-    const Exposure automatic =
-        exposureFor(choice, &frame.channels.at(gpu::DEBUG_lit), coverage(frame, frame));
+    const Exposure automatic = exposureFor(choice, &frame.channels.at(Channel::lit), coverage(frame, frame));
     EXPECT_DOUBLE_EQ(automatic.factor, 0.18 / 0.5) << "one covered pixel of luminance 0.5";
     const Frame* frames[] = {&frame};
     const Image8 image = channelPicture(lit, frame, scaleFor(lit, automatic, frames));
@@ -150,10 +148,10 @@ TEST(Picture, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
 TEST(Picture, WhatWasRepairedIsMarked) {
     Frame frame;
     frame.settings.size = {3, 1};
-    frame.channels[0] = Image(3, 1, 3, 0.5f);
-    frame.channels[8] = Image(3, 1, 1, 0.0f);
-    frame.repaired[0] = {1};
-    const Image8 picture = channelPicture(debugMode(0), frame, {});
+    frame.channels[Channel::lit] = Image(3, 1, 3, 0.5f);
+    frame.channels[Channel::material_id] = Image(3, 1, 1, 0.0f);
+    frame.repaired[Channel::lit] = {1};
+    const Image8 picture = channelPicture(debugMode(Channel::lit), frame, {});
     const auto at = [&](std::size_t i) {
         return std::array<std::uint8_t, 3>{picture.data[3 * i], picture.data[3 * i + 1],
                                            picture.data[3 * i + 2]};

@@ -302,13 +302,13 @@ Scene brushedFloor(const std::vector<std::uint8_t>& rgb) {
 }
 Surface brushedAt(const Scene& scene, const glm::dvec3& eye = {0, 0, 3}) {
     const Drawn d = drawn(scene, viewFrom(eye, {0, 0, 0}, 1, 1, 0.01));
-    const auto vector = [&](gpu::uint mode) {
+    const auto vector = [&](Channel mode) {
         return glm::dvec3(d[mode].at(0, 0, 0), d[mode].at(0, 0, 1), d[mode].at(0, 0, 2));
     };
     Surface s;
-    s.anisotropy = double{d[gpu::DEBUG_anisotropy].at(0, 0, 0)};
-    s.anisotropy_direction = vector(gpu::DEBUG_anisotropy_direction);
-    s.normal = vector(gpu::DEBUG_normals);
+    s.anisotropy = double{d[Channel::anisotropy].at(0, 0, 0)};
+    s.anisotropy_direction = vector(Channel::anisotropy_direction);
+    s.normal = vector(Channel::normals);
     return s;
 }
 void expectAlong(const glm::dvec3& value, const glm::dvec3& expected) {

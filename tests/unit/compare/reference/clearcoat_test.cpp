@@ -222,8 +222,8 @@ TEST(ReferenceClearcoat, EmissionIsUnderIt) {
     Scene scene = lacquered({0, 0, 0});
     scene.materials[0].emissive = {2, 1, 4};
     const Drawn d = lacquerBelow(scene);
-    EXPECT_NEAR(onlyPixel(d[gpu::DEBUG_lit]).b, 4 * (1 - 0.5 * 0.04), 1e-6);
-    EXPECT_EQ(onlyPixel(d[gpu::DEBUG_emission]).b, 4) << "the material's";
+    EXPECT_NEAR(onlyPixel(d[Channel::lit]).b, 4 * (1 - 0.5 * 0.04), 1e-6);
+    EXPECT_EQ(onlyPixel(d[Channel::emission]).b, 4) << "the material's";
 }
 
 TEST(ReferenceClearcoat, LitIsTheSumOfItsParts) {
@@ -231,31 +231,31 @@ TEST(ReferenceClearcoat, LitIsTheSumOfItsParts) {
     scene.materials[0].emissive = {0.5f, 0.5f, 0.5f};
     scene.lights = {lightOf(LightKind::point, {0, 0, 2})};
     const Drawn d = lacquerBelow(scene);
-    EXPECT_GT(onlyPixel(d[gpu::DEBUG_lit_clearcoat]).g, 0.1);
-    EXPECT_EQ(onlyPixel(d[gpu::DEBUG_lit_clearcoat]), onlyPixel(d[gpu::DEBUG_lit_specular]))
+    EXPECT_GT(onlyPixel(d[Channel::lit_clearcoat]).g, 0.1);
+    EXPECT_EQ(onlyPixel(d[Channel::lit_clearcoat]), onlyPixel(d[Channel::lit_specular]))
         << "a Lambertian base";
-    EXPECT_NEAR(onlyPixel(d[gpu::DEBUG_lit]).g,
-                onlyPixel(d[gpu::DEBUG_lit_diffuse]).g + onlyPixel(d[gpu::DEBUG_lit_specular]).g + 0.5 * 0.98,
+    EXPECT_NEAR(onlyPixel(d[Channel::lit]).g,
+                onlyPixel(d[Channel::lit_diffuse]).g + onlyPixel(d[Channel::lit_specular]).g + 0.5 * 0.98,
                 1e-6);
 }
 
 TEST(ReferenceClearcoat, FactorsAndTextures) {
     Scene scene = lacquered({51, 102, 204});
-    EXPECT_EQ(onlyPixel(lacquerBelow(scene)[gpu::DEBUG_clearcoat]).r, 0.5);
-    EXPECT_EQ(onlyPixel(lacquerBelow(scene)[gpu::DEBUG_clearcoat_roughness]).r, 0.25);
+    EXPECT_EQ(onlyPixel(lacquerBelow(scene)[Channel::clearcoat]).r, 0.5);
+    EXPECT_EQ(onlyPixel(lacquerBelow(scene)[Channel::clearcoat_roughness]).r, 0.25);
     scene.materials[0].clearcoat_texture.texture = 0;
     scene.materials[0].clearcoat_roughness_texture.texture = 0;
     const Drawn d = lacquerBelow(scene);
-    EXPECT_NEAR(onlyPixel(d[gpu::DEBUG_clearcoat]).r, 0.5 * 0.2, 1e-7) << "red";
-    EXPECT_NEAR(onlyPixel(d[gpu::DEBUG_clearcoat_roughness]).r, 0.25 * 0.4, 1e-7) << "green";
+    EXPECT_NEAR(onlyPixel(d[Channel::clearcoat]).r, 0.5 * 0.2, 1e-7) << "red";
+    EXPECT_NEAR(onlyPixel(d[Channel::clearcoat_roughness]).r, 0.25 * 0.4, 1e-7) << "green";
 }
 
 TEST(ReferenceClearcoat, TheBasesNormalMapIsNotTheCoats) {
     Scene scene = lacquered({204, 153, 230});
     scene.materials[0].normal_texture.texture = 0;
     const Drawn base = lacquerBelow(scene);
-    EXPECT_LT(onlyPixel(base[gpu::DEBUG_normals]).z, 0.9);
-    EXPECT_EQ(onlyPixel(base[gpu::DEBUG_clearcoat_normal]), glm::dvec3(0, 0, 1));
+    EXPECT_LT(onlyPixel(base[Channel::normals]).z, 0.9);
+    EXPECT_EQ(onlyPixel(base[Channel::clearcoat_normal]), glm::dvec3(0, 0, 1));
     scene.materials[0].normal_texture.texture = -1;
     scene.materials[0].clearcoat_normal_texture.texture = 0;
     for (const float scale : {1.0f, 0.5f, 0.0f}) {
@@ -263,15 +263,15 @@ TEST(ReferenceClearcoat, TheBasesNormalMapIsNotTheCoats) {
         const Drawn coat = lacquerBelow(scene);
         const glm::dvec3 expected = glm::normalize(
             glm::dvec3((2 * 204 / 255.0 - 1) * scale, (2 * 153 / 255.0 - 1) * scale, 2 * 230 / 255.0 - 1));
-        EXPECT_EQ(onlyPixel(coat[gpu::DEBUG_normals]), glm::dvec3(0, 0, 1));
-        EXPECT_LT(glm::length(onlyPixel(coat[gpu::DEBUG_clearcoat_normal]) - expected), 1e-6) << scale;
+        EXPECT_EQ(onlyPixel(coat[Channel::normals]), glm::dvec3(0, 0, 1));
+        EXPECT_LT(glm::length(onlyPixel(coat[Channel::clearcoat_normal]) - expected), 1e-6) << scale;
     }
 }
 
 TEST(ReferenceClearcoat, ItFacesTheViewerOnABack) {
     Scene scene = lacquered({0, 0, 0});
     scene.materials[0].double_sided = true;
-    EXPECT_NEAR(onlyPixel(lacquerBelow(scene, {0, 0, -3})[gpu::DEBUG_clearcoat_normal]).z, -1, 1e-6);
+    EXPECT_NEAR(onlyPixel(lacquerBelow(scene, {0, 0, -3})[Channel::clearcoat_normal]).z, -1, 1e-6);
 }
 
 TEST(ReferenceClearcoat, WithoutOneItsChannelsAreZero) {
@@ -281,8 +281,8 @@ TEST(ReferenceClearcoat, WithoutOneItsChannelsAreZero) {
     unlit.materials[0].unlit = true;
     for (const Scene& scene : {texture, factor, unlit}) {
         const Drawn d = lacquerBelow(scene);
-        for (const gpu::uint mode :
-             {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_clearcoat_normal})
+        for (const Channel mode :
+             {Channel::clearcoat, Channel::clearcoat_roughness, Channel::clearcoat_normal})
             EXPECT_EQ(onlyPixel(d[mode]), glm::dvec3(0));
     }
 }
@@ -297,7 +297,7 @@ TEST(ReferenceClearcoat, CapturedLayersAreShadedAgain) {
     scene.lights = {lightOf(LightKind::point, {0.5, 0.2, 2})};
     const View view = viewFrom({1, 0, 3}, {0, 0, 0}, 2, 2, 0.05);
     const Drawn traced = drawn(scene, view);
-    const auto shaded = [&](const std::map<int, Image>& surfaces) {
+    const auto shaded = [&](const std::map<Channel, Image>& surfaces) {
         return draw({.scene = scene,
                      .pose = traced.pose,
                      .view = view,
@@ -305,31 +305,29 @@ TEST(ReferenceClearcoat, CapturedLayersAreShadedAgain) {
                      .mode = ReferenceMode::surface,
                      .surfaces = &surfaces});
     };
-    const auto lit = static_cast<int>(gpu::DEBUG_lit), coat = static_cast<int>(gpu::DEBUG_clearcoat);
     const Picture again = shaded(traced.picture.channels);
-    const double expected = double{traced[gpu::DEBUG_lit].at(0, 0, 1)};
-    EXPECT_NEAR(double{again.channels.at(lit).at(0, 0, 1)}, expected, 1e-4 * expected);
+    const double expected = double{traced[Channel::lit].at(0, 0, 1)};
+    EXPECT_NEAR(double{again.channels.at(Channel::lit).at(0, 0, 1)}, expected, 1e-4 * expected);
     // A capture of a scene without layers lacks their channels.
-    std::map<int, Image> plain = traced.picture.channels;
+    std::map<Channel, Image> plain = traced.picture.channels;
     std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
     const Picture without = shaded(plain);
-    EXPECT_GT(std::abs(double{without.channels.at(lit).at(0, 0, 1)} - expected), 0.01 * expected);
-    EXPECT_EQ(without.channels.at(coat).at(0, 0), 0);
+    EXPECT_GT(std::abs(double{without.channels.at(Channel::lit).at(0, 0, 1)} - expected), 0.01 * expected);
+    EXPECT_EQ(without.channels.at(Channel::clearcoat).at(0, 0), 0);
 }
 
 TEST(ReferenceClearcoat, SurfacesNeedTheChannelsOfTheirLayers) {
-    const std::vector<int> none = surfaceChannels(0), all = surfaceChannels(~0u);
-    const auto has = [](const std::vector<int>& modes, gpu::uint mode) {
-        return std::ranges::count(modes, static_cast<int>(mode)) == 1;
+    const std::vector<Channel> none = surfaceChannels(0), all = surfaceChannels(~0u);
+    const auto has = [](const std::vector<Channel>& modes, Channel mode) {
+        return std::ranges::count(modes, mode) == 1;
     };
-    for (const gpu::uint mode :
-         {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_clearcoat_normal,
-          gpu::DEBUG_anisotropy, gpu::DEBUG_anisotropy_direction}) {
+    for (const Channel mode : {Channel::clearcoat, Channel::clearcoat_roughness, Channel::clearcoat_normal,
+                               Channel::anisotropy, Channel::anisotropy_direction}) {
         EXPECT_FALSE(has(none, mode));
         EXPECT_TRUE(has(all, mode));
     }
-    EXPECT_TRUE(has(none, gpu::DEBUG_normals));
-    EXPECT_FALSE(has(all, gpu::DEBUG_lit_clearcoat)) << "shaded, not captured";
+    EXPECT_TRUE(has(none, Channel::normals));
+    EXPECT_FALSE(has(all, Channel::lit_clearcoat)) << "shaded, not captured";
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ Scene litFromBelow(float weight) {
     scene.lights = {lightOf(LightKind::point, {0, 0, -2}, {0, 0, 1})};
     return scene;
 }
-glm::dvec3 aboveLeaf(const Scene& scene, gpu::uint mode, bool shadows) {
+glm::dvec3 aboveLeaf(const Scene& scene, Channel mode, bool shadows) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
     glm::dvec3 value(0);
     for (int c = 0; c < d[mode].components; ++c) value[c] = double{d[mode].at(0, 0, c)};
@@ -198,42 +198,42 @@ glm::dvec3 aboveLeaf(const Scene& scene, gpu::uint mode, bool shadows) {
 
 TEST(ReferenceDiffuseTransmission, ShadowRaysStartOnTheLightsSide) {
     for (const bool shadows : {false, true}) {
-        const glm::dvec3 lit = aboveLeaf(litFromBelow(0.5f), gpu::DEBUG_lit, shadows);
+        const glm::dvec3 lit = aboveLeaf(litFromBelow(0.5f), Channel::lit, shadows);
         EXPECT_NEAR(lit.r, 0.5 / 4 / pi, 1e-6) << shadows;
         EXPECT_NEAR(lit.b, 0.25 * lit.r, 1e-7) << shadows;
-        EXPECT_EQ(aboveLeaf(litFromBelow(0.5f), gpu::DEBUG_lit_transmission, shadows), lit);
-        EXPECT_EQ(aboveLeaf(litFromBelow(0), gpu::DEBUG_lit, shadows), glm::dvec3(0));
+        EXPECT_EQ(aboveLeaf(litFromBelow(0.5f), Channel::lit_transmission, shadows), lit);
+        EXPECT_EQ(aboveLeaf(litFromBelow(0), Channel::lit, shadows), glm::dvec3(0));
     }
     Scene between = litFromBelow(0.5f);
     between.materials.push_back(matte());
     add(between, quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, 1));
-    EXPECT_EQ(aboveLeaf(between, gpu::DEBUG_lit, true), glm::dvec3(0)) << "a board below";
+    EXPECT_EQ(aboveLeaf(between, Channel::lit, true), glm::dvec3(0)) << "a board below";
     Scene above = litFromBelow(0.5f);
     above.materials.push_back(matte());
     add(above, quad({-1, 1, 4}, {2, 0, 0}, {0, -2, 0}, 1));
-    EXPECT_GT(aboveLeaf(above, gpu::DEBUG_lit, true).r, 0) << "a board above shades nothing below";
-    EXPECT_EQ(aboveLeaf(above, gpu::DEBUG_local_visibility, true).r, 1);
-    EXPECT_EQ(aboveLeaf(between, gpu::DEBUG_local_visibility, true).r, 0);
+    EXPECT_GT(aboveLeaf(above, Channel::lit, true).r, 0) << "a board above shades nothing below";
+    EXPECT_EQ(aboveLeaf(above, Channel::local_visibility, true).r, 1);
+    EXPECT_EQ(aboveLeaf(between, Channel::local_visibility, true).r, 0);
 }
 
 TEST(ReferenceDiffuseTransmission, FactorsAndTexturesAndChannels) {
     Scene scene = litFromBelow(0.5f);
-    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission, false).r, 0.5);
-    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(1, 0.5, 0.25));
+    EXPECT_EQ(aboveLeaf(scene, Channel::diffuse_transmission, false).r, 0.5);
+    EXPECT_EQ(aboveLeaf(scene, Channel::diffuse_transmission_color, false), glm::dvec3(1, 0.5, 0.25));
     scene.images = {{"texel", 1, 1, {255, 0, 255, 51}}};
     scene.textures = {{0, {}}};
     Material& m = scene.materials[0];
     m.diffuse_transmission_texture.texture = m.diffuse_transmission_color_texture.texture = 0;
-    EXPECT_NEAR(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission, false).r, 0.5 * 0.2, 1e-7) << "alpha";
-    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(1, 0, 0.25));
+    EXPECT_NEAR(aboveLeaf(scene, Channel::diffuse_transmission, false).r, 0.5 * 0.2, 1e-7) << "alpha";
+    EXPECT_EQ(aboveLeaf(scene, Channel::diffuse_transmission_color, false), glm::dvec3(1, 0, 0.25));
     scene.images[0].rgba[3] = 0;
-    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(0))
+    EXPECT_EQ(aboveLeaf(scene, Channel::diffuse_transmission_color, false), glm::dvec3(0))
         << "no colour without a weight";
     scene.images[0].rgba = {255, 255, 255, 255};
     m.thickness = 2;
     m.attenuation_distance = 1;
     m.attenuation_color = {0.5f, 1, 0};
-    EXPECT_EQ(aboveLeaf(scene, gpu::DEBUG_diffuse_transmission_color, false), glm::dvec3(0.25, 0.5, 0))
+    EXPECT_EQ(aboveLeaf(scene, Channel::diffuse_transmission_color, false), glm::dvec3(0.25, 0.5, 0))
         << "the volume absorbs";
 }
 
@@ -250,11 +250,10 @@ TEST(ReferenceDiffuseTransmission, CapturedLeavesAreShadedAgain) {
                   .casters = shadows ? everyLight(traced.pose.lights) : std::vector<std::size_t>{},
                   .mode = ReferenceMode::surface,
                   .surfaces = &traced.picture.channels});
-        for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_transmission}) {
+        for (const Channel mode : {Channel::lit, Channel::lit_transmission}) {
             const double expected = double{traced[mode].at(0, 0, 0)};
             EXPECT_GT(expected, 0);
-            EXPECT_NEAR(double{again.channels.at(static_cast<int>(mode)).at(0, 0, 0)}, expected,
-                        1e-5 * expected);
+            EXPECT_NEAR(double{again.channels.at(mode).at(0, 0, 0)}, expected, 1e-5 * expected);
         }
     }
 }

@@ -27,7 +27,7 @@ const LightKind kinds[] = {LightKind::directional, LightKind::point, LightKind::
 // Value of one pixel that looks straight down at the floor's centre, float32.
 double seenBelow(const Scene& scene, bool shadows = false) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
-    return double{d[gpu::DEBUG_lit].at(0, 0, 0)};
+    return double{d[Channel::lit].at(0, 0, 0)};
 }
 
 // ---- kinds and channels ------------------------------------------------------------------------------
@@ -58,19 +58,18 @@ TEST(ReferenceDraw, EveryKindInEveryChannel) {
         scene.lights[0].intensity = 3;
         const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
         for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(d.picture.channels.contains(mode.number), isMadeByReference(mode)) << mode.name;
+            ASSERT_EQ(d.picture.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
             if (!isMadeByReference(mode)) continue;
-            const Image& image = d.picture.channels.at(mode.number);
+            const Image& image = d.picture.channels.at(mode.channel);
             EXPECT_EQ(image.components, mode.width) << mode.name;
             for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
         }
-        const double lit = double{d[gpu::DEBUG_lit].at(1, 1, 0)},
-                     expected = irradianceOf(scene.lights[0]) / pi;
+        const double lit = double{d[Channel::lit].at(1, 1, 0)}, expected = irradianceOf(scene.lights[0]) / pi;
         EXPECT_GT(lit, 0) << static_cast<int>(kind);
         if (expected > 0) {
             EXPECT_NEAR(lit, expected, 1e-6 * expected) << static_cast<int>(kind);
         }
-        EXPECT_EQ(d[gpu::DEBUG_lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
+        EXPECT_EQ(d[Channel::lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
     }
 }
 
@@ -83,29 +82,29 @@ TEST(ReferenceDraw, Channels) {
     m.emissive = {1, 2, 4};
     m.specular = 0.5f;
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01));
-    const auto value = [&](gpu::uint mode, int c = 0) { return double{d[mode].at(0, 0, c)}; };
-    EXPECT_EQ(value(gpu::DEBUG_albedo, 2), 0.125);
-    EXPECT_EQ(value(gpu::DEBUG_metallic), 0.5);
-    EXPECT_EQ(value(gpu::DEBUG_roughness), 0.75);
-    EXPECT_EQ(value(gpu::DEBUG_emission, 1), 2);
-    EXPECT_EQ(value(gpu::DEBUG_lit, 2), 4) << "what it emits, without lights";
-    EXPECT_EQ(value(gpu::DEBUG_occlusion), 1);
-    EXPECT_EQ(value(gpu::DEBUG_dielectric_f90), 0.5);
-    EXPECT_NEAR(value(gpu::DEBUG_specular, 1), 0.5 * 0.04 * 0.5 + 0.25 * 0.5, 1e-8)
+    const auto value = [&](Channel mode, int c = 0) { return double{d[mode].at(0, 0, c)}; };
+    EXPECT_EQ(value(Channel::albedo, 2), 0.125);
+    EXPECT_EQ(value(Channel::metallic), 0.5);
+    EXPECT_EQ(value(Channel::roughness), 0.75);
+    EXPECT_EQ(value(Channel::emission, 1), 2);
+    EXPECT_EQ(value(Channel::lit, 2), 4) << "what it emits, without lights";
+    EXPECT_EQ(value(Channel::occlusion), 1);
+    EXPECT_EQ(value(Channel::dielectric_f90), 0.5);
+    EXPECT_NEAR(value(Channel::specular, 1), 0.5 * 0.04 * 0.5 + 0.25 * 0.5, 1e-8)
         << "half metal, half dielectric";
-    EXPECT_EQ(value(gpu::DEBUG_normals, 2), 1);
-    EXPECT_EQ(value(gpu::DEBUG_geometric_normal, 2), 1);
-    EXPECT_NEAR(value(gpu::DEBUG_depth), 3, 1e-6);
-    EXPECT_NEAR(value(gpu::DEBUG_position, 2), -3, 1e-6);
-    EXPECT_EQ(value(gpu::DEBUG_material_id), 0);
-    EXPECT_NEAR(value(gpu::DEBUG_texcoords, 1), 0.5, 1e-6);
-    EXPECT_NEAR(value(gpu::DEBUG_dielectric_f0, 1), 0.5 * 0.04, 1e-8) << "whatever the metal is";
-    for (const gpu::uint mode : {gpu::DEBUG_tangent, gpu::DEBUG_handedness, gpu::DEBUG_tangent_normal})
+    EXPECT_EQ(value(Channel::normals, 2), 1);
+    EXPECT_EQ(value(Channel::geometric_normal, 2), 1);
+    EXPECT_NEAR(value(Channel::depth), 3, 1e-6);
+    EXPECT_NEAR(value(Channel::position, 2), -3, 1e-6);
+    EXPECT_EQ(value(Channel::material_id), 0);
+    EXPECT_NEAR(value(Channel::texcoords, 1), 0.5, 1e-6);
+    EXPECT_NEAR(value(Channel::dielectric_f0, 1), 0.5 * 0.04, 1e-8) << "whatever the metal is";
+    for (const Channel mode : {Channel::tangent, Channel::handedness, Channel::tangent_normal})
         EXPECT_EQ(value(mode), 0) << "there is no normal map";
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
         if (!isMadeByReference(mode)) continue;
-        EXPECT_EQ(empty.picture.channels.at(mode.number).data[0], mode.name == "material_id" ? -1 : 0)
+        EXPECT_EQ(empty.picture.channels.at(mode.channel).data[0], mode.name == "material_id" ? -1 : 0)
             << mode.name;
     }
 }
@@ -122,7 +121,7 @@ Scene roofed(const Material& of, LightKind kind = LightKind::point) {
 }
 double below(const Scene& scene) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 0.5}, {0, 0, 0}, 1, 1, 0.01), true);
-    return double{d[gpu::DEBUG_lit].at(0, 0, 0)} * pi;
+    return double{d[Channel::lit].at(0, 0, 0)} * pi;
 }
 
 TEST(ReferenceDraw, ARoofShadesEveryKindOfLight) {
@@ -210,7 +209,7 @@ TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptWhereItCounts) {
         ASSERT_EQ(d.picture.rounding.empty(), range == 20);
         if (range == 20) continue;
         const double share =
-            double{d.picture.rounding.at(0, 0, 0)} / double{d[gpu::DEBUG_lit_diffuse].at(0, 0, 0)};
+            double{d.picture.rounding.at(0, 0, 0)} / double{d[Channel::lit_diffuse].at(0, 0, 0)};
         EXPECT_GT(share, 0.001);
         EXPECT_LT(share, 0.02);
     }
@@ -247,13 +246,13 @@ TEST(ReferenceDraw, ALampMayLieOnACeiling) {
             lamp.direction = {0, 0, -1};
             scene.lights = {lamp};
             const View view = viewFrom({3, 0, 1.5}, {0, 0, 0}, 5, 5);
-            const Image open = drawn(scene, view)[gpu::DEBUG_lit],
-                        shaded = drawn(scene, view, true)[gpu::DEBUG_lit];
+            const Image open = drawn(scene, view)[Channel::lit],
+                        shaded = drawn(scene, view, true)[Channel::lit];
             for (std::size_t i = 0; i < open.pixels(); ++i)
                 EXPECT_NEAR(shaded.pixel(i)[0], open.pixel(i)[0], 1e-5f * open.pixel(i)[0])
                     << height << " " << i;
             add(scene, quad({-4, 4, 1.9f}, {8, 0, 0}, {0, -8, 0}));
-            EXPECT_EQ(drawn(scene, view, true)[gpu::DEBUG_lit].at(2, 2, 0), 0) << "a board between";
+            EXPECT_EQ(drawn(scene, view, true)[Channel::lit].at(2, 2, 0), 0) << "a board between";
             scene.meshes[0].primitives.pop_back();
         }
     }
@@ -270,11 +269,10 @@ TEST(ReferenceDraw, SamplesAreTheMeanOverThePixel) {
         for (std::size_t i = 0; i < lit.pixels(); ++i) sum += double{lit.pixel(i)[0]};
         return sum / static_cast<double>(lit.pixels());
     };
-    const double fine = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 320, 240))[gpu::DEBUG_lit]);
-    const double coarse =
-        mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[gpu::DEBUG_lit]);
+    const double fine = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 320, 240))[Channel::lit]);
+    const double coarse = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6), false, 1600)[Channel::lit]);
     EXPECT_NEAR(coarse, fine, 0.005 * fine);
-    const double one = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6))[gpu::DEBUG_lit]);
+    const double one = mean(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 8, 6))[Channel::lit]);
     EXPECT_GT(std::abs(one - fine), 0.01 * fine) << "one sample is not, or this would show nothing";
 }
 
@@ -292,7 +290,8 @@ const View sampledView = viewFrom({2, 1, 1.5}, {0, 0, 0}, 40, 36);
 
 void expectSame(const Picture& a, const Picture& b) {
     ASSERT_EQ(a.channels.size(), b.channels.size());
-    for (const auto& [mode, image] : a.channels) EXPECT_EQ(image.data, b.channels.at(mode).data) << mode;
+    for (const auto& [mode, image] : a.channels)
+        EXPECT_EQ(image.data, b.channels.at(mode).data) << debugMode(mode).name;
     EXPECT_EQ(a.uncertainty.data, b.uncertainty.data);
     EXPECT_FALSE(a.uncertainty.empty());
 }

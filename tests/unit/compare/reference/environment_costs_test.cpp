@@ -186,7 +186,7 @@ double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
     for (std::size_t i = 0; i < picture.surroundings.pixels(); ++i) {
         all += double{picture.surroundings.pixel(i)[0]};
         hidden += double{picture.surroundings.pixel(i)[1]};
-        EXPECT_NEAR(double{picture.channels.at(0).pixel(i)[0]}, 1, 0.02) << "lit has all of it";
+        EXPECT_NEAR(double{picture.channels.at(Channel::lit).pixel(i)[0]}, 1, 0.02) << "lit has all of it";
     }
     EXPECT_NEAR(all / static_cast<double>(picture.surroundings.pixels()), 1, 0.03) << "radiance 1, white";
     return hidden / all;

@@ -270,8 +270,8 @@ Scene oilyFloor() {
 // Weight, index and thickness.
 glm::dvec3 filmOn(const Scene& scene) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01));
-    return {d[gpu::DEBUG_iridescence].at(0, 0, 0), d[gpu::DEBUG_iridescence_ior].at(0, 0, 0),
-            d[gpu::DEBUG_iridescence_thickness].at(0, 0, 0)};
+    return {d[Channel::iridescence].at(0, 0, 0), d[Channel::iridescence_ior].at(0, 0, 0),
+            d[Channel::iridescence_thickness].at(0, 0, 0)};
 }
 
 TEST(ReferenceIridescence, FactorsAndTextures) {
@@ -299,19 +299,19 @@ TEST(ReferenceIridescence, CapturedFilmsAreShadedAgain) {
     scene.lights = {lightOf(LightKind::point, {0.5, 0.2, 2})};
     const View view = viewFrom({1, 0, 3}, {0, 0, 0}, 2, 2, 0.05);
     const Drawn traced = drawn(scene, view);
-    const auto lit = [&](const std::map<int, Image>& surfaces) {
+    const auto lit = [&](const std::map<Channel, Image>& surfaces) {
         const Picture picture = draw({.scene = scene,
                                       .pose = traced.pose,
                                       .view = view,
                                       .lights = traced.pose.lights,
                                       .mode = ReferenceMode::surface,
                                       .surfaces = &surfaces});
-        return double{picture.channels.at(static_cast<int>(gpu::DEBUG_lit)).at(0, 0, 2)};
+        return double{picture.channels.at(Channel::lit).at(0, 0, 2)};
     };
-    const double expected = double{traced[gpu::DEBUG_lit].at(0, 0, 2)};
+    const double expected = double{traced[Channel::lit].at(0, 0, 2)};
     EXPECT_NEAR(lit(traced.picture.channels), expected, 1e-4 * expected);
     // A capture of a scene without layers lacks their channels.
-    std::map<int, Image> plain = traced.picture.channels;
+    std::map<Channel, Image> plain = traced.picture.channels;
     std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
     EXPECT_GT(std::abs(lit(plain) - expected), 0.01 * expected);
 }

@@ -29,7 +29,7 @@ struct Asked {
     ReferenceMode mode = ReferenceMode::scene;
     int samples = 4;
     Resolve resolve = Resolve::linear;
-    std::map<int, Image> surfaces{{0, Image(2, 1, 1)}};
+    std::map<Channel, Image> surfaces{{Channel::lit, Image(2, 1, 1)}};
     std::string program = "1.0";
 
     Asked() {
@@ -142,7 +142,7 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
              a.mode = ReferenceMode::surface;
              a.material().lightmap_texture.texture = 0;
          }},
-        {"surfaces", [](Asked& a) { a.surfaces.at(0).data[1] = 1; }},
+        {"surfaces", [](Asked& a) { a.surfaces.at(Channel::lit).data[1] = 1; }},
         {"one light more", [](Asked& a) { a.lights.push_back(a.lights[0]); }},
         {"colour", [](Asked& a) { a.light().color.g = 0.5f; }},
         {"intensity", [](Asked& a) { a.light().intensity = 2; }},

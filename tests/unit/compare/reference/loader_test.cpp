@@ -82,12 +82,12 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.25}}}};
     const glm::dvec3 place(1.0 / 3, 1.0 / 3, -2.0 / 3);
     const Drawn d = drawn(f.load(), viewFrom(place + glm::dvec3(0, 4, 0), place, 1, 1, 0.01));
-    expectNear(at(d[gpu::DEBUG_normals], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
-    expectNear(at(d[gpu::DEBUG_geometric_normal], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
-    EXPECT_NEAR(double{d[gpu::DEBUG_depth].at(0, 0)}, 4, 1e-6);
-    expectNear(at(d[gpu::DEBUG_albedo], 0, 0), glm::dvec3(0.5 / 3, 1.0 / 3, 0.5 / 3));
+    expectNear(at(d[Channel::normals], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
+    expectNear(at(d[Channel::geometric_normal], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
+    EXPECT_NEAR(double{d[Channel::depth].at(0, 0)}, 4, 1e-6);
+    expectNear(at(d[Channel::albedo], 0, 0), glm::dvec3(0.5 / 3, 1.0 / 3, 0.5 / 3));
     const double e = 2 * 2 / std::sqrt(5.0) / pi;
-    expectNear(at(d[gpu::DEBUG_lit], 0, 0), e * glm::dvec3(0.5 / 3, 0.5 / 3, 0.125 / 3));
+    expectNear(at(d[Channel::lit], 0, 0), e * glm::dvec3(0.5 / 3, 0.5 / 3, 0.125 / 3));
 }
 
 // ---- lights ------------------------------------------------------------------------------------------
@@ -112,10 +112,10 @@ TEST(ReferenceLoader, ASpotInItsUnits) {
     const double expected = 8 / square_of * cosine * inside * inside * window / pi;
     for (const int x : {1, 2})
         for (const int y : {1, 2})
-            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
+            EXPECT_NEAR(double{d[Channel::lit].at(x, y, 1)}, expected, 1e-6 * expected);
     // The cone's edge is at tan(0.5) 2 = 1.09 m, the corner pixels' centres at 1.06 m.
-    EXPECT_GT(d[gpu::DEBUG_lit].at(0, 0, 1), 0);
-    EXPECT_LT(d[gpu::DEBUG_lit].at(0, 0, 1), 0.01f);
+    EXPECT_GT(d[Channel::lit].at(0, 0, 1), 0);
+    EXPECT_LT(d[Channel::lit].at(0, 0, 1), 0.01f);
 }
 
 TEST(ReferenceLoader, AnAreaLightOfExtras) {
@@ -132,7 +132,7 @@ TEST(ReferenceLoader, AnAreaLightOfExtras) {
                 glm::dvec3(-1.5, -0.5, 2) - place, glm::dvec3(1.5, -0.5, 2) - place,
                 glm::dvec3(1.5, 0.5, 2) - place, glm::dvec3(-1.5, 0.5, 2) - place};
             const double expected = 10 * lambertIrradiance(corners, {0, 0, 1}) / pi;
-            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(x, y, 1)}, expected, 1e-6 * expected);
+            EXPECT_NEAR(double{d[Channel::lit].at(x, y, 1)}, expected, 1e-6 * expected);
         }
 }
 
@@ -143,7 +143,7 @@ TEST(ReferenceLoader, ATexturesFirstRowIsOnTop) {
     GltfFile f = square({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     addTexture(f, 2, {{255, 0, 0, 0, 128, 0}, {0, 0, 55, 255, 255, 255}});
     const Drawn d = front(f.load());
-    const Image& albedo = d[gpu::DEBUG_albedo];
+    const Image& albedo = d[Channel::albedo];
     for (const int i : {0, 1}) {
         expectNear(at(albedo, i, i), {1, 0, 0});
         expectNear(at(albedo, 2 + i, i), {0, 0.2158605, 0});
@@ -163,9 +163,9 @@ TEST(ReferenceLoader, TheOrderOfMetallicAndRoughness) {
                 {"occlusionTexture", occlusion}});
     addTexture(f, 1, {{51, 102, 204}});
     const Drawn d = front(f.load());
-    EXPECT_NEAR(double{d[gpu::DEBUG_roughness].at(1, 1)}, 0.4 * 0.25, 1e-7);
-    EXPECT_NEAR(double{d[gpu::DEBUG_metallic].at(1, 1)}, 0.8 * 0.5, 1e-7);
-    EXPECT_NEAR(double{d[gpu::DEBUG_occlusion].at(1, 1)}, 1 + 0.5 * (0.2 - 1), 1e-7);
+    EXPECT_NEAR(double{d[Channel::roughness].at(1, 1)}, 0.4 * 0.25, 1e-7);
+    EXPECT_NEAR(double{d[Channel::metallic].at(1, 1)}, 0.8 * 0.5, 1e-7);
+    EXPECT_NEAR(double{d[Channel::occlusion].at(1, 1)}, 1 + 0.5 * (0.2 - 1), 1e-7);
 }
 
 TEST(ReferenceLoader, EmissionHasAStrength) {
@@ -174,7 +174,7 @@ TEST(ReferenceLoader, EmissionHasAStrength) {
                          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 20}}}}}});
     f.json["extensionsUsed"].push_back("KHR_materials_emissive_strength");
     addTexture(f, 1, {{128, 255, 255}});
-    expectNear(at(front(f.load())[gpu::DEBUG_emission], 1, 1), {20 * 0.2158605, 10, 0}, 1e-5);
+    expectNear(at(front(f.load())[Channel::emission], 1, 1), {20 * 0.2158605, 10, 0}, 1e-5);
 }
 
 // Red points along u, green to the texture's top, here +Y (glTF 2.0, 3.9.3).
@@ -182,7 +182,7 @@ TEST(ReferenceLoader, ANormalMapsRedIsRightAndGreenIsUp) {
     const auto normalOf = [](const std::vector<std::uint8_t>& pixel, double scale) {
         GltfFile f = square({{"normalTexture", {{"index", 0}, {"scale", scale}}}});
         addTexture(f, 1, {pixel});
-        return at(front(f.load())[gpu::DEBUG_normals], 1, 1);
+        return at(front(f.load())[Channel::normals], 1, 1);
     };
     const auto unpacked = [](int code) { return 2 * code / 255.0 - 1; };
     for (const double scale : {1.0, 0.5}) {

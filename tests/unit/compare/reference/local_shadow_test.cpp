@@ -28,7 +28,7 @@ Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
 }
 
 double visibility(const Picture& picture) {
-    return double{picture.channels.at(gpu::DEBUG_local_visibility).at(0, 0)};
+    return double{picture.channels.at(Channel::local_visibility).at(0, 0)};
 }
 
 TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
@@ -67,9 +67,9 @@ TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
 TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
     for (const double x : {-0.2, 0.2}) {
         const Picture with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
-        EXPECT_EQ(without.channels.at(gpu::DEBUG_lit).data, with.channels.at(gpu::DEBUG_lit).data);
+        EXPECT_EQ(without.channels.at(Channel::lit).data, with.channels.at(Channel::lit).data);
         EXPECT_TRUE(without.local_shadow_edge.empty());
-        for (const int mode : {gpu::DEBUG_shadow_visibility, gpu::DEBUG_local_visibility}) {
+        for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility}) {
             EXPECT_EQ(with.channels.count(mode), 1u);
             EXPECT_EQ(without.channels.count(mode), 0u);
         }

@@ -61,7 +61,7 @@ double throughBall(double beside, double index, double absorbed) {
 
 void expectThrough(const Drawn& d, const glm::dvec3& expected, double beside) {
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(0, 0, c)}, expected[c],
+        EXPECT_NEAR(double{d[Channel::lit].at(0, 0, c)}, expected[c],
                     2 * double{d.picture.uncertainty.data.empty() ? 0.0f : d.picture.uncertainty.at(0, 0)} +
                         5e-3 * expected[c])
             << beside << " " << c;
@@ -99,7 +99,7 @@ TEST(ReferenceMeshPath, AnIndexOfOneIsInvisible) {
     for (const float roughness : {0.0f, 1.0f}) {
         m.roughness = roughness;
         for (const double beside : {0.1, 0.5}) {
-            const double seen = double{drawn(ballScene(m), downAt(beside))[gpu::DEBUG_lit].at(0, 0)};
+            const double seen = double{drawn(ballScene(m), downAt(beside))[Channel::lit].at(0, 0)};
             EXPECT_NEAR(seen, floorUnderBall({beside, 0, -3}), 1e-5) << roughness << " " << beside;
         }
     }
@@ -115,7 +115,7 @@ TEST(ReferenceMeshPath, AWhiteFurnaceStaysWhite) {
         scene.lights.clear();
         scene.environment = Environment{"furnace", Image(8, 4, 3, 1.0f)};
         for (const double beside : {0.1, 0.6, 0.9}) {
-            const double lit = double{drawn(scene, downAt(beside))[gpu::DEBUG_lit].at(0, 0)};
+            const double lit = double{drawn(scene, downAt(beside))[Channel::lit].at(0, 0)};
             EXPECT_LE(lit, 1 + 1e-6) << roughness << " " << beside;
             EXPECT_GE(lit, 0.99) << roughness << " " << beside;
         }
@@ -126,7 +126,7 @@ TEST(ReferenceMeshPath, AWhiteFurnaceStaysWhite) {
 TEST(ReferenceMeshPath, AHollowBallIsAThinWall) {
     Material m = clearGlass();
     m.thickness = 0;
-    const double seen = double{drawn(ballScene(m), downAt(0.5))[gpu::DEBUG_lit].at(0, 0)};
+    const double seen = double{drawn(ballScene(m), downAt(0.5))[Channel::lit].at(0, 0)};
     EXPECT_NEAR(seen, floorUnderBall({0.5, 0, -3}), 1e-6);
 }
 
@@ -141,8 +141,8 @@ TEST(ReferenceMeshPath, WhatIsInsideIsSeenThroughTheMedium) {
     scene.materials.push_back(core);
     add(scene, quad({-0.5f, -0.5f, 0.25f}, {1, 0, 0}, {0, 1, 0}, 2));
     const Drawn d = drawn(scene, downAt(0));
-    EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(0, 0, 0)}, 2 * std::pow(0.5, 0.75), 1e-3);
-    EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(0, 0, 1)}, 2, 1e-5);
+    EXPECT_NEAR(double{d[Channel::lit].at(0, 0, 0)}, 2 * std::pow(0.5, 0.75), 1e-3);
+    EXPECT_NEAR(double{d[Channel::lit].at(0, 0, 1)}, 2, 1e-5);
 }
 
 }  // namespace

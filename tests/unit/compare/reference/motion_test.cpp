@@ -28,14 +28,14 @@ Picture drawnAt(const Scene& scene, double seconds, const View& view, const std:
                  .progress = progress});
 }
 
-glm::vec3 at(const Picture& picture, gpu::uint mode, int x, int y) {
-    const Image& image = picture.channels.at(static_cast<int>(mode));
+glm::vec3 at(const Picture& picture, Channel mode, int x, int y) {
+    const Image& image = picture.channels.at(mode);
     glm::vec3 result(0);
     for (int c = 0; c < image.components; ++c) result[c] = image.at(x, y, c);
     return result;
 }
 bool isSurface(const Picture& picture, int x, int y) {
-    return at(picture, gpu::DEBUG_material_id, x, y).x >= 0;
+    return at(picture, Channel::material_id, x, y).x >= 0;
 }
 
 // A patch of 1 m at x = -1, animated from 0 s to 1 s, without other objects. Seen from +Z with one pixel
@@ -100,9 +100,9 @@ TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
         EXPECT_FALSE(isSurface(start, right, row)) << mover.name;
         EXPECT_FALSE(isSurface(end, left, row)) << mover.name;
         ASSERT_TRUE(isSurface(end, right, row)) << mover.name;
-        EXPECT_NEAR(at(start, gpu::DEBUG_depth, left, row).x, 10, 1e-5) << mover.name;
-        EXPECT_NEAR(at(end, gpu::DEBUG_depth, right, row).x, 9, 1e-5) << mover.name;
-        EXPECT_NEAR(at(end, gpu::DEBUG_lit, right, row).x, 1 / pi, 1e-6) << mover.name;
+        EXPECT_NEAR(at(start, Channel::depth, left, row).x, 10, 1e-5) << mover.name;
+        EXPECT_NEAR(at(end, Channel::depth, right, row).x, 9, 1e-5) << mover.name;
+        EXPECT_NEAR(at(end, Channel::lit, right, row).x, 1 / pi, 1e-6) << mover.name;
     }
 }
 
@@ -127,7 +127,7 @@ TEST(ReferenceMotion, NormalsOfSkinsGoByEachJointOrByTheirMean) {
                                       .skin_normals = normals,
                                       .mode = ReferenceMode::scene});
         ASSERT_TRUE(isSurface(picture, left, row));
-        const glm::vec3 off = at(picture, gpu::DEBUG_normals, left, row) - glm::normalize(expected);
+        const glm::vec3 off = at(picture, Channel::normals, left, row) - glm::normalize(expected);
         EXPECT_LT(glm::length(off), 1e-6) << nameOf(normals);
     }
 }
@@ -142,7 +142,7 @@ TEST(ReferenceMotion, MaterialsAreThoseOfTheTime) {
                   {.keyframes = 1, .part = AnimatedPart::emissive, .object = 0}};
     scene.animations.push_back(a);
     for (const auto& [seconds, expected] : {std::pair{0.0, 0.0}, {0.5, 0.5 / pi + 1}, {1.0, 1 / pi + 2}})
-        EXPECT_NEAR(at(drawnAt(scene, seconds, fromAbove), gpu::DEBUG_lit, left, row).x, expected, 1e-6)
+        EXPECT_NEAR(at(drawnAt(scene, seconds, fromAbove), Channel::lit, left, row).x, expected, 1e-6)
             << seconds;
 }
 
@@ -155,9 +155,10 @@ TEST(ReferenceMotion, NormalsArePosedToo) {
     scene.nodes[1].parent_from_node = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
     const Picture turned = drawnAt(scene, 0, fromAbove);
     const glm::vec3 expected(std::sin(angle), 0, std::cos(angle));
-    for (const gpu::uint mode : {gpu::DEBUG_normals, gpu::DEBUG_geometric_normal})
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(turned, mode, left, row)[c], expected[c], 1e-6) << mode;
-    EXPECT_NEAR(at(turned, gpu::DEBUG_lit, left, row).x, std::cos(angle) / pi, 1e-6);
+    for (const Channel mode : {Channel::normals, Channel::geometric_normal})
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(at(turned, mode, left, row)[c], expected[c], 1e-6) << debugMode(mode).name;
+    EXPECT_NEAR(at(turned, Channel::lit, left, row).x, std::cos(angle) / pi, 1e-6);
 }
 
 // The patch moves between a floor and the sun, and its shadow moves with it.
@@ -170,7 +171,7 @@ TEST(ReferenceMotion, ShadowsGoWithWhatMoves) {
         scene.lights[0].direction = glm::normalize(glm::dvec3(0, -2, -1));
         const auto shaded = [&](double seconds, double x, double z) {
             const View view = viewFrom({x, -2 * (z + 1), 8}, {x, -2 * (z + 1), 0}, 1, 1, 0.01);
-            return at(drawnAt(scene, seconds, view), gpu::DEBUG_lit, 0, 0).x == 0;
+            return at(drawnAt(scene, seconds, view), Channel::lit, 0, 0).x == 0;
         };
         EXPECT_TRUE(shaded(0, -1, 0)) << mover.name;
         EXPECT_FALSE(shaded(0, 1, 1)) << mover.name;
@@ -193,11 +194,11 @@ TEST(ReferenceMotion, ColorsAndTexcoordsAreMorphed) {
     const Picture start = drawnAt(scene, 0, fromAbove), half = drawnAt(scene, 0.5, fromAbove);
     const glm::vec3 expected(0.5f, 0.75f, 1);
     for (int c = 0; c < 3; ++c) {
-        EXPECT_EQ(at(start, gpu::DEBUG_albedo, left, row)[c], 1);
-        EXPECT_NEAR(at(half, gpu::DEBUG_albedo, left, row)[c], expected[c], 1e-6);
+        EXPECT_EQ(at(start, Channel::albedo, left, row)[c], 1);
+        EXPECT_NEAR(at(half, Channel::albedo, left, row)[c], expected[c], 1e-6);
     }
-    EXPECT_NEAR(at(half, gpu::DEBUG_texcoords, left, row).x, 0.5 + 0.125, 1e-6);
-    EXPECT_NEAR(at(half, gpu::DEBUG_texcoords, left, row).y, 0.5 - 0.25, 1e-6);
+    EXPECT_NEAR(at(half, Channel::texcoords, left, row).x, 0.5 + 0.125, 1e-6);
+    EXPECT_NEAR(at(half, Channel::texcoords, left, row).y, 0.5 - 0.25, 1e-6);
 }
 
 TEST(ReferenceMotion, AMaskThatIsMorphedAwayThrowsNoShadow) {
@@ -214,8 +215,8 @@ TEST(ReferenceMotion, AMaskThatIsMorphedAwayThrowsNoShadow) {
     animate(scene, 0, AnimatedPart::weights, {0, 1}, 1);
     scene.lights[0].direction = glm::normalize(glm::dvec3(0, -2, -1));
     const View view = viewFrom({-1, -2, 8}, {-1, -2, 0}, 1, 1, 0.01);
-    EXPECT_EQ(at(drawnAt(scene, 0.25, view), gpu::DEBUG_lit, 0, 0).x, 0) << "alpha is 0.75";
-    EXPECT_GT(at(drawnAt(scene, 0.75, view), gpu::DEBUG_lit, 0, 0).x, 0) << "alpha is 0.25";
+    EXPECT_EQ(at(drawnAt(scene, 0.25, view), Channel::lit, 0, 0).x, 0) << "alpha is 0.75";
+    EXPECT_GT(at(drawnAt(scene, 0.75, view), Channel::lit, 0, 0).x, 0) << "alpha is 0.25";
 }
 
 // In mode surface, too, shadow and occlusion rays hit the posed geometry.

@@ -11,7 +11,7 @@ namespace diptych::reference {
 namespace {
 
 Drawn resolved(const Scene& scene, const View& view, int samples, Resolve resolve,
-               const std::map<int, Image>* surfaces = nullptr) {
+               const std::map<Channel, Image>* surfaces = nullptr) {
     Drawn result{poseAt(scene, 0), {}};
     result.picture = draw({.scene = scene,
                            .pose = result.pose,
@@ -45,13 +45,13 @@ Scene halfCovered() {
 TEST(ReferenceResolve, AHalfCoveredPixel) {
     for (const int samples : {64, 256}) {
         const glm::dvec3 mean =
-            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::linear)[gpu::DEBUG_lit]);
+            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::linear)[Channel::lit]);
         // With evenly spread samples, an integer number is on either side.
         const glm::dvec3 a(lampRadiance), b(floorRadiance);
         const double covered = std::round(samples * (mean.x - b.x) / (a.x - b.x)), rest = samples - covered;
         EXPECT_NEAR(covered, samples / 2, 1);
         const glm::dvec3 lit =
-            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::tonemapped)[gpu::DEBUG_lit]);
+            radianceOf(resolved(halfCovered(), onePixelView, samples, Resolve::tonemapped)[Channel::lit]);
         const double wa = 1 / (1 + 9.0), wb = 1 / (1 + 0.25);
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(mean[c], (covered * a[c] + rest * b[c]) / samples, 1e-6 * a[c]);
@@ -71,7 +71,7 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
     const Drawn solid = resolved(halfCovered(), onePixelView, 64, Resolve::tonemapped),
                 layer = resolved(scene, onePixelView, 64, Resolve::tonemapped);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(radianceOf(solid[gpu::DEBUG_lit])[c], radianceOf(layer[gpu::DEBUG_lit])[c], 1e-6) << c;
+        EXPECT_NEAR(radianceOf(solid[Channel::lit])[c], radianceOf(layer[Channel::lit])[c], 1e-6) << c;
     // Surfaces behind the layer are resolved as if it were absent: half of it is another bright sheet.
     Scene behind = floorScene();
     behind.materials = scene.materials;
@@ -85,8 +85,8 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
     const Drawn bare = resolved(behind, onePixelView, 64, Resolve::tonemapped),
                 covered = resolved(scene, onePixelView, 64, Resolve::tonemapped);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(radianceOf(covered.picture.unblended)[c], radianceOf(bare[gpu::DEBUG_lit])[c], 1e-6) << c;
-    EXPECT_GT(radianceOf(covered[gpu::DEBUG_lit]).x, 1) << "the layer is there";
+        EXPECT_NEAR(radianceOf(covered.picture.unblended)[c], radianceOf(bare[Channel::lit])[c], 1e-6) << c;
+    EXPECT_GT(radianceOf(covered[Channel::lit]).x, 1) << "the layer is there";
 }
 
 // A pixel with a single radiance keeps it in either mode. A single sample and the captured surface (one
@@ -94,17 +94,18 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
 TEST(ReferenceResolve, OfOneRadianceIsThatRadiance) {
     Scene scene = halfCovered();
     scene.materials[0].emissive = lampRadiance;
-    const glm::dvec3 lit = radianceOf(resolved(scene, onePixelView, 64, Resolve::tonemapped)[gpu::DEBUG_lit]);
+    const glm::dvec3 lit = radianceOf(resolved(scene, onePixelView, 64, Resolve::tonemapped)[Channel::lit]);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], double{lampRadiance[c]}, 1e-6);
     scene = halfCovered();
     scene.lights = {lightOf(LightKind::point, {0.3, 0, 2})};
     const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 9, 7);
     const Drawn one = resolved(scene, view, 1, Resolve::linear);
-    EXPECT_EQ(one.picture.channels.at(0).data,
-              resolved(scene, view, 1, Resolve::tonemapped).picture.channels.at(0).data);
-    const std::map<int, Image>& surfaces = one.picture.channels;
-    EXPECT_EQ(resolved(scene, view, 1, Resolve::linear, &surfaces).picture.channels.at(0).data,
-              resolved(scene, view, 1, Resolve::tonemapped, &surfaces).picture.channels.at(0).data);
+    EXPECT_EQ(one.picture.channels.at(Channel::lit).data,
+              resolved(scene, view, 1, Resolve::tonemapped).picture.channels.at(Channel::lit).data);
+    const std::map<Channel, Image>& surfaces = one.picture.channels;
+    EXPECT_EQ(
+        resolved(scene, view, 1, Resolve::linear, &surfaces).picture.channels.at(Channel::lit).data,
+        resolved(scene, view, 1, Resolve::tonemapped, &surfaces).picture.channels.at(Channel::lit).data);
 }
 
 // The light's components get the weights of the total, so they still add up to it.
@@ -125,11 +126,11 @@ TEST(ReferenceResolve, PartsAddUpToLit) {
     int changed = 0;
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 5; ++x) {
-            const glm::dvec3 lit = radianceOf(d[gpu::DEBUG_lit], x, y);
+            const glm::dvec3 lit = radianceOf(d[Channel::lit], x, y);
             const glm::dvec3 parts =
-                radianceOf(d[gpu::DEBUG_lit_diffuse], x, y) + radianceOf(d[gpu::DEBUG_lit_specular], x, y);
+                radianceOf(d[Channel::lit_diffuse], x, y) + radianceOf(d[Channel::lit_specular], x, y);
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(lit[c], parts[c], 1e-6 * lit[c]) << x << " " << y;
-            changed += lit.y < 0.999 * radianceOf(mean[gpu::DEBUG_lit], x, y).y;
+            changed += lit.y < 0.999 * radianceOf(mean[Channel::lit], x, y).y;
         }
     EXPECT_GE(changed, 4) << "or the picture has no edges";
 }

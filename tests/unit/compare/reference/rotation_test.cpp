@@ -33,8 +33,8 @@ TEST(ReferenceRotation, OfAnyLengthDrawsTheSamePlane) {
             for (const auto& [x, y] : {std::pair{0, 0}, {5, 2}, {7, 7}}) {
                 const double unit = std::tan(glm::radians(10.0)), v = (1 - (y + 0.5) / 4) * unit;
                 const double t = 5 / (1 + v * slope);
-                EXPECT_NEAR(double{picture[gpu::DEBUG_depth].at(x, y)}, t, 1e-5) << length << animated;
-                const Image& normals = picture[gpu::DEBUG_normals];
+                EXPECT_NEAR(double{picture[Channel::depth].at(x, y)}, t, 1e-5) << length << animated;
+                const Image& normals = picture[Channel::normals];
                 EXPECT_NEAR(double{normals.at(x, y, 0)}, 0, 1e-6) << length << animated;
                 EXPECT_NEAR(double{normals.at(x, y, 1)}, -std::sin(angle), 1e-6) << length << animated;
                 EXPECT_NEAR(double{normals.at(x, y, 2)}, std::cos(angle), 1e-6) << length << animated;

@@ -34,9 +34,9 @@ double litShare(const Scene& scene, double camera, From from) {
     const View view = viewFrom({0, 0, camera}, {0, 0, 0}, 1, 1);
     Drawn first = drawn(scene, view, true);
     const double whole = toLight.z / pi;
-    if (from == From::scene) return double{first[gpu::DEBUG_lit].at(0, 0, 0)} / whole;
+    if (from == From::scene) return double{first[Channel::lit].at(0, 0, 0)} / whole;
     // Shades a path's capture. With the scene's depth, the ray's start is found again exactly.
-    if (from == From::rounded_capture) first.picture.channels.at(gpu::DEBUG_depth).data[0] *= 1.001f;
+    if (from == From::rounded_capture) first.picture.channels.at(Channel::depth).data[0] *= 1.001f;
     const Picture shaded = draw({.scene = scene,
                                  .pose = first.pose,
                                  .view = view,
@@ -47,7 +47,7 @@ double litShare(const Scene& scene, double camera, From from) {
                                  .surfaces = &first.picture.channels,
                                  .keep = {},
                                  .progress = {}});
-    return double{shaded.channels.at(gpu::DEBUG_lit).at(0, 0, 0)} / whole;
+    return double{shaded.channels.at(Channel::lit).at(0, 0, 0)} / whole;
 }
 
 constexpr double cameras[] = {1, 10, 100};

@@ -409,33 +409,32 @@ glm::dvec3 soleValue(const Image& image) {
 TEST(ReferenceSheen, EmissionIsNotDimmed) {
     Scene scene = carpet({0, 0, 0, 0});
     scene.materials[0].emissive = {2, 1, 4};
-    EXPECT_NEAR(soleValue(carpetBelow(scene)[gpu::DEBUG_lit]).b, 4, 1e-6);
+    EXPECT_NEAR(soleValue(carpetBelow(scene)[Channel::lit]).b, 4, 1e-6);
 }
 
 TEST(ReferenceSheen, LitIsTheSumOfItsParts) {
     Scene scene = carpet({0, 0, 0, 0});
     scene.lights = {lightOf(LightKind::point, {2, 0, 2})};
     const Drawn d = carpetBelow(scene);
-    EXPECT_GT(soleValue(d[gpu::DEBUG_lit_sheen]).b, 1e-3);
-    EXPECT_EQ(soleValue(d[gpu::DEBUG_lit_sheen]), soleValue(d[gpu::DEBUG_lit_specular]))
-        << "a Lambertian base";
-    EXPECT_NEAR(soleValue(d[gpu::DEBUG_lit]).g,
-                soleValue(d[gpu::DEBUG_lit_diffuse]).g + soleValue(d[gpu::DEBUG_lit_specular]).g, 1e-6);
+    EXPECT_GT(soleValue(d[Channel::lit_sheen]).b, 1e-3);
+    EXPECT_EQ(soleValue(d[Channel::lit_sheen]), soleValue(d[Channel::lit_specular])) << "a Lambertian base";
+    EXPECT_NEAR(soleValue(d[Channel::lit]).g,
+                soleValue(d[Channel::lit_diffuse]).g + soleValue(d[Channel::lit_specular]).g, 1e-6);
 }
 
 TEST(ReferenceSheen, FactorsAndTextures) {
     Scene scene = carpet({188, 255, 51, 102});
-    EXPECT_EQ(soleValue(carpetBelow(scene)[gpu::DEBUG_sheen_color]), glm::dvec3(0.5, 0.25, 1));
-    EXPECT_EQ(soleValue(carpetBelow(scene)[gpu::DEBUG_sheen_roughness]).r, 0.5);
+    EXPECT_EQ(soleValue(carpetBelow(scene)[Channel::sheen_color]), glm::dvec3(0.5, 0.25, 1));
+    EXPECT_EQ(soleValue(carpetBelow(scene)[Channel::sheen_roughness]).r, 0.5);
     scene.materials[0].sheen_color_texture.texture = 0;
     scene.materials[0].sheen_roughness_texture.texture = 0;
     const auto linear = [](double byte) { return std::pow((byte / 255 + 0.055) / 1.055, 2.4); };
     const Drawn d = carpetBelow(scene);
-    const glm::dvec3 color = soleValue(d[gpu::DEBUG_sheen_color]);
+    const glm::dvec3 color = soleValue(d[Channel::sheen_color]);
     EXPECT_NEAR(color.r, 0.5 * linear(188), 1e-6) << "sRGB";
     EXPECT_NEAR(color.g, 0.25, 1e-6);
     EXPECT_NEAR(color.b, linear(51), 1e-6);
-    EXPECT_NEAR(soleValue(d[gpu::DEBUG_sheen_roughness]).r, 0.5 * 0.4, 1e-7) << "alpha, linear";
+    EXPECT_NEAR(soleValue(d[Channel::sheen_roughness]).r, 0.5 * 0.4, 1e-7) << "alpha, linear";
 }
 
 TEST(ReferenceSheen, WithoutOneItsChannelsAreZero) {
@@ -445,8 +444,8 @@ TEST(ReferenceSheen, WithoutOneItsChannelsAreZero) {
     unlit.materials[0].unlit = true;
     for (const Scene& scene : {texture, factor, unlit}) {
         const Drawn d = carpetBelow(scene);
-        EXPECT_EQ(soleValue(d[gpu::DEBUG_sheen_color]), glm::dvec3(0));
-        EXPECT_EQ(soleValue(d[gpu::DEBUG_sheen_roughness]), glm::dvec3(0));
+        EXPECT_EQ(soleValue(d[Channel::sheen_color]), glm::dvec3(0));
+        EXPECT_EQ(soleValue(d[Channel::sheen_roughness]), glm::dvec3(0));
     }
 }
 
@@ -455,7 +454,7 @@ TEST(ReferenceSheen, CapturedSheensAreShadedAgain) {
     scene.lights = {lightOf(LightKind::point, {2.5, 0.2, 1})};
     const View view = viewFrom({2, 0, 0.6}, {0, 0, 0}, 2, 2, 0.05);
     const Drawn traced = drawn(scene, view);
-    const auto shaded = [&](const std::map<int, Image>& surfaces) {
+    const auto shaded = [&](const std::map<Channel, Image>& surfaces) {
         return draw({.scene = scene,
                      .pose = traced.pose,
                      .view = view,
@@ -463,15 +462,14 @@ TEST(ReferenceSheen, CapturedSheensAreShadedAgain) {
                      .mode = ReferenceMode::surface,
                      .surfaces = &surfaces});
     };
-    const auto sheen = static_cast<int>(gpu::DEBUG_lit_sheen);
-    const double expected = double{traced[gpu::DEBUG_lit_sheen].at(0, 0, 1)};
+    const double expected = double{traced[Channel::lit_sheen].at(0, 0, 1)};
     EXPECT_GT(expected, 0);
-    EXPECT_NEAR(double{shaded(traced.picture.channels).channels.at(sheen).at(0, 0, 1)}, expected,
+    EXPECT_NEAR(double{shaded(traced.picture.channels).channels.at(Channel::lit_sheen).at(0, 0, 1)}, expected,
                 1e-4 * expected);
     // A capture of a scene without layers lacks their channels.
-    std::map<int, Image> plain = traced.picture.channels;
+    std::map<Channel, Image> plain = traced.picture.channels;
     std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
-    EXPECT_EQ(shaded(plain).channels.at(sheen).at(0, 0, 1), 0);
+    EXPECT_EQ(shaded(plain).channels.at(Channel::lit_sheen).at(0, 0, 1), 0);
 }
 
 }  // namespace

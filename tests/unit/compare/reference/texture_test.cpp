@@ -255,12 +255,12 @@ TEST(ReferenceGeometry, BackFacesAndMirrors) {
 TEST(ReferenceGeometry, OneSidedMaterialsAreSeenFromTheirFrontAlone) {
     Scene scene = floorScene();
     const View below = viewFrom({0, 0, -3}, {0, 0, 0}, 1, 1, 0.01);
-    EXPECT_EQ(drawn(scene, below)[gpu::DEBUG_material_id].at(0, 0), -1);
+    EXPECT_EQ(drawn(scene, below)[Channel::material_id].at(0, 0), -1);
     scene.materials[0].double_sided = true;
     const Drawn d = drawn(scene, below);
-    EXPECT_EQ(d[gpu::DEBUG_material_id].at(0, 0), 0);
-    EXPECT_EQ(d[gpu::DEBUG_normals].at(0, 0, 2), -1) << "a back face is turned round";
-    EXPECT_EQ(d[gpu::DEBUG_geometric_normal].at(0, 0, 2), -1);
+    EXPECT_EQ(d[Channel::material_id].at(0, 0), 0);
+    EXPECT_EQ(d[Channel::normals].at(0, 0, 2), -1) << "a back face is turned round";
+    EXPECT_EQ(d[Channel::geometric_normal].at(0, 0, 2), -1);
 }
 
 TEST(ReferenceGeometry, TrianglesWithoutAreaAreNotThere) {
@@ -270,20 +270,20 @@ TEST(ReferenceGeometry, TrianglesWithoutAreaAreNotThere) {
     add(scene, flat);
     scene.lights = {lightOf(LightKind::point, {0, 0, 2})};
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), true);
-    EXPECT_NEAR(double{d[gpu::DEBUG_depth].at(0, 0)}, 3, 1e-6);
-    EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(0, 0, 0)}, 0.25 / pi, 1e-6);
+    EXPECT_NEAR(double{d[Channel::depth].at(0, 0)}, 3, 1e-6);
+    EXPECT_NEAR(double{d[Channel::lit].at(0, 0, 0)}, 0.25 / pi, 1e-6);
 }
 
 TEST(ReferenceGeometry, WhatIsOutsideNearAndFarIsNotSeen) {
     const Scene scene = floorScene();
     View view = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
     view.camera.near = 3.1;
-    EXPECT_EQ(drawn(scene, view)[gpu::DEBUG_material_id].at(0, 0), -1);
+    EXPECT_EQ(drawn(scene, view)[Channel::material_id].at(0, 0), -1);
     view.camera.near = 0.1;
     view.camera.far = 2.9;
-    EXPECT_EQ(drawn(scene, view)[gpu::DEBUG_material_id].at(0, 0), -1);
+    EXPECT_EQ(drawn(scene, view)[Channel::material_id].at(0, 0), -1);
     view.camera.far = 3.1;
-    EXPECT_EQ(drawn(scene, view)[gpu::DEBUG_material_id].at(0, 0), 0);
+    EXPECT_EQ(drawn(scene, view)[Channel::material_id].at(0, 0), 0);
 }
 
 }  // namespace

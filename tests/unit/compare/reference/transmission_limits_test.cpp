@@ -121,7 +121,7 @@ TEST(ReferenceTransmissionLimits, AFactorOfZeroIsTheBaseToTheBit) {
     const View view = viewFrom({-2, 0, 3}, {0, 0, 0}, 4, 3);
     const Drawn with = drawn(zero, view), without = drawn(base, view);
     for (const auto& [mode, image] : without.picture.channels)
-        EXPECT_EQ(with.picture.channels.at(mode).data, image.data) << mode;
+        EXPECT_EQ(with.picture.channels.at(mode).data, image.data) << debugMode(mode).name;
 }
 
 // ---- grazing views -----------------------------------------------------------------------------------
@@ -196,7 +196,7 @@ TEST(ReferenceTransmissionLimits, ASlabOfIndexOneMovesNothingAndABlackComponentP
                             .lights = traced.pose.lights,
                             .mode = ReferenceMode::surface,
                             .surfaces = &traced.picture.channels})
-                          .channels.at(static_cast<int>(gpu::DEBUG_lit));
+                          .channels.at(Channel::lit);
     const double straight = litFloorAt(3 * std::tan(0.6));
     EXPECT_NEAR(double{lit.at(0, 0, 0)}, straight, 1e-5 * straight);
     EXPECT_EQ(lit.at(0, 0, 1), 0);
@@ -225,7 +225,7 @@ TEST(ReferenceTransmissionLimits, ABoxIsASlabByItsOwnWays) {
             for (int ways = 1; ways < 8; ways += 2)
                 expected += (1 - reflected) * std::pow(reflected, ways - 1) * std::pow(absorbed, ways) *
                             litFloorAt(ways * std::tan(inside) + 2.5 * std::tan(angle));
-            EXPECT_NEAR(double{d[gpu::DEBUG_lit].at(0, 0, c)}, expected, 2 * uncertain + 5e-3 * expected)
+            EXPECT_NEAR(double{d[Channel::lit].at(0, 0, c)}, expected, 2 * uncertain + 5e-3 * expected)
                 << angle << " " << c;
         }
     }

@@ -71,7 +71,7 @@ Picture captured(const Scene& scene, const View& view, const std::optional<Air>&
                  .surfaces = &traced.picture.channels});
 }
 const Image& litOf(const Picture& picture) {
-    return picture.channels.at(static_cast<int>(gpu::DEBUG_lit));
+    return picture.channels.at(Channel::lit);
 }
 
 TEST(ReferenceTransmission, AThinWallTintsWhatIsStraightBehind) {
@@ -80,10 +80,10 @@ TEST(ReferenceTransmission, AThinWallTintsWhatIsStraightBehind) {
     const Scene scene = windowScene(m);
     const double behind = floorAt(onFloor({0, 0, 0}));
     const glm::dvec3 expected = glm::dvec3(0.5, 0.25, 1) * behind;
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit], expected, 1e-6, "scene");
+    expectCentre(drawn(scene, oblique())[Channel::lit], expected, 1e-6, "scene");
     expectCentre(litOf(captured(scene, oblique())), expected, 1e-5, "surface");
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit_transmission], expected, 1e-6, "its channel");
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit_diffuse], glm::dvec3(behind), 1e-6, "the floor's");
+    expectCentre(drawn(scene, oblique())[Channel::lit_transmission], expected, 1e-6, "its channel");
+    expectCentre(drawn(scene, oblique())[Channel::lit_diffuse], glm::dvec3(behind), 1e-6, "the floor's");
 }
 
 TEST(ReferenceTransmission, ASlabShowsWhatIsBeside) {
@@ -112,7 +112,7 @@ TEST(ReferenceTransmission, TheNodeScalesTheThickness) {
     for (const glm::dvec3& scale : {glm::dvec3(2), glm::dvec3(-8, 1, 1)}) {
         scene.nodes[1].parent_from_node = glm::scale(glm::dmat4(1), scale);
         scene.materials[1].double_sided = true;
-        EXPECT_NEAR(centreOf(drawn(scene, oblique())[gpu::DEBUG_transmission_thickness]).x, 0.5, 1e-6);
+        EXPECT_NEAR(centreOf(drawn(scene, oblique())[Channel::transmission_thickness]).x, 0.5, 1e-6);
     }
 }
 
@@ -149,8 +149,8 @@ TEST(ReferenceTransmission, WithoutTransmissionItIsTheBase) {
     pane.materials[1].transmission = 1;
     pane.materials[1].thickness = 1;
     pane.materials[1].transmission_texture.texture = 0;
-    EXPECT_EQ(drawn(pane, oblique())[gpu::DEBUG_lit].data, drawn(opaque, oblique())[gpu::DEBUG_lit].data);
-    EXPECT_EQ(centreOf(drawn(pane, oblique())[gpu::DEBUG_lit_transmission]), glm::dvec3(0));
+    EXPECT_EQ(drawn(pane, oblique())[Channel::lit].data, drawn(opaque, oblique())[Channel::lit].data);
+    EXPECT_EQ(centreOf(drawn(pane, oblique())[Channel::lit_transmission]), glm::dvec3(0));
 }
 
 // The share of transmission scales the diffuse lobe down: here the sun lights the pane and, because neither
@@ -162,7 +162,7 @@ TEST(ReferenceTransmission, WhatIsNotTransmittedIsScattered) {
     scene.lights = {lightOf(LightKind::directional, {0, 0, 0})};
     scene.lights[0].intensity = 2;
     scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit], glm::dvec3((0.75 + 0.25 * 0.5) * 2 / pi), 1e-6,
+    expectCentre(drawn(scene, oblique())[Channel::lit], glm::dvec3((0.75 + 0.25 * 0.5) * 2 / pi), 1e-6,
                  "both");
 }
 
@@ -179,27 +179,27 @@ TEST(ReferenceTransmission, OnlyTheNearestIsSeen) {
     scene.materials.push_back(veil);
     const glm::dvec3 behind = glm::dvec3(1, 0.5, 0.5) * floorAt(onFloor({0, 0, 0}));
     add(scene, quad({-5, -5, -0.5f}, {10, 0, 0}, {0, 10, 0}, 2));
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit], behind, 1e-6, "another pane behind is hidden");
+    expectCentre(drawn(scene, oblique())[Channel::lit], behind, 1e-6, "another pane behind is hidden");
     add(scene, quad({-5, -5, -0.25f}, {10, 0, 0}, {0, 10, 0}, 3));
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit], behind, 1e-6, "so is what blends behind it");
+    expectCentre(drawn(scene, oblique())[Channel::lit], behind, 1e-6, "so is what blends behind it");
     add(scene, quad({-5, -5, 0.25f}, {10, 0, 0}, {0, 10, 0}, 3));
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit], behind * 0.5 + 0.5, 1e-6, "but not before it");
-    expectCentre(drawn(scene, oblique())[gpu::DEBUG_lit_transmission], behind, 1e-6, "the pane's own");
+    expectCentre(drawn(scene, oblique())[Channel::lit], behind * 0.5 + 0.5, 1e-6, "but not before it");
+    expectCentre(drawn(scene, oblique())[Channel::lit_transmission], behind, 1e-6, "the pane's own");
 }
 
 TEST(ReferenceTransmission, AlphaCoversAndMasksCut) {
     Material m = clearPane();
     m.base_color = {0, 1, 0, 0.25f};
     const double behind = floorAt(onFloor({0, 0, 0}));
-    expectCentre(drawn(windowScene(m), oblique())[gpu::DEBUG_lit], glm::dvec3(0, behind, 0), 1e-6, "OPAQUE");
+    expectCentre(drawn(windowScene(m), oblique())[Channel::lit], glm::dvec3(0, behind, 0), 1e-6, "OPAQUE");
     m.alpha_mode = AlphaMode::blend;
-    expectCentre(drawn(windowScene(m), oblique())[gpu::DEBUG_lit],
+    expectCentre(drawn(windowScene(m), oblique())[Channel::lit],
                  glm::dvec3(0.75 * behind, behind, 0.75 * behind), 1e-6, "BLEND");
-    expectCentre(drawn(windowScene(m), oblique())[gpu::DEBUG_lit_transmission],
-                 glm::dvec3(0, 0.25 * behind, 0), 1e-6, "of what it covers");
+    expectCentre(drawn(windowScene(m), oblique())[Channel::lit_transmission], glm::dvec3(0, 0.25 * behind, 0),
+                 1e-6, "of what it covers");
     m.alpha_mode = AlphaMode::mask;
-    expectCentre(drawn(windowScene(m), oblique())[gpu::DEBUG_lit], glm::dvec3(behind), 1e-6, "MASK");
-    EXPECT_EQ(centreOf(drawn(windowScene(m), oblique())[gpu::DEBUG_transmission]).x, 0);
+    expectCentre(drawn(windowScene(m), oblique())[Channel::lit], glm::dvec3(behind), 1e-6, "MASK");
+    EXPECT_EQ(centreOf(drawn(windowScene(m), oblique())[Channel::transmission]).x, 0);
 }
 
 TEST(ReferenceTransmission, ItsChannelsAreOfTheNearestPane) {
@@ -214,20 +214,18 @@ TEST(ReferenceTransmission, ItsChannelsAreOfTheNearestPane) {
     scene.textures = {{0, {}}};
     scene.materials[1].transmission_texture.texture = scene.materials[1].thickness_texture.texture = 0;
     const Drawn d = drawn(scene, oblique());
-    EXPECT_NEAR(centreOf(d[gpu::DEBUG_transmission]).x, 0.5 * 0.2, 1e-7) << "red";
-    EXPECT_NEAR(centreOf(d[gpu::DEBUG_transmission_thickness]).x, 0.25 * 0.4, 1e-7) << "green";
-    EXPECT_EQ(centreOf(d[gpu::DEBUG_attenuation_color]), glm::dvec3(0.5, 0.25, 0.125));
-    EXPECT_EQ(centreOf(d[gpu::DEBUG_attenuation_distance]).x, 3);
-    EXPECT_EQ(centreOf(d[gpu::DEBUG_dispersion]).x, 2);
-    EXPECT_EQ(centreOf(d[gpu::DEBUG_material_id]).x, 0) << "other channels are of the floor";
+    EXPECT_NEAR(centreOf(d[Channel::transmission]).x, 0.5 * 0.2, 1e-7) << "red";
+    EXPECT_NEAR(centreOf(d[Channel::transmission_thickness]).x, 0.25 * 0.4, 1e-7) << "green";
+    EXPECT_EQ(centreOf(d[Channel::attenuation_color]), glm::dvec3(0.5, 0.25, 0.125));
+    EXPECT_EQ(centreOf(d[Channel::attenuation_distance]).x, 3);
+    EXPECT_EQ(centreOf(d[Channel::dispersion]).x, 2);
+    EXPECT_EQ(centreOf(d[Channel::material_id]).x, 0) << "other channels are of the floor";
     Scene behind = scene;
     for (glm::vec3& p : behind.meshes[0].primitives[1].positions) p.z = -3;
     for (const Scene& none : {withoutPane(scene), behind})
         for (const DebugMode& mode : debugModes())
-            if (layerOf(mode.number) == gpu::LAYER_TRANSMISSION) {
-                EXPECT_EQ(centreOf(drawn(none, oblique())[static_cast<gpu::uint>(mode.number)]),
-                          glm::dvec3(0))
-                    << mode.name;
+            if (layerOf(mode.channel) == gpu::LAYER_TRANSMISSION) {
+                EXPECT_EQ(centreOf(drawn(none, oblique())[mode.channel]), glm::dvec3(0)) << mode.name;
             }
 }
 
@@ -243,8 +241,8 @@ TEST(ReferenceTransmission, ItsChannelsAreZeroWhereATextureRemovesIt) {
     scene.materials[1].transmission_texture.texture = 0;
     const Drawn d = drawn(scene, oblique());
     for (const DebugMode& mode : debugModes())
-        if (layerOf(mode.number) == gpu::LAYER_TRANSMISSION) {
-            EXPECT_EQ(centreOf(d[static_cast<gpu::uint>(mode.number)]), glm::dvec3(0)) << mode.name;
+        if (layerOf(mode.channel) == gpu::LAYER_TRANSMISSION) {
+            EXPECT_EQ(centreOf(d[mode.channel]), glm::dvec3(0)) << mode.name;
         }
 }
 
@@ -260,13 +258,13 @@ TEST(ReferenceTransmission, TexturesFollowTheirCoordinates) {
     m.transmission_texture = {0, 0, {0, 0, 0.25}, {0, 0, 0.5}};
     m.thickness_texture = {0, 1, {1, 0, 0}, {0, 1, 0}};
     scene.meshes[0].primitives[1].texcoords[1].assign(4, {0.25f, 0.5f});
-    const auto shown = [&](gpu::uint mode) { return centreOf(drawn(scene, oblique())[mode]).x; };
-    EXPECT_NEAR(shown(gpu::DEBUG_transmission), 0.2, 1e-7);
-    EXPECT_EQ(shown(gpu::DEBUG_transmission_thickness), 1);
+    const auto shown = [&](Channel mode) { return centreOf(drawn(scene, oblique())[mode]).x; };
+    EXPECT_NEAR(shown(Channel::transmission), 0.2, 1e-7);
+    EXPECT_EQ(shown(Channel::transmission_thickness), 1);
     m.transmission_texture.u.z = 0.75;
     scene.meshes[0].primitives[1].texcoords[1].assign(4, {0.75f, 0.5f});
-    EXPECT_EQ(shown(gpu::DEBUG_transmission), 1);
-    EXPECT_EQ(shown(gpu::DEBUG_transmission_thickness), 0);
+    EXPECT_EQ(shown(Channel::transmission), 1);
+    EXPECT_EQ(shown(Channel::transmission_thickness), 0);
 }
 
 // ---- furnaces ----------------------------------------------------------------------------------------
@@ -309,7 +307,7 @@ TEST(ReferenceTransmission, RoughnessKeepsAnEvenBackground) {
     for (const float roughness : {0.3f, 0.9f}) {
         m.roughness = roughness;
         const Drawn d = drawn(paneInFurnace(m), oblique());
-        expectCentre(d[gpu::DEBUG_lit_transmission], {0.5, 1, 0.25}, 0.02, "even");
+        expectCentre(d[Channel::lit_transmission], {0.5, 1, 0.25}, 0.02, "even");
         EXPECT_NEAR(centreOf(d.picture.blended).y, 1, 1e-6) << "the share that passes, of its component";
         EXPECT_NEAR(centreOf(d.picture.blended).z, 1, 0.02) << "and its light";
     }
@@ -326,7 +324,7 @@ TEST(ReferenceTransmission, RoughnessBlursAnEdgeEvenly) {
     scene.materials.push_back(bright);
     add(scene, quad({0, -10, -1.9f}, {10, 0, 0}, {0, 20, 0}, 2));
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.001));
-    EXPECT_NEAR(centreOf(d[gpu::DEBUG_lit]).g, 0.5, 0.02);
+    EXPECT_NEAR(centreOf(d[Channel::lit]).g, 0.5, 0.02);
     EXPECT_GT(centreOf(d.picture.uncertainty).x, 0);
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A Frame's metadata on its scene, camera and times, and on a reference's uncertainty.
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 
 #include "compare/metrics/channel.h"
 #include "compare/render/reference_frame.h"
-#include "tests/support/modes.h"
 #include "tests/support/reference_scene.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -163,14 +162,14 @@ TEST(FrameFacts, AReferenceStatesTheUncertaintyOfNearlyAllPixels) {
     settings.reference_mode = ReferenceMode::scene;
     settings.size = {12, 8};
     RenderOptions options;
-    options.channels = {litMode, idMode};
+    options.channels = {Channel::lit, Channel::material_id};
     const Frame frame = drawReferenceFrame(scene, view, settings, nullptr, options);
     ASSERT_EQ(frame.uncertainty.pixels(), 96u);
-    const Image& lit = frame.channels.at(litMode);
+    const Image& lit = frame.channels.at(Channel::lit);
     const PixelError relative(Metric::relative, ChannelKind::color, lit, coverage(frame, frame));
     std::vector<double> all;
     for (std::size_t i = 0; i < lit.pixels(); ++i)
-        if (frame.channels.at(idMode).data[i] >= 0)
+        if (frame.channels.at(Channel::material_id).data[i] >= 0)
             all.push_back(double{frame.uncertainty.data[i]} /
                           std::max(double{std::max({lit.pixel(i)[0], lit.pixel(i)[1], lit.pixel(i)[2]})},
                                    relative.floor()));

@@ -29,10 +29,10 @@ Settings settingsOf(Path path, Size size, int msaa = 1) {
 RenderOptions channels(bool all) {
     RenderOptions options;
     options.runs = 0;
-    options.channels = {static_cast<int>(gpu::DEBUG_lit), static_cast<int>(gpu::DEBUG_material_id)};
+    options.channels = {Channel::lit, Channel::material_id};
     if (all) {
         options.channels.clear();
-        for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.number);
+        for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.channel);
     }
     return options;
 }

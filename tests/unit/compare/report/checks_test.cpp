@@ -103,7 +103,7 @@ TEST(ReportChecks, WhereNoLightFallsTheBaseColourIsShown) {
 
 TEST(ReportChecks, WithoutLitAnotherChannelIsShown) {
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) frame.requested = {static_cast<int>(gpu::DEBUG_normals)};
+    for (Frame& frame : frames) frame.requested = {Channel::normals};
     const std::string page = pageOf(reportOf(std::move(frames), {someChecks()}));
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     expectLinksLead(page);

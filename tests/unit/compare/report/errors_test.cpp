@@ -102,9 +102,9 @@ std::string cardOf(const std::string& page, const std::string& channel) {
 TEST(ReportErrors, ThePageTellsThem) {
     std::vector<Frame> frames = bothFrames();
     for (Frame& frame : frames)  // no background
-        std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
-    frames[1].channels[gpu::DEBUG_material_id].at(0, 0) = 4;
+        std::ranges::fill(frame.channels.at(Channel::material_id).data, 3.0f);
+    frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::material_id].at(0, 0) = 4;
     const std::filesystem::path out = folder() / "report";
     writeReport(reportOf(std::move(frames)), out, {});
     const std::string page = contentsOf(out / "index.html");
@@ -123,7 +123,7 @@ TEST(ReportErrors, ThePageTellsThem) {
 // The card of roughness judged by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
 std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr) {
     std::vector<Frame> frames = bothFrames();
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     Report report = reportOf(std::move(frames));
     for (ChannelDiff& channel : report.comparisons[0].channels) {
         if (channel.mode->name != "roughness") continue;
@@ -182,7 +182,7 @@ TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
 TEST(ReportErrors, OnlyAFailingChannelHasItsCommand) {
     std::vector<Frame> frames = bothFrames("my scene.glb");
     for (Frame& frame : frames) frame.settings.gbuffer = GBufferEncoding::compact;
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     const std::filesystem::path out = folder() / "report";
     writeReport(reportOf(std::move(frames)), out, {});
     const std::string page = contentsOf(out / "index.html"),

@@ -32,9 +32,9 @@ Figures printedFigures() {
 Frame spreadFrame(Path path, const Image& lit, const Image& roughness) {
     Frame frame = flatFrame(path, wide, high, 0, -1);
     frame.scene = "builtin:one";
-    frame.channels[litMode] = lit;
-    frame.channels[gpu::DEBUG_roughness] = roughness;
-    for (std::size_t i = 0; i < counted; ++i) frame.channels[idMode].data[spreadPixel(i)] = 3;
+    frame.channels[Channel::lit] = lit;
+    frame.channels[Channel::roughness] = roughness;
+    for (std::size_t i = 0; i < counted; ++i) frame.channels[Channel::material_id].data[spreadPixel(i)] = 3;
     return frame;
 }
 

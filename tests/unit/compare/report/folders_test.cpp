@@ -33,7 +33,7 @@ Report askedFor(const std::vector<Asked>& all) {
             frame.settings.camera = asked.camera;
             frame.settings.time = asked.time;
         }
-        if (asked.fails) pair[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+        if (asked.fails) pair[1].channels[Channel::roughness].at(1, 2) = 0.75f;
         std::ranges::move(pair, std::back_inserter(frames));
     }
     return reportOf(std::move(frames));

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 TEST(FrameFiles, OneFrameAsFileOrFolder) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
-    const ShownChannels lit{&debugMode(gpu::DEBUG_lit)};
+    const ShownChannels lit{&debugMode(Channel::lit)};
     writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {});
     EXPECT_EQ(readExr(here / "a.exr").layers[0].image.at(1, 2, 0), 0.5f);
     writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {});
@@ -32,14 +32,14 @@ TEST(FrameFiles, OneFrameAsFileOrFolder) {
          {std::pair{OutputKind::exr, "a.exr"}, {OutputKind::png, "a.png"}, {OutputKind::folder, "a"}})
         EXPECT_NO_THROW(checkReplaceable({kind, here / name}, "frame.json", false)) << name;
     EXPECT_THROW(writeFrame(bothFrames()[0], {}, {OutputKind::png, here / "t.png"},
-                            {&debugMode(gpu::DEBUG_texcoords)}, {}),
+                            {&debugMode(Channel::texcoords)}, {}),
                  std::runtime_error);
 }
 
 TEST(FrameFiles, APictureOfEachChannelAskedFor) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
-    const ShownChannels two{&debugMode(gpu::DEBUG_lit), &debugMode(gpu::DEBUG_normals)};
+    const ShownChannels two{&debugMode(Channel::lit), &debugMode(Channel::normals)};
     writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, two, {});
     EXPECT_EQ(namesIn(here), (std::vector<std::string>{"a.lit.png", "a.normals.png"}));
     const auto pixels = [](const fs::path& file) { return readPng(file).data; };

@@ -19,7 +19,7 @@ Report manyOf(std::size_t count, const std::set<std::size_t>& failing = {}) {
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < count; ++i) {
         std::vector<Frame> pair = bothFrames(fmt::format("scenes/{}.glb", i));
-        if (failing.contains(i)) pair[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+        if (failing.contains(i)) pair[1].channels[Channel::roughness].at(1, 2) = 0.75f;
         std::ranges::move(pair, std::back_inserter(frames));
     }
     return reportOf(std::move(frames));

@@ -136,7 +136,7 @@ Report failingOfTwo() {
     std::vector<Frame> frames = bothFrames("a<b>&\"'\x01.glb");
     for (Frame& frame : bothFrames("two ]]> .glb")) frames.push_back(std::move(frame));
     for (Frame& frame : frames) frame.made_in_ms = 1500;
-    frames[3].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[3].channels[Channel::roughness].at(1, 2) = 0.75f;
     frames[2].counters.unreproduced_pixels = 2;
     frames[0].notes = {"a <note>"};
     return reportOf(std::move(frames));

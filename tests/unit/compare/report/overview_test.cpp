@@ -19,7 +19,7 @@ std::string rowOf(const std::string& page, const std::string& channel) {
 // One covered pixel; its roughness differs by 0.25.
 TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     std::vector<Frame> frames = bothFrames();
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     const std::filesystem::path out = folder() / "report";
     Report report = reportOf(std::move(frames));
     writeReport(report, out, {});

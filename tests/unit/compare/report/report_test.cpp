@@ -37,8 +37,8 @@ Report passing() {
 }
 Report failing() {
     std::vector<Frame> frames = bothFrames();
-    frames[1].channels[gpu::DEBUG_roughness].at(1, 2) = 0.75f;
-    frames[1].channels[gpu::DEBUG_albedo].at(1, 2, 0) = std::numeric_limits<float>::quiet_NaN();
+    frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::albedo].at(1, 2, 0) = std::numeric_limits<float>::quiet_NaN();
     return reportOf(std::move(frames));
 }
 Json channelOf(const Json& report, const std::string& name) {
@@ -160,8 +160,8 @@ TEST(Report, ThePageStandsAloneWithFailuresFirst) {
 
 TEST(Report, ThePageCountsThePixelsThatASecondRunChanged) {
     std::vector<Frame> frames = bothFrames();
-    frames[0].noise = {{gpu::DEBUG_lit, {0, 0}}, {gpu::DEBUG_albedo, {0, 0}}};
-    frames[1].noise = {{gpu::DEBUG_lit, {2, 0.1}}, {gpu::DEBUG_albedo, {1, 0.1}}};
+    frames[0].noise = {{Channel::lit, {0, 0}}, {Channel::albedo, {0, 0}}};
+    frames[1].noise = {{Channel::lit, {2, 0.1}}, {Channel::albedo, {1, 0.1}}};
     const fs::path out = folder() / "report";
     writeReport(reportOf(std::move(frames)), out, {});
     const std::string page = contentsOf(out / "index.html");
@@ -189,8 +189,8 @@ TEST(Report, ASinglePageHoldsASharedPictureOnce) {
     ReportOptions options;
     options.single_file = true;
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, 3.0f);
-    std::ranges::fill(frames[1].channels.at(gpu::DEBUG_roughness).data, 1.0f);
+    for (Frame& frame : frames) std::ranges::fill(frame.channels.at(Channel::material_id).data, 3.0f);
+    std::ranges::fill(frames[1].channels.at(Channel::roughness).data, 1.0f);
     writeReport(reportOf(std::move(frames)), out, options);
     const std::string page = contentsOf(out / "index.html");
     const std::regex uri("src=\"(data:[^\"]*)\"");
@@ -250,7 +250,7 @@ TEST(Report, AFailureLeavesTheEarlierReportWhole) {
     const std::string json = writeReport(passing(), out, {});
     const std::vector<std::string> names = namesIn(out);
     Report broken = failing();
-    broken.frames[1].channels[gpu::DEBUG_texcoords] = Image(9, 9, 2);  // an EXR has one size
+    broken.frames[1].channels[Channel::texcoords] = Image(9, 9, 2);  // an EXR has one size
     EXPECT_THROW(writeReport(broken, out, {}), std::runtime_error);
     EXPECT_EQ(contentsOf(out / "report.json"), json);
     EXPECT_EQ(namesIn(out), names);
@@ -367,7 +367,7 @@ TEST(Report, NotesOfTheSceneAreSaidOnce) {
 // The tolerance of lit is per pixel; only pixels that remain unexplained count.
 TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
     std::vector<Frame> frames = bothFrames();
-    frames[1].channels[gpu::DEBUG_lit].at(1, 2) = 0.75f;
+    frames[1].channels[Channel::lit].at(1, 2) = 0.75f;
     const Report report = reportOf(frames);
     const auto rowEnds = [](const Report& of, const std::string& end) {
         const std::string table = reportTable(of);
@@ -375,13 +375,13 @@ TEST(Report, ExplainedChannelsCountWhatIsLeftOver) {
         return table.substr(row, table.find('\n', row) - row).ends_with(end);
     };
     EXPECT_TRUE(rowEnds(report, "pixels unexplained         0         0  pass")) << reportTable(report);
-    frames[1].through_gbuffer[gpu::DEBUG_lit].at(1, 2) = 0.25f;
+    frames[1].through_gbuffer[Channel::lit].at(1, 2) = 0.25f;
     EXPECT_TRUE(rowEnds(reportOf(frames), "pixels unexplained         1         0  FAIL"));
 }
 
 TEST(Report, HelpersAreNeitherComparedNorWritten) {
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) frame.requested = {static_cast<int>(gpu::DEBUG_normals)};
+    for (Frame& frame : frames) frame.requested = {Channel::normals};
     const fs::path out = folder() / "report";
     const Report report = reportOf(std::move(frames));
     writeReport(report, out, {});

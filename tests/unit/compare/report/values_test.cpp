@@ -184,7 +184,7 @@ TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
         for (Frame& frame : report.frames) frame.settings.size = {width, 4096};
         Comparison& one = report.comparisons.emplace_back();
         one.test = 1;
-        one.channels.emplace_back().mode = &debugMode(gpu::DEBUG_roughness);
+        one.channels.emplace_back().mode = &debugMode(Channel::roughness);
         one.channels.back().verdict = Verdict::forward_only;
         const ReportLayout layout = layoutOf(report, {});
         EXPECT_EQ(layout.pictures[0][0].values, width == 4096 ? "roughness.values.js" : "");

@@ -5,7 +5,6 @@
 #include "compare/report/titles.h"
 #include "compare/verdict/criterion.h"
 #include "shared/text/did_you_mean.h"
-#include "tests/support/modes.h"
 #include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
@@ -20,9 +19,9 @@ namespace {
 
 const ReportDevice lineDevice{"a CPU", "1.0", "cpu"};
 
-const ChannelDiff& channelIn(const Report& report, gpu::uint mode) {
+const ChannelDiff& channelIn(const Report& report, Channel mode) {
     for (const ChannelDiff& channel : report.comparisons.at(0).channels)
-        if (channel.mode->number == static_cast<int>(mode)) return channel;
+        if (channel.mode->channel == mode) return channel;
     throw std::runtime_error("no such channel");
 }
 
@@ -67,11 +66,12 @@ TEST(Criterion, IsTheBoundThatDecides) {
 // Lit is judged by unexplained pixels, not by a tolerance fitted to the result.
 TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
     std::vector<Frame> frames = bothFrames();
-    frames[0].channels.at(litMode).at(1, 2) = frames[1].through_gbuffer.at(litMode).at(1, 2) = 0.55f;
+    frames[0].channels.at(Channel::lit).at(1, 2) = frames[1].through_gbuffer.at(Channel::lit).at(1, 2) =
+        0.55f;
     for (const bool explained : {true, false}) {
-        if (!explained) frames[1].through_gbuffer.at(litMode).at(1, 2) = 0.5f;
+        if (!explained) frames[1].through_gbuffer.at(Channel::lit).at(1, 2) = 0.5f;
         const Report report = reportOf(frames);
-        const Criterion& criterion = channelIn(report, gpu::DEBUG_lit).criterion.value();
+        const Criterion& criterion = channelIn(report, Channel::lit).criterion.value();
         EXPECT_EQ(criterion.figure, "pixels unexplained");
         EXPECT_EQ(criterion.measured, explained ? 0 : 1);
         EXPECT_EQ(criterion.limit, 0);
@@ -102,9 +102,9 @@ TEST(Criterion, CountsThePixelsBeyond) {
         for (auto& [mode, image] : frame.channels)
             for (int c = 0; c < image.components; ++c)
                 for (int x = 0; x < 4; ++x) image.at(x, 2, c) = image.at(1, 2, c);
-    frames[0].channels.at(gpu::DEBUG_metallic).at(0, 2) = 0.6f;
+    frames[0].channels.at(Channel::metallic).at(0, 2) = 0.6f;
     const Report report = reportOf(frames);
-    const ChannelDiff& metallic = channelIn(report, gpu::DEBUG_metallic);
+    const ChannelDiff& metallic = channelIn(report, Channel::metallic);
     EXPECT_EQ(metallic.criterion->figure, "max");
     EXPECT_EQ(metallic.criterion->pixels, 1u);
     EXPECT_EQ(metallic.criterion->share, 0.25);
@@ -115,13 +115,13 @@ TEST(Criterion, CountsThePixelsBeyond) {
 
 TEST(VerdictLine, ANanComesFirst) {
     std::vector<Frame> frames = bothFrames();
-    frames[1].channels.at(gpu::DEBUG_metallic).at(1, 2) = std::nanf("");
-    EXPECT_TRUE(channelIn(reportOf(frames), gpu::DEBUG_metallic)
+    frames[1].channels.at(Channel::metallic).at(1, 2) = std::nanf("");
+    EXPECT_TRUE(channelIn(reportOf(frames), Channel::metallic)
                     .reason.starts_with("NaN or infinity at 1 pixel of forward_plus; max inf exceeds"))
-        << channelIn(reportOf(frames), gpu::DEBUG_metallic).reason;
+        << channelIn(reportOf(frames), Channel::metallic).reason;
     CompareOptions options;
     options.rules = rulesFromJson(R"({"rules": [{"channel": "*", "max": 9, "because": "any"}]})", "t.json");
-    EXPECT_TRUE(channelIn(reportWith(frames, options), gpu::DEBUG_metallic)
+    EXPECT_TRUE(channelIn(reportWith(frames, options), Channel::metallic)
                     .reason.starts_with("NaN or infinite values differ at 1 pixel"));
 }
 
@@ -129,8 +129,8 @@ TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
     std::vector<Frame> frames;
     for (const char* scene : {"a.glb", "b.glb", "c.glb"})
         for (Frame& frame : bothFrames(scene)) frames.push_back(std::move(frame));
-    frames[0].channels.at(gpu::DEBUG_metallic).at(1, 2) = 0;
-    frames[4].channels.at(gpu::DEBUG_metallic).at(1, 2) = 0;
+    frames[0].channels.at(Channel::metallic).at(1, 2) = 0;
+    frames[4].channels.at(Channel::metallic).at(1, 2) = 0;
     Report report = reportOf(frames);
     EXPECT_EQ(verdictLine(report),
               "FAIL: 2 of 3 comparisons failed: a.glb, c.glb (metallic beyond tolerance)");
@@ -148,10 +148,10 @@ TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
 TEST(VerdictLine, SaysThatPicturesShowNothing) {
     CompareOptions options;
     std::vector<Frame> empty = bothFrames();
-    for (Frame& frame : empty) std::ranges::fill(frame.channels.at(gpu::DEBUG_material_id).data, -1.0f);
+    for (Frame& frame : empty) std::ranges::fill(frame.channels.at(Channel::material_id).data, -1.0f);
     std::vector<Frame> dark = bothFrames();
-    for (Frame& frame : dark) std::ranges::fill(frame.channels.at(litMode).data, 0.0f);
-    dark[1].through_gbuffer.at(litMode) = dark[0].channels.at(litMode);
+    for (Frame& frame : dark) std::ranges::fill(frame.channels.at(Channel::lit).data, 0.0f);
+    dark[1].through_gbuffer.at(Channel::lit) = dark[0].channels.at(Channel::lit);
     const std::pair<std::vector<Frame>, std::string> cases[] = {
         {bothFrames(), ""},
         {empty, ", but both images are empty: no surface is in view"},
@@ -184,7 +184,8 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsInView) {
             frame.settings.size = {40, 5};
             for (auto* images : {&frame.channels, &frame.through_gbuffer})
                 for (auto& [mode, image] : *images) {
-                    Image wide(40, 5, image.components, images == &frame.channels && mode == idMode ? -1 : 0);
+                    Image wide(40, 5, image.components,
+                               images == &frame.channels && mode == Channel::material_id ? -1 : 0);
                     for (int x = 0; x < shown; ++x)
                         for (int c = 0; c < image.components; ++c) wide.at(x, 0, c) = image.at(1, 2, c);
                     image = std::move(wide);
@@ -205,7 +206,7 @@ TEST(VerdictLine, SaysThatHardlyAnythingIsLit) {
                 for (auto& [mode, image] : *images) {
                     Image wide(40, 5, image.components);
                     for (int i = 0; i < 200; ++i)
-                        for (int c = 0; c < image.components && (mode != litMode || i < shown); ++c)
+                        for (int c = 0; c < image.components && (mode != Channel::lit || i < shown); ++c)
                             wide.at(i % 40, i / 40, c) = image.at(1, 2, c);
                     image = std::move(wide);
                 }

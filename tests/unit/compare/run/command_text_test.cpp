@@ -104,7 +104,7 @@ TEST(CommandWords, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
     for (const std::string scene : {"a.glb", "--help"}) {
         const Options again =
             parsedAgain(shellLine(withOption(commandWords("compare", scene, {}), "--channels", "normals")));
-        EXPECT_EQ(again.channels, std::vector<int>{2});
+        EXPECT_EQ(again.channels, std::vector{Channel::normals});
         EXPECT_EQ(again.scenes, std::vector<std::string>{scene});
     }
 }

@@ -19,8 +19,8 @@ Frame sampledRow(const std::vector<float>& lit, const std::vector<float>& shaded
         row.data.assign(values.begin(), values.end());
         return row;
     };
-    frame.channels[static_cast<int>(gpu::DEBUG_lit)] = image(lit);
-    frame.channels[static_cast<int>(gpu::DEBUG_shaded_samples)] = image(shaded);
+    frame.channels[Channel::lit] = image(lit);
+    frame.channels[Channel::shaded_samples] = image(shaded);
     return frame;
 }
 
@@ -33,7 +33,7 @@ TEST(TradeoffSamples, AreSharesOfThePixelsThatShowASurface) {
     const Frame background = sampledRow({0}, {0});
     EXPECT_EQ(sampleSharesOf(background, background), SampleShares{});
     Frame without = exact;
-    without.channels.erase(static_cast<int>(gpu::DEBUG_shaded_samples));
+    without.channels.erase(Channel::shaded_samples);
     EXPECT_FALSE(sampleSharesOf(exact, without));
 }
 

@@ -26,8 +26,8 @@ Frame tracedRow() {
     Frame reference;
     reference.settings.path = Path::reference;
     reference.settings.size = {4, 1};
-    reference.channels[static_cast<int>(gpu::DEBUG_material_id)] = pixelRow({0, 0, 0, 0});
-    reference.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow({1, 1, 0, 0});
+    reference.channels[Channel::material_id] = pixelRow({0, 0, 0, 0});
+    reference.channels[Channel::shadow_visibility] = pixelRow({1, 1, 0, 0});
     reference.shadow_edge = pixelRow({1, 9, 1, 0.01f, 9, 3, 0.01f, 9, 2, 1, 9, 4}, 3);
     return reference;
 }
@@ -37,8 +37,8 @@ Frame filteredRow(const std::vector<float>& visibility) {
     Frame path;
     path.settings.path = Path::deferred;
     path.settings.size = {4, 1};
-    path.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow(visibility);
-    path.channels[static_cast<int>(gpu::DEBUG_depth)] = pixelRow({1, 1, 1, 1});
+    path.channels[Channel::shadow_visibility] = pixelRow(visibility);
+    path.channels[Channel::depth] = pixelRow({1, 1, 1, 1});
     path.shadow_reach = {{10, 0.02, 0.005}};
     return path;
 }
@@ -70,7 +70,7 @@ TEST(TradeoffShadow, AFrameWithoutMapsShowsTheSunEverywhere) {
     EXPECT_EQ((*errors)[3], 6.0 / 4);
     EXPECT_TRUE(std::isinf((*errors)[4])) << "it has no texels";
     Frame unlit = tracedRow();
-    unlit.channels[static_cast<int>(gpu::DEBUG_shadow_visibility)] = pixelRow({0, 0, 0, 0});
+    unlit.channels[Channel::shadow_visibility] = pixelRow({0, 0, 0, 0});
     EXPECT_TRUE(std::isinf((*shadowErrorsOf(unlit, open))[3])) << "nothing should be lit";
 }
 

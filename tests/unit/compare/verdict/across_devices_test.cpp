@@ -32,10 +32,10 @@ protected:
             frame.camera.target[2] = -1;
             frame.camera.up[1] = 1;
             frame.camera.fov_degrees = 60;
-            for (const gpu::uint mode :
-                 {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_albedo, gpu::DEBUG_roughness,
-                  gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse, gpu::DEBUG_shadow_visibility})
-                frame.requested.push_back(static_cast<int>(mode));
+            for (const Channel mode :
+                 {Channel::material_id, Channel::depth, Channel::albedo, Channel::roughness, Channel::lit,
+                  Channel::lit_diffuse, Channel::shadow_visibility})
+                frame.requested.push_back(mode);
         }
         report_.frames[0].name = "here";
         report_.frames[1].name = "there";
@@ -43,7 +43,7 @@ protected:
         for (const DebugMode& mode : debugModes())
             if (mode.maker != MadeBy::deferred_only)
                 for (Frame& frame : report_.frames)
-                    frame.channels[mode.number] = Image(across_side, across_side, mode.width, 0.5f);
+                    frame.channels[mode.channel] = Image(across_side, across_side, mode.width, 0.5f);
         for (int y = 0; y < across_side; ++y)
             for (int x = 0; x < across_side; ++x) place(x, y);
         for (std::size_t device = 0; device < 2; ++device) {
@@ -56,9 +56,9 @@ protected:
                 precision.texels->srgb[code] = static_cast<float>(exactSrgb(code));
             }
         }
-        across_.texels[gpu::DEBUG_albedo] = Image(across_side, across_side, 1);
-        across_.texcoords = {&at(0, gpu::DEBUG_texcoords), &at(1, gpu::DEBUG_texcoords)};
-        for (const int mode : litModes) across_.relit[mode] = at(1, static_cast<gpu::uint>(mode));
+        across_.texels[Channel::albedo] = Image(across_side, across_side, 1);
+        across_.texcoords = {&at(0, Channel::texcoords), &at(1, Channel::texcoords)};
+        for (const Channel mode : litModes) across_.relit[mode] = at(1, mode);
     }
 
     // n.p = -5 with n = (0, 0.6, 0.8).
@@ -67,29 +67,27 @@ protected:
         const double u = (x + 0.5) * px - half, v = half - (y + 0.5) * px;
         const double z = 5 / (0.8 - 0.6 * v);
         for (const std::size_t frame : {0, 1}) {
-            const auto set = [&](gpu::uint mode, std::initializer_list<double> values) {
+            const auto set = [&](Channel mode, std::initializer_list<double> values) {
                 float* to = at(frame, mode).pixel(index(x, y));
                 for (const double value : values) *to++ = static_cast<float>(value);
             };
-            set(gpu::DEBUG_material_id, {x < across_side / 2 ? 0.0 : 1.0});
-            set(gpu::DEBUG_depth, {z});
-            set(gpu::DEBUG_position, {u * z, v * z, -z});
-            set(gpu::DEBUG_geometric_normal, {0, 0.6, 0.8});
-            set(gpu::DEBUG_normals, {0, 0.6, 0.8});
-            set(gpu::DEBUG_clearcoat_normal, {0, 0.6, 0.8});
-            set(gpu::DEBUG_anisotropy_direction, {1, 0, 0});
-            set(gpu::DEBUG_texcoords, {u * z / 8, v * z / 8});
+            set(Channel::material_id, {x < across_side / 2 ? 0.0 : 1.0});
+            set(Channel::depth, {z});
+            set(Channel::position, {u * z, v * z, -z});
+            set(Channel::geometric_normal, {0, 0.6, 0.8});
+            set(Channel::normals, {0, 0.6, 0.8});
+            set(Channel::clearcoat_normal, {0, 0.6, 0.8});
+            set(Channel::anisotropy_direction, {1, 0, 0});
+            set(Channel::texcoords, {u * z / 8, v * z / 8});
         }
     }
 
     static std::size_t index(int x, int y) {
         return static_cast<std::size_t>(y) * across_side + static_cast<std::size_t>(x);
     }
-    Image& at(std::size_t frame, gpu::uint mode) {
-        return report_.frames[frame].channels.at(static_cast<int>(mode));
-    }
-    float* there(gpu::uint mode, int x, int y) { return at(1, mode).pixel(index(x, y)); }
-    void fill(std::size_t frame, gpu::uint mode, double value) {
+    Image& at(std::size_t frame, Channel mode) { return report_.frames[frame].channels.at(mode); }
+    float* there(Channel mode, int x, int y) { return at(1, mode).pixel(index(x, y)); }
+    void fill(std::size_t frame, Channel mode, double value) {
         std::ranges::fill(at(frame, mode).data, static_cast<float>(value));
     }
 
@@ -109,9 +107,9 @@ protected:
     }
     // Shows another surface, far behind, at a pixel of the second device.
     void showAnother(int x, int y, float material) {
-        *there(gpu::DEBUG_material_id, x, y) = material;
-        *there(gpu::DEBUG_depth, x, y) = 50;
-        std::fill_n(there(gpu::DEBUG_texcoords, x, y), 2, 0.0f);
+        *there(Channel::material_id, x, y) = material;
+        *there(Channel::depth, x, y) = 50;
+        std::fill_n(there(Channel::texcoords, x, y), 2, 0.0f);
     }
 
     Report report_;
@@ -151,7 +149,7 @@ TEST_F(AcrossDevicesPair, AWholeEdgeAPixelElsewhereIsTooMuch) {
 
 TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
     for (int y = 5; y < 10; ++y)
-        for (int x = 5; x < 10; ++x) *there(gpu::DEBUG_material_id, x, y) = 1;
+        for (int x = 5; x < 10; ++x) *there(Channel::material_id, x, y) = 1;
     EXPECT_NE(faults().find("shows another triangle"), std::string::npos);
     across_.surface_at = [](int, const float* p, double, bool) { return p[1] > 0; };
     EXPECT_EQ(faults(), "");
@@ -163,7 +161,7 @@ TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthMayBeSeenWhereTheSceneHasOne) {
 // depth, plus the depth's rounding.
 TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthIsSoughtWithinAStepAndRounding) {
     constexpr int at_x = 5, at_y = 9;
-    *there(gpu::DEBUG_material_id, at_x, at_y) = 1;
+    *there(Channel::material_id, at_x, at_y) = 1;
     std::vector<double> reaches;
     across_.surface_at = [&](int, const float*, double reach, bool) {
         reaches.push_back(reach);
@@ -171,7 +169,7 @@ TEST_F(AcrossDevicesPair, ASurfaceOfTheSameDepthIsSoughtWithinAStepAndRounding) 
     };
     EXPECT_EQ(faults(), "");
     const double pixel = 2 * std::tan(30 * 3.14159265358979 / 180) / across_side,
-                 depth = double{*at(0, gpu::DEBUG_depth).pixel(index(at_x, at_y))};
+                 depth = double{*at(0, Channel::depth).pixel(index(at_x, at_y))};
     ASSERT_EQ(reaches.size(), 2u) << "in both pictures";
     ASSERT_GT(relativeRounding(), 0);
     for (const double reach : reaches)
@@ -182,9 +180,9 @@ TEST_F(AcrossDevicesPair, DepthMayMoveByTheStepsOfBothDevicesAndNotFurther) {
     const auto moveBy = [&](double pixels) {
         for (int y = 1; y < across_side; ++y)
             for (int x = 0; x < across_side; ++x) {
-                const float here = *at(0, gpu::DEBUG_depth).pixel(index(x, y)),
-                            above = *at(0, gpu::DEBUG_depth).pixel(index(x, y - 1));
-                *there(gpu::DEBUG_depth, x, y) = here + static_cast<float>(pixels) * (above - here);
+                const float here = *at(0, Channel::depth).pixel(index(x, y)),
+                            above = *at(0, Channel::depth).pixel(index(x, y - 1));
+                *there(Channel::depth, x, y) = here + static_cast<float>(pixels) * (above - here);
             }
     };
     moveBy(1.0 / 16);
@@ -204,8 +202,8 @@ TEST_F(AcrossDevicesPair, APixelMayCrossASmallSeamAndATriangleMayNotMoveByAQuart
                     const bool beyond = x >= (frame == 1 && y >= 3 && y <= 7 ? 9 : 8),
                                moved = frame == 1 && !beyond;
                     const double affine = change * (x + (beyond ? 1 : 0) + (moved ? pixels : 0));
-                    float* uv = at(frame, gpu::DEBUG_texcoords).pixel(index(x, y));
-                    uv[0] = static_cast<float>(affine * *at(frame, gpu::DEBUG_depth).pixel(index(x, y)));
+                    float* uv = at(frame, Channel::texcoords).pixel(index(x, y));
+                    uv[0] = static_cast<float>(affine * *at(frame, Channel::depth).pixel(index(x, y)));
                     uv[1] = 0;
                 }
     };
@@ -218,40 +216,40 @@ TEST_F(AcrossDevicesPair, APixelMayCrossASmallSeamAndATriangleMayNotMoveByAQuart
 }
 
 TEST_F(AcrossDevicesPair, OneCodeOfATexelIsFound) {
-    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
-    fill(1, gpu::DEBUG_albedo, exactSrgb(128));
+    fill(0, Channel::albedo, exactSrgb(128));
+    fill(1, Channel::albedo, exactSrgb(128));
     EXPECT_EQ(faults(), "");
-    *there(gpu::DEBUG_albedo, 3, 3) = static_cast<float>(exactSrgb(129));
+    *there(Channel::albedo, 3, 3) = static_cast<float>(exactSrgb(129));
     EXPECT_EQ(faults(), "albedo ");
     // Unless other texels may be visible there.
-    across_.texels.at(gpu::DEBUG_albedo).at(3, 3, 0) = 0.02f;
+    across_.texels.at(Channel::albedo).at(3, 3, 0) = 0.02f;
     EXPECT_EQ(faults(), "");
 }
 
 TEST_F(AcrossDevicesPair, AWrongCurveIsFound) {
-    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
-    fill(1, gpu::DEBUG_albedo, std::pow(128.0 / 255, 2.2));
+    fill(0, Channel::albedo, exactSrgb(128));
+    fill(1, Channel::albedo, std::pow(128.0 / 255, 2.2));
     EXPECT_EQ(faults(), "albedo ");
 }
 
 TEST_F(AcrossDevicesPair, WhatWasMeasuredOfDecodingIsGrantedAndNoMoreThanVulkanAllows) {
-    fill(0, gpu::DEBUG_albedo, exactSrgb(128));
-    fill(1, gpu::DEBUG_albedo, 1.01 * exactSrgb(128));
+    fill(0, Channel::albedo, exactSrgb(128));
+    fill(1, Channel::albedo, 1.01 * exactSrgb(128));
     EXPECT_EQ(faults(), "albedo ");
     for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
     EXPECT_EQ(faults(), "");
     // Half a code for each device is 1.7 % here.
-    fill(1, gpu::DEBUG_albedo, 1.1 * exactSrgb(128));
+    fill(1, Channel::albedo, 1.1 * exactSrgb(128));
     for (float& value : across_.devices[1].texels->srgb) value *= 1.1f;
     EXPECT_EQ(faults(), "albedo ");
 }
 
 // A sheen's colour is decoded as every sRGB texel.
 TEST_F(AcrossDevicesPair, ASheensColorIsGrantedItsDecoding) {
-    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_sheen_color);
-    across_.texels[gpu::DEBUG_sheen_color] = Image(across_side, across_side, 1);
-    fill(0, gpu::DEBUG_sheen_color, exactSrgb(128));
-    fill(1, gpu::DEBUG_sheen_color, 1.01 * exactSrgb(128));
+    for (Frame& frame : report_.frames) frame.requested.push_back(Channel::sheen_color);
+    across_.texels[Channel::sheen_color] = Image(across_side, across_side, 1);
+    fill(0, Channel::sheen_color, exactSrgb(128));
+    fill(1, Channel::sheen_color, 1.01 * exactSrgb(128));
     EXPECT_EQ(faults(), "sheen_color ");
     for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
     EXPECT_EQ(faults(), "");
@@ -259,11 +257,11 @@ TEST_F(AcrossDevicesPair, ASheensColorIsGrantedItsDecoding) {
 
 // Filters round a texel; a thickness then differs by that part of the thicknesses among which texels choose.
 TEST_F(AcrossDevicesPair, AThicknessIsGrantedTheRoundingOfItsRange) {
-    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_iridescence_thickness);
-    across_.texels[gpu::DEBUG_iridescence_thickness] = Image(across_side, across_side, 1);
+    for (Frame& frame : report_.frames) frame.requested.push_back(Channel::iridescence_thickness);
+    across_.texels[Channel::iridescence_thickness] = Image(across_side, across_side, 1);
     for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
-    fill(0, gpu::DEBUG_iridescence_thickness, 400);
-    fill(1, gpu::DEBUG_iridescence_thickness, 400 + 0.9 * 300 / 255);
+    fill(0, Channel::iridescence_thickness, 400);
+    fill(1, Channel::iridescence_thickness, 400 + 0.9 * 300 / 255);
     EXPECT_EQ(faults(), "iridescence_thickness ");
     needs_.film_thickness_range = 300;
     EXPECT_EQ(faults(), "");
@@ -276,25 +274,25 @@ TEST_F(AcrossDevicesPair, APaneMayEndAPixelBesideItsEdge) {
     const auto endAt = [&](std::size_t frame, int column) {
         for (int y = 0; y < across_side; ++y)
             for (int x = 0; x < across_side; ++x)
-                at(frame, gpu::DEBUG_dispersion).at(x, y) = x < column ? 0.0f : 2.0f;
+                at(frame, Channel::dispersion).at(x, y) = x < column ? 0.0f : 2.0f;
     };
-    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_dispersion);
+    for (Frame& frame : report_.frames) frame.requested.push_back(Channel::dispersion);
     endAt(0, 20);
     endAt(1, 21);
     EXPECT_EQ(faults(), "");
     endAt(1, 22);
     EXPECT_EQ(faults(), "dispersion ") << "two pixels away";
     endAt(1, 20);
-    *there(gpu::DEBUG_dispersion, 25, 5) = 2.1f;
+    *there(Channel::dispersion, 25, 5) = 2.1f;
     EXPECT_EQ(faults(), "dispersion ") << "inside the pane";
 }
 
 // A texture of thicknesses rounds in its unit.
 TEST_F(AcrossDevicesPair, AVolumesThicknessIsGrantedTheRoundingOfItsRange) {
-    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_transmission_thickness);
+    for (Frame& frame : report_.frames) frame.requested.push_back(Channel::transmission_thickness);
     for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
-    fill(0, gpu::DEBUG_transmission_thickness, 4);
-    fill(1, gpu::DEBUG_transmission_thickness, 4 + 0.9 * 3 / 255);
+    fill(0, Channel::transmission_thickness, 4);
+    fill(1, Channel::transmission_thickness, 4 + 0.9 * 3 / 255);
     needs_.volume_thickness_range = 3;
     EXPECT_EQ(faults(), "transmission_thickness ") << "no texture";
     needs_.textures = 1;
@@ -305,38 +303,38 @@ TEST_F(AcrossDevicesPair, AVolumesThicknessIsGrantedTheRoundingOfItsRange) {
 
 // No texture scales a film's index, though the weight's texture may take the film away.
 TEST_F(AcrossDevicesPair, AnIndexIsGrantedNoTexel) {
-    for (Frame& frame : report_.frames) frame.requested.push_back(gpu::DEBUG_iridescence_ior);
-    across_.texels[gpu::DEBUG_iridescence_ior] = Image(across_side, across_side, 1);
+    for (Frame& frame : report_.frames) frame.requested.push_back(Channel::iridescence_ior);
+    across_.texels[Channel::iridescence_ior] = Image(across_side, across_side, 1);
     for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.5 / 255;
-    fill(0, gpu::DEBUG_iridescence_ior, 1.3);
-    fill(1, gpu::DEBUG_iridescence_ior, 1.301);
+    fill(0, Channel::iridescence_ior, 1.3);
+    fill(1, Channel::iridescence_ior, 1.301);
     EXPECT_EQ(faults(), "iridescence_ior ");
 }
 
 // Specular-glossiness: albedo is diffuse times 1 - F0. Half of what decoding changes at F0 0.9, where a code
 // is 1 % of it, is far more than 1 % of an albedo of 0.05.
 TEST_F(AcrossDevicesPair, F0DarkensTheAlbedoOfSpecularGlossiness) {
-    for (const std::size_t frame : {0, 1}) fill(frame, gpu::DEBUG_dielectric_f0, 0.9);
+    for (const std::size_t frame : {0, 1}) fill(frame, Channel::dielectric_f0, 0.9);
     for (float& value : across_.devices[1].texels->srgb) value *= 1.01f;
-    fill(0, gpu::DEBUG_albedo, 0.05);
-    fill(1, gpu::DEBUG_albedo, 0.053);
+    fill(0, Channel::albedo, 0.05);
+    fill(1, Channel::albedo, 0.053);
     EXPECT_EQ(faults(), "albedo ");
     needs_.specular_glossiness = true;
     EXPECT_EQ(faults(), "");
-    fill(1, gpu::DEBUG_albedo, 0.06);
+    fill(1, Channel::albedo, 0.06);
     EXPECT_EQ(faults(), "albedo ");
 }
 
 TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces) {
     // If surfaces differ within their tolerance, light may differ, too.
-    fill(1, gpu::DEBUG_lit, 0.6);
+    fill(1, Channel::lit, 0.6);
     EXPECT_EQ(faults(), "lit ");
-    across_.relit[gpu::DEBUG_lit] = at(1, gpu::DEBUG_lit);
+    across_.relit[Channel::lit] = at(1, Channel::lit);
     EXPECT_EQ(faults(), "");
-    fill(1, gpu::DEBUG_lit, 0.6 * 1.0001);
+    fill(1, Channel::lit, 0.6 * 1.0001);
     EXPECT_EQ(faults(), "");
     // One device misses a light.
-    fill(1, gpu::DEBUG_lit_diffuse, 0.4);
+    fill(1, Channel::lit_diffuse, 0.4);
     EXPECT_EQ(faults(), "lit_diffuse ");
 }
 
@@ -344,19 +342,19 @@ TEST_F(AcrossDevicesPair, LightIsHeldToTheOtherDevicesLightingOfTheSameSurfaces)
 // of lit get the same tolerance as lit.
 TEST_F(AcrossDevicesPair, AreaLightsGrantTheDarkMoreAndNothingElseDoes) {
     const auto darken = [](Image& image, float value) { std::fill_n(image.pixel(index(20, 12)), 3, value); };
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_diffuse}) {
+    for (const Channel mode : {Channel::lit, Channel::lit_diffuse}) {
         for (const std::size_t frame : {0, 1}) {
-            fill(frame, mode, mode == gpu::DEBUG_lit ? 0.5 : 0.1);
+            fill(frame, mode, mode == Channel::lit ? 0.5 : 0.1);
             darken(at(frame, mode), 1e-3f);
         }
-        Image& relit = across_.relit[static_cast<int>(mode)];
+        Image& relit = across_.relit[mode];
         relit = at(1, mode);
         darken(relit, 1.009e-3f);
     }
     EXPECT_EQ(faults(), "lit lit_diffuse ");
     needs_.rect_lights = 1;
     EXPECT_EQ(faults(), "");
-    darken(across_.relit[gpu::DEBUG_lit_diffuse], 1.02e-3f);
+    darken(across_.relit[Channel::lit_diffuse], 1.02e-3f);
     EXPECT_EQ(faults(), "lit_diffuse ");
 }
 
@@ -364,24 +362,24 @@ TEST_F(AcrossDevicesPair, ShadowsMayDifferBesideTheirEdgesAlone) {
     for (const std::size_t frame : {0, 1})
         for (int y = 0; y < across_side; ++y)
             for (int x = 0; x < across_side; ++x)
-                *at(frame, gpu::DEBUG_shadow_visibility).pixel(index(x, y)) = y < 8 ? 0.0f : 1.0f;
+                *at(frame, Channel::shadow_visibility).pixel(index(x, y)) = y < 8 ? 0.0f : 1.0f;
     EXPECT_EQ(faults(), "");
-    *there(gpu::DEBUG_shadow_visibility, 4, 8) = 0.75f;
-    *there(gpu::DEBUG_lit, 4, 8) = 0.1f;
+    *there(Channel::shadow_visibility, 4, 8) = 0.75f;
+    *there(Channel::lit, 4, 8) = 0.1f;
     EXPECT_EQ(faults(), "");
     for (int x = 10; x < 20; ++x)
-        for (int y = 20; y < 24; ++y) *there(gpu::DEBUG_shadow_visibility, x, y) = 0;
+        for (int y = 20; y < 24; ++y) *there(Channel::shadow_visibility, x, y) = 0;
     EXPECT_NE(faults().find(" not beside a shadow boundary"), std::string::npos);
 }
 
 // The other device's position is lit by one percent of the sun in this device's shadow map. Neither picture
 // shows that shadow boundary.
 TEST_F(AcrossDevicesPair, AShadowMayEndBetweenBothPositionsOfAPixel) {
-    Image& lit = across_.relit[gpu::DEBUG_lit];
+    Image& lit = across_.relit[Channel::lit];
     lit.at(7, 9, 0) *= 1.02f;
     EXPECT_EQ(faults(), "lit ");
-    Image& visible = across_.relit[gpu::DEBUG_shadow_visibility];
-    visible = at(1, gpu::DEBUG_shadow_visibility);
+    Image& visible = across_.relit[Channel::shadow_visibility];
+    visible = at(1, Channel::shadow_visibility);
     EXPECT_EQ(faults(), "lit ");
     visible.at(7, 9) += 0.01f;
     EXPECT_EQ(faults(), "");
@@ -391,7 +389,7 @@ TEST_F(AcrossDevicesPair, AShadowMayEndBetweenBothPositionsOfAPixel) {
 }
 
 TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {
-    *there(gpu::DEBUG_roughness, 3, 3) = std::nanf("");
+    *there(Channel::roughness, 3, 3) = std::nanf("");
     EXPECT_NE(faults().find("roughness"), std::string::npos);
 }
 
@@ -411,18 +409,17 @@ struct TexturedPlane {
         scene.textures.push_back({0, {}});
         scene.materials.emplace_back().base_color_texture.texture = 0;
         frame.settings.size = {across_side, across_side};
-        for (const gpu::uint mode : {gpu::DEBUG_material_id, gpu::DEBUG_texcoords})
-            frame.channels[static_cast<int>(mode)] =
-                Image(across_side, across_side, debugMode(static_cast<int>(mode)).width);
+        for (const Channel mode : {Channel::material_id, Channel::texcoords})
+            frame.channels[mode] = Image(across_side, across_side, debugMode(mode).width);
         for (int y = 0; y < across_side; ++y)
             for (int x = 0; x < across_side; ++x) {
-                Image& uv = frame.channels.at(gpu::DEBUG_texcoords);
+                Image& uv = frame.channels.at(Channel::texcoords);
                 uv.at(x, y, 0) = static_cast<float>((x * texels_a_pixel + 0.3) / 64);
                 uv.at(x, y, 1) = static_cast<float>((y * texels_a_pixel + 0.3) / 64);
             }
     }
     float range() const {
-        return texelRanges(scene, frame, {}).at(gpu::DEBUG_albedo).at(across_side / 2, across_side / 2, 0);
+        return texelRanges(scene, frame, {}).at(Channel::albedo).at(across_side / 2, across_side / 2, 0);
     }
 };
 
@@ -440,7 +437,7 @@ TEST(TexelRanges, AreThoseOfTheTexelsThatMayBeSeen) {
 }
 
 // A checker of codes 255 and `low`, whose alpha is its own colour, in the slots that `set` gives it.
-std::map<int, Image> layerRanges(int low, const std::function<void(Material&)>& set) {
+std::map<Channel, Image> layerRanges(int low, const std::function<void(Material&)>& set) {
     TexturedPlane plane(1, [=](int x, int y) { return (x + y) % 2 == 0 ? 255 : low; });
     std::vector<std::uint8_t>& rgba = plane.scene.images[0].rgba;
     for (std::size_t i = 0; i < rgba.size(); i += 4) rgba[i + 3] = rgba[i];
@@ -455,25 +452,25 @@ std::map<int, Image> layerRanges(int low, const std::function<void(Material&)>& 
     set(m);
     return texelRanges(plane.scene, plane.frame, {});
 }
-double rangeIn(const std::map<int, Image>& ranges, gpu::uint mode) {
-    const auto found = ranges.find(static_cast<int>(mode));
+double rangeIn(const std::map<Channel, Image>& ranges, Channel mode) {
+    const auto found = ranges.find(mode);
     return found == ranges.end() ? 0 : double{found->second.at(across_side / 2, across_side / 2, 0)};
 }
 
 TEST(TexelRanges, OfASheenAreItsColorsAndItsAlphas) {
     const auto color = layerRanges(51, [](Material& m) { m.sheen_color_texture.texture = 0; });
-    EXPECT_NEAR(rangeIn(color, gpu::DEBUG_sheen_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
-    EXPECT_EQ(rangeIn(color, gpu::DEBUG_sheen_roughness), 0) << "the sheen is there wherever";
+    EXPECT_NEAR(rangeIn(color, Channel::sheen_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
+    EXPECT_EQ(rangeIn(color, Channel::sheen_roughness), 0) << "the sheen is there wherever";
     const auto roughness = layerRanges(51, [](Material& m) { m.sheen_roughness_texture.texture = 0; });
-    EXPECT_NEAR(rangeIn(roughness, gpu::DEBUG_sheen_roughness), 0.75 * 0.8, 1e-6) << "alpha is linear";
-    EXPECT_EQ(rangeIn(roughness, gpu::DEBUG_sheen_color), 0);
+    EXPECT_NEAR(rangeIn(roughness, Channel::sheen_roughness), 0.75 * 0.8, 1e-6) << "alpha is linear";
+    EXPECT_EQ(rangeIn(roughness, Channel::sheen_color), 0);
 }
 
 // Without colour there is no sheen, whose roughness is then 0.
 TEST(TexelRanges, ABlackTexelTakesTheSheenAway) {
     const auto ranges = layerRanges(0, [](Material& m) { m.sheen_color_texture.texture = 0; });
-    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_color), 0.5, 1e-6);
-    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_sheen_roughness), 0.75, 1e-6);
+    EXPECT_NEAR(rangeIn(ranges, Channel::sheen_color), 0.5, 1e-6);
+    EXPECT_NEAR(rangeIn(ranges, Channel::sheen_roughness), 0.75, 1e-6);
 }
 
 // Alpha is the weight of diffuse transmission; without weight it has no colour.
@@ -484,35 +481,35 @@ TEST(TexelRanges, AWeightOfZeroTakesDiffuseTransmissionAway) {
         m.diffuse_transmission_texture.texture = 0;
     };
     const auto kept = layerRanges(51, weigh), gone = layerRanges(0, weigh);
-    EXPECT_NEAR(rangeIn(kept, gpu::DEBUG_diffuse_transmission), 0.75 * 0.8, 1e-6);
-    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_diffuse_transmission_color), 0);
-    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_diffuse_transmission), 0.75, 1e-6);
-    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_diffuse_transmission_color), 0.5, 1e-6);
+    EXPECT_NEAR(rangeIn(kept, Channel::diffuse_transmission), 0.75 * 0.8, 1e-6);
+    EXPECT_EQ(rangeIn(kept, Channel::diffuse_transmission_color), 0);
+    EXPECT_NEAR(rangeIn(gone, Channel::diffuse_transmission), 0.75, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, Channel::diffuse_transmission_color), 0.5, 1e-6);
     const auto color = layerRanges(51, [](Material& m) {
         m.diffuse_transmission = 0.75f;
         m.diffuse_transmission_color = {0.25f, 0.5f, 0};
         m.diffuse_transmission_color_texture.texture = 0;
     });
-    EXPECT_NEAR(rangeIn(color, gpu::DEBUG_diffuse_transmission_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
-    EXPECT_EQ(rangeIn(color, gpu::DEBUG_diffuse_transmission), 0);
+    EXPECT_NEAR(rangeIn(color, Channel::diffuse_transmission_color), 0.5 * (1 - exactSrgb(51)), 1e-6);
+    EXPECT_EQ(rangeIn(color, Channel::diffuse_transmission), 0);
 }
 
 TEST(TexelRanges, OfAThicknessArePartsOfItsRange) {
     const auto ranges = layerRanges(51, [](Material& m) { m.iridescence_thickness_texture.texture = 0; });
-    EXPECT_NEAR(rangeIn(ranges, gpu::DEBUG_iridescence_thickness), 200 * 0.8, 1e-4)
+    EXPECT_NEAR(rangeIn(ranges, Channel::iridescence_thickness), 200 * 0.8, 1e-4)
         << "either end may be larger";
-    EXPECT_EQ(rangeIn(ranges, gpu::DEBUG_iridescence), 0);
+    EXPECT_EQ(rangeIn(ranges, Channel::iridescence), 0);
 }
 
 TEST(TexelRanges, AWeightOfZeroTakesTheFilmAway) {
     const auto weigh = [](Material& m) { m.iridescence_texture.texture = 0; };
     const auto kept = layerRanges(51, weigh), gone = layerRanges(0, weigh);
-    EXPECT_NEAR(rangeIn(kept, gpu::DEBUG_iridescence), 0.5 * 0.8, 1e-6);
-    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_iridescence_ior), 0);
-    EXPECT_EQ(rangeIn(kept, gpu::DEBUG_iridescence_thickness), 0);
-    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence), 0.5, 1e-6);
-    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence_ior), 1.5, 1e-6);
-    EXPECT_NEAR(rangeIn(gone, gpu::DEBUG_iridescence_thickness), 300, 1e-4);
+    EXPECT_NEAR(rangeIn(kept, Channel::iridescence), 0.5 * 0.8, 1e-6);
+    EXPECT_EQ(rangeIn(kept, Channel::iridescence_ior), 0);
+    EXPECT_EQ(rangeIn(kept, Channel::iridescence_thickness), 0);
+    EXPECT_NEAR(rangeIn(gone, Channel::iridescence), 0.5, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, Channel::iridescence_ior), 1.5, 1e-6);
+    EXPECT_NEAR(rangeIn(gone, Channel::iridescence_thickness), 300, 1e-4);
 }
 
 // F0 darkens the base, and alpha is glossiness.
@@ -527,11 +524,11 @@ TEST(TexelRanges, OfSpecularGlossinessReachAlbedoAndRoughness) {
     m.base_color = {0.5f, 0.25f, 0.125f, 1};
     m.specular_color = {0.25f, 0.5f, 0};
     m.roughness = 0.25f;
-    const std::map<int, Image> ranges = texelRanges(plane.scene, plane.frame, {});
+    const std::map<Channel, Image> ranges = texelRanges(plane.scene, plane.frame, {});
     for (const auto& [mode, range] :
-         {std::pair{gpu::DEBUG_dielectric_f0, 0.5}, {gpu::DEBUG_albedo, 0.25}, {gpu::DEBUG_roughness, 0.75}})
-        EXPECT_NEAR(ranges.at(static_cast<int>(mode)).at(across_side / 2, across_side / 2, 0), range, 1e-6)
-            << mode;
+         {std::pair{Channel::dielectric_f0, 0.5}, {Channel::albedo, 0.25}, {Channel::roughness, 0.75}})
+        EXPECT_NEAR(ranges.at(mode).at(across_side / 2, across_side / 2, 0), range, 1e-6)
+            << debugMode(mode).name;
 }
 
 TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {

@@ -23,8 +23,8 @@ Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
     Frame frame = flatFrame(path, blendWide, blendHigh, 1, 3);
     frame.scene = "a scene";
     frame.settings.gbuffer = encoding;
-    frame.unblended = frame.channels[litMode];
-    for (std::size_t i = 0; i < 3 * blendCovered; ++i) frame.channels[litMode].data[i] = 2;
+    frame.unblended = frame.channels[Channel::lit];
+    for (std::size_t i = 0; i < 3 * blendCovered; ++i) frame.channels[Channel::lit].data[i] = 2;
     if (path == Path::reference) {
         frame.blended = Image(blendWide, blendHigh, 3);
         for (std::size_t i = 0; i < blendCovered; ++i) *frame.blended.pixel(i) = 0.5f;
@@ -35,7 +35,7 @@ Frame blendFrame(Path path, GBufferEncoding encoding = GBufferEncoding::full) {
 // `behind`: radiance of the pixel's opaque surface. `all`: radiance after blending.
 void setPixel(Frame& frame, std::size_t i, float behind, float all) {
     frame.unblended.pixel(i)[1] = behind;
-    frame.channels[litMode].pixel(i)[1] = all;
+    frame.channels[Channel::lit].pixel(i)[1] = all;
 }
 
 Report blendReport(Frame a, Frame b, const std::string& device = "cpu", CompareOptions options = {}) {
@@ -118,7 +118,7 @@ TEST(AfterBlending, OfAPackedGBufferWhatItExplainsIsNoDifference) {
     const auto packed = GBufferEncoding::standard;
     Frame deferred = blendFrame(Path::deferred, packed), forward = blendFrame(Path::forward_plus, packed);
     setPixel(deferred, 7, 1.01f, 2.005f);
-    forward.through_gbuffer[litMode] = deferred.channels[litMode];
+    forward.through_gbuffer[Channel::lit] = deferred.channels[Channel::lit];
     forward.unblended_through_gbuffer = deferred.unblended;
     EXPECT_TRUE(only(blendReport(deferred, forward)).passed());
     setPixel(deferred, 7, 1.01f, 2.004f);  // closer to forward+'s own value, but not the encoding's result
@@ -168,12 +168,12 @@ TEST(AfterBlending, WithoutBlendingOrWithoutKnowingThereIsNothingToSay) {
 TEST(AfterBlending, PixelsThatOnlySomethingBlendedCoversCount) {
     for (const Path path : {Path::deferred, Path::reference}) {
         Frame a = blendFrame(path), b = blendFrame(Path::forward_plus);
-        for (Frame* frame : {&a, &b}) std::ranges::fill(frame->channels[idMode].data, -1.0f);
+        for (Frame* frame : {&a, &b}) std::ranges::fill(frame->channels[Channel::material_id].data, -1.0f);
         const Coverage covered = coverage(a, b);
         EXPECT_TRUE(covered.known);
         EXPECT_EQ(covered.count, blendCovered) << nameOf(path);
         EXPECT_TRUE(only(blendReport(a, b)).emptiness.find("no surface") == std::string::npos);
-        for (const std::size_t i : {8u, 9u}) b.channels[litMode].pixel(i)[0] = 2.5f;
+        for (const std::size_t i : {8u, 9u}) b.channels[Channel::lit].pixel(i)[0] = 2.5f;
         EXPECT_FALSE(only(blendReport(a, b)).passed()) << nameOf(path);
         a.unblended = b.unblended = {};
         if (path == Path::deferred) {

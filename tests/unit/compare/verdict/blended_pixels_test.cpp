@@ -14,7 +14,6 @@ namespace {
 
 constexpr int imageWidth = 40, imageHeight = 25;
 constexpr std::size_t glassPixel = 12 * imageWidth + 20;
-constexpr int transmittedMode = static_cast<int>(gpu::DEBUG_lit_transmission);
 
 // Radiance 1 in lit and 0.5 through glass; opaque surfaces send 1, the brightest one 8. Half the light
 // behind one pixel passes its glass and arrives from elsewhere.
@@ -28,8 +27,8 @@ struct Glass {
         for (Frame& frame : frames) {
             frame.scene = "a scene";
             frame.settings.gbuffer = GBufferEncoding::full;
-            frame.channels[transmittedMode] = Image(imageWidth, imageHeight, 3, 0.5f);
-            frame.unblended = frame.channels[litMode];
+            frame.channels[Channel::lit_transmission] = Image(imageWidth, imageHeight, 3, 0.5f);
+            frame.unblended = frame.channels[Channel::lit];
         }
         frames[0].settings.reference_mode = mode;
         frames[0].unblended.pixel(0)[2] = 8;
@@ -38,37 +37,39 @@ struct Glass {
         frames[0].blended.pixel(glassPixel)[1] = 0.5f;
         frames[0].blended.pixel(glassPixel)[2] = 0.5f;
     }
-    double allowed(int mode, std::size_t pixel) const {
+    double allowed(Channel mode, std::size_t pixel) const {
         return BlendedPixels({frames[0], frames[1], needs, coverage}).allowed(debugMode(mode), pixel);
     }
 };
 
 TEST(BlendedPixels, RoughOrRefractingGlassMayShowWhatThePictureHolds) {
     const Glass g;
-    EXPECT_EQ(g.allowed(litMode, glassPixel), 4) << "half of the brightest pixel";
-    EXPECT_EQ(g.allowed(transmittedMode, glassPixel), 4);
-    EXPECT_EQ(g.allowed(litMode, glassPixel + 1), 4) << "the rasteriser's edge may lie one pixel further";
-    EXPECT_EQ(g.allowed(litMode, glassPixel + 2), 0);
-    EXPECT_EQ(g.allowed(idMode, glassPixel), 0);
+    EXPECT_EQ(g.allowed(Channel::lit, glassPixel), 4) << "half of the brightest pixel";
+    EXPECT_EQ(g.allowed(Channel::lit_transmission, glassPixel), 4);
+    EXPECT_EQ(g.allowed(Channel::lit, glassPixel + 1), 4)
+        << "the rasteriser's edge may lie one pixel further";
+    EXPECT_EQ(g.allowed(Channel::lit, glassPixel + 2), 0);
+    EXPECT_EQ(g.allowed(Channel::material_id, glassPixel), 0);
     EXPECT_TRUE(BlendedPixels({g.frames[0], g.frames[1], g.needs, g.coverage}).anyGlass());
     Glass bright;
     bright.frames[0].blended.pixel(glassPixel)[2] = 20;
-    EXPECT_EQ(bright.allowed(litMode, glassPixel), 20) << "the reference saw what the picture does not hold";
+    EXPECT_EQ(bright.allowed(Channel::lit, glassPixel), 20)
+        << "the reference saw what the picture does not hold";
 }
 
 // A comparison may have no channel but lit.
 TEST(BlendedPixels, WhatGlassReflectsIsHeldAsElsewhere) {
     Glass g;
-    for (Frame& frame : g.frames) frame.channels.erase(transmittedMode);
-    g.frames[0].channels[litMode] = Image(imageWidth, imageHeight, 3, 20);
+    for (Frame& frame : g.frames) frame.channels.erase(Channel::lit_transmission);
+    g.frames[0].channels[Channel::lit] = Image(imageWidth, imageHeight, 3, 20);
     g.frames[0].blended.pixel(glassPixel)[1] = 0.001f;
-    EXPECT_FLOAT_EQ(static_cast<float>(g.allowed(litMode, glassPixel)), 0.5f);
+    EXPECT_FLOAT_EQ(static_cast<float>(g.allowed(Channel::lit, glassPixel)), 0.5f);
 }
 
 TEST(BlendedPixels, ClearThinGlassMayNot) {
     Glass g;
     g.frames[0].blended.pixel(glassPixel)[1] = 0;
-    EXPECT_EQ(g.allowed(litMode, glassPixel), 0);
+    EXPECT_EQ(g.allowed(Channel::lit, glassPixel), 0);
     EXPECT_FALSE(BlendedPixels({g.frames[0], g.frames[1], g.needs, g.coverage}).anyGlass());
 }
 
@@ -78,11 +79,11 @@ TEST(BlendedPixels, AVerdictSaysWhatItGrants) {
         const auto verdictOf = [&](float error, std::size_t pixel) {
             Glass g(mode);
             for (const std::size_t i : {pixel - 1, pixel, pixel + 1})
-                for (int c = 0; c < 3; ++c) g.frames[1].channels[litMode].pixel(i)[c] += error;
+                for (int c = 0; c < 3; ++c) g.frames[1].channels[Channel::lit].pixel(i)[c] += error;
             Report report;
             report.device = {"a CPU", "1.0", "cpu"};
             report.frames = std::move(g.frames);
-            for (Frame& frame : report.frames) frame.requested = {litMode};
+            for (Frame& frame : report.frames) frame.requested = {Channel::lit};
             return compareFrames(report, 0, 1, {}, {}).channels.front();
         };
         const ChannelDiff granted = verdictOf(3.5f, glassPixel);
@@ -104,11 +105,11 @@ TEST(BlendedPixels, GlassDoesNotExcuseOtherPixels) {
         if (!half) g.frames[0].blended = Image(imageWidth, imageHeight, 3);
         for (std::size_t i = 13 * imageWidth; half && i < g.frames[0].blended.pixels(); ++i)
             for (int c = 0; c < 3; ++c) g.frames[0].blended.pixel(i)[c] = 0.5f;
-        for (int c = 0; c < 3; ++c) g.frames[1].channels[litMode].pixel(2 * imageWidth + 2)[c] += 0.01f;
+        for (int c = 0; c < 3; ++c) g.frames[1].channels[Channel::lit].pixel(2 * imageWidth + 2)[c] += 0.01f;
         Report report;
         report.device = {"a CPU", "1.0", "cpu"};
         report.frames = std::move(g.frames);
-        for (Frame& frame : report.frames) frame.requested = {litMode};
+        for (Frame& frame : report.frames) frame.requested = {Channel::lit};
         const ChannelDiff lit = compareFrames(report, 0, 1, {}, {}).channels.front();
         EXPECT_EQ(lit.footprints.value().beyond, 1u);
         EXPECT_EQ(lit.verdict, half ? Verdict::fail : Verdict::pass);

@@ -11,16 +11,15 @@ namespace diptych {
 namespace {
 
 // Both paths of the small scene; only this channel is compared.
-std::vector<Frame> framesOf(gpu::uint mode) {
+std::vector<Frame> framesOf(Channel mode) {
     std::vector<Frame> frames = bothFrames();
-    for (Frame& frame : frames) frame.requested = {static_cast<int>(mode)};
+    for (Frame& frame : frames) frame.requested = {mode};
     return frames;
 }
 
-const ChannelDiff& channelIn(const Comparison& comparison, gpu::uint mode) {
-    return *std::ranges::find_if(comparison.channels, [&](const ChannelDiff& channel) {
-        return channel.mode->number == static_cast<int>(mode);
-    });
+const ChannelDiff& channelIn(const Comparison& comparison, Channel mode) {
+    return *std::ranges::find_if(comparison.channels,
+                                 [&](const ChannelDiff& channel) { return channel.mode->channel == mode; });
 }
 
 // Deferred against forward+, by default on a CPU.
@@ -33,31 +32,31 @@ Comparison comparedPair(const std::vector<Frame>& frames, const CompareOptions& 
 }
 
 TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
-    for (const gpu::uint mode : {gpu::DEBUG_metallic, gpu::DEBUG_roughness, gpu::DEBUG_occlusion}) {
+    for (const Channel mode : {Channel::metallic, Channel::roughness, Channel::occlusion}) {
         std::vector<Frame> frames = framesOf(mode);
         const double most = channelIn(comparedPair(frames), mode).tolerance.max;
-        ASSERT_GT(most, 0) << mode;
+        ASSERT_GT(most, 0) << debugMode(mode).name;
         const auto verdictAt = [&](double share) {
-            frames[1].channels.at(static_cast<int>(mode)).at(1, 2) = static_cast<float>(0.5 + share * most);
+            frames[1].channels.at(mode).at(1, 2) = static_cast<float>(0.5 + share * most);
             const Comparison comparison = comparedPair(frames);
             EXPECT_EQ(comparison.passed(), channelIn(comparison, mode).verdict == Verdict::pass);
             return channelIn(comparison, mode).verdict;
         };
-        EXPECT_EQ(verdictAt(0.99), Verdict::pass) << mode;
-        EXPECT_EQ(verdictAt(1.01), Verdict::fail) << mode;
-        EXPECT_EQ(verdictAt(-0.99), Verdict::pass) << mode;
-        EXPECT_EQ(verdictAt(-1.01), Verdict::fail) << mode;
-        EXPECT_EQ(verdictAt(1.9), Verdict::fail) << mode;
+        EXPECT_EQ(verdictAt(0.99), Verdict::pass) << debugMode(mode).name;
+        EXPECT_EQ(verdictAt(1.01), Verdict::fail) << debugMode(mode).name;
+        EXPECT_EQ(verdictAt(-0.99), Verdict::pass) << debugMode(mode).name;
+        EXPECT_EQ(verdictAt(-1.01), Verdict::fail) << debugMode(mode).name;
+        EXPECT_EQ(verdictAt(1.9), Verdict::fail) << debugMode(mode).name;
     }
 }
 
 // Bitwise identical if this very CPU drew both. Another device or driver, or a GPU, may differ by 16 ULP.
 TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
-    std::vector<Frame> frames = framesOf(gpu::DEBUG_depth);
-    float& depth = frames[0].channels.at(static_cast<int>(gpu::DEBUG_depth)).at(1, 2);
+    std::vector<Frame> frames = framesOf(Channel::depth);
+    float& depth = frames[0].channels.at(Channel::depth).at(1, 2);
     depth = std::nextafter(depth, 1.0f);
     const auto verdict = [&](const ReportDevice& device) {
-        return channelIn(comparedPair(frames, {}, device), gpu::DEBUG_depth).verdict;
+        return channelIn(comparedPair(frames, {}, device), Channel::depth).verdict;
     };
     const ReportDevice here{"a CPU", "1.0", "cpu"};
     EXPECT_EQ(verdict(here), Verdict::fail);
@@ -78,42 +77,41 @@ TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
 // Non-finite values are reported before the metric. A black baseline, whose relative error is infinite
 // too, is reported after it.
 TEST(ChannelDiff, SaysWhyAnErrorIsInfinite) {
-    std::vector<Frame> frames = framesOf(gpu::DEBUG_metallic);
-    float &here = frames[0].channels.at(gpu::DEBUG_metallic).at(1, 2),
-          &there = frames[1].channels.at(gpu::DEBUG_metallic).at(1, 2);
-    const auto reason = [&](gpu::uint mode) { return channelIn(comparedPair(frames), mode).reason; };
+    std::vector<Frame> frames = framesOf(Channel::metallic);
+    float &here = frames[0].channels.at(Channel::metallic).at(1, 2),
+          &there = frames[1].channels.at(Channel::metallic).at(1, 2);
+    const auto reason = [&](Channel mode) { return channelIn(comparedPair(frames), mode).reason; };
     there = 0.75f;
-    EXPECT_TRUE(reason(gpu::DEBUG_metallic).starts_with("max 0.25 exceeds")) << reason(gpu::DEBUG_metallic);
+    EXPECT_TRUE(reason(Channel::metallic).starts_with("max 0.25 exceeds")) << reason(Channel::metallic);
     here = std::nanf("");
     there = HUGE_VALF;
-    EXPECT_TRUE(reason(gpu::DEBUG_metallic)
+    EXPECT_TRUE(reason(Channel::metallic)
                     .starts_with("NaN or infinity at 1 pixel of deferred and 1 pixel of forward_plus; max "
                                  "inf exceeds"))
-        << reason(gpu::DEBUG_metallic);
+        << reason(Channel::metallic);
 
-    frames = framesOf(gpu::DEBUG_lit);
-    std::ranges::fill(frames[0].channels.at(gpu::DEBUG_lit).data, 0.0f);
+    frames = framesOf(Channel::lit);
+    std::ranges::fill(frames[0].channels.at(Channel::lit).data, 0.0f);
     EXPECT_TRUE(
-        reason(gpu::DEBUG_lit).ends_with("; the error is infinite at 1 pixel: the baseline is 0 everywhere"))
-        << reason(gpu::DEBUG_lit);
+        reason(Channel::lit).ends_with("; the error is infinite at 1 pixel: the baseline is 0 everywhere"))
+        << reason(Channel::lit);
 }
 
 // The tolerance includes the sum of both paths' differences between two runs, and no more.
 TEST(ChannelDiff, TheNoiseOfBothPathsIsGranted) {
-    std::vector<Frame> frames = framesOf(gpu::DEBUG_roughness);
-    const int mode = static_cast<int>(gpu::DEBUG_roughness);
-    frames[0].noise[mode] = {3, 0.125};
-    frames[1].noise[mode] = {1, 0.25};
-    frames[1].channels.at(mode).at(1, 2) += 0.375f;
+    std::vector<Frame> frames = framesOf(Channel::roughness);
+    frames[0].noise[Channel::roughness] = {3, 0.125};
+    frames[1].noise[Channel::roughness] = {1, 0.25};
+    frames[1].channels.at(Channel::roughness).at(1, 2) += 0.375f;
     CompareOptions allowed;
     allowed.allow_noise = true;
     const ReportDevice card{"a GPU", "1.0", "discrete"};
     const Comparison strict = comparedPair(frames, {}, card), noisy = comparedPair(frames, allowed, card);
     EXPECT_FALSE(strict.passed());
     EXPECT_TRUE(noisy.passed());
-    EXPECT_NEAR(channelIn(noisy, gpu::DEBUG_roughness).tolerance.max,
-                channelIn(strict, gpu::DEBUG_roughness).tolerance.max + 0.375, 1e-12);
-    frames[1].channels.at(mode).at(1, 2) += 0.01f;
+    EXPECT_NEAR(channelIn(noisy, Channel::roughness).tolerance.max,
+                channelIn(strict, Channel::roughness).tolerance.max + 0.375, 1e-12);
+    frames[1].channels.at(Channel::roughness).at(1, 2) += 0.01f;
     EXPECT_FALSE(comparedPair(frames, allowed, card).passed());
 }
 

@@ -17,8 +17,9 @@ Frame frameOf(Path path, const std::vector<float>& values) {
     const int width = static_cast<int>(values.size());
     Frame frame = flatFrame(path, width, 1);
     for (int x = 0; x < width; ++x)
-        for (int c = 0; c < 3; ++c) frame.channels[litMode].at(x, 0, c) = values[static_cast<std::size_t>(x)];
-    frame.channels[idMode].at(width - 1, 0) = 2;
+        for (int c = 0; c < 3; ++c)
+            frame.channels[Channel::lit].at(x, 0, c) = values[static_cast<std::size_t>(x)];
+    frame.channels[Channel::material_id].at(width - 1, 0) = 2;
     return frame;
 }
 
@@ -38,15 +39,14 @@ CloserPathChannel litOf(const std::vector<Frame>& frames) {
 // With MSAA, a path's light components come from one sample, the reference's from all.
 TEST(CloserPath, OfSeveralSamplesIsOfLitAlone) {
     auto frames = threeFrames({1, 1}, {1.1f, 1}, {1, 1});
-    for (Frame& frame : frames)
-        frame.channels[static_cast<int>(gpu::DEBUG_lit_diffuse)] = frame.channels.at(litMode);
+    for (Frame& frame : frames) frame.channels[Channel::lit_diffuse] = frame.channels.at(Channel::lit);
     const auto channels = [&] {
         return closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {}).channels.size();
     };
     EXPECT_EQ(channels(), 2u);
     frames[1].settings.msaa = frames[2].settings.msaa = 4;
     EXPECT_EQ(channels(), 1u);
-    EXPECT_EQ(litOf(frames).mode->number, litMode);
+    EXPECT_EQ(litOf(frames).mode->channel, Channel::lit);
 }
 
 TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
@@ -115,7 +115,7 @@ TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     const Requirements needs;
     const Coverage covered = coverage(frames[0], frames[1]);
     const auto certain = [&](std::size_t path) {
-        return certainP999(debugMode(litMode), {frames[0], frames[path], needs, covered, true, nullptr});
+        return certainP999(debugMode(Channel::lit), {frames[0], frames[path], needs, covered, true, nullptr});
     };
     EXPECT_FALSE(certain(1).has_value()) << "nothing was sampled";
     frames[0].uncertainty = Image(2, 1, 1);
@@ -123,7 +123,7 @@ TEST(CloserPath, TheReferencesOwnUncertaintyIsGrantedByThePixel) {
     EXPECT_EQ(certain(1).value(), 0);
     EXPECT_NEAR(certain(2).value(), 0.03 - 2.29 * 0.005, 1e-6)
         << "what is open elsewhere grants nothing here";
-    frames[2].channels[litMode].at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
+    frames[2].channels[Channel::lit].at(0, 0, 1) = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(std::isinf(certain(2).value()));
 }
 

@@ -3,7 +3,6 @@
 #include "compare/verdict/measurement.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
-#include "tests/support/modes.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +20,7 @@ Report compared(std::vector<Frame> frames, const CompareOptions& options, const 
 
 const ChannelDiff& litOf(const Report& report) {
     for (const ChannelDiff& channel : report.comparisons.at(0).channels)
-        if (channel.mode->number == litMode) return channel;
+        if (channel.mode->channel == Channel::lit) return channel;
     throw std::runtime_error("no lit");
 }
 
@@ -33,8 +32,8 @@ bool says(const std::vector<std::string>& lines, const std::string& words) {
 // for it.
 std::vector<Frame> framesApart() {
     std::vector<Frame> frames = bothFrames("one.glb");
-    frames[0].channels.at(litMode).at(1, 2) = 1;
-    frames[1].channels.at(litMode).at(1, 2) = 1.25f;
+    frames[0].channels.at(Channel::lit).at(1, 2) = 1;
+    frames[1].channels.at(Channel::lit).at(1, 2) = 1.25f;
     frames[1].through_gbuffer.clear();
     return frames;
 }
@@ -58,7 +57,7 @@ TEST(CompareOptions, ARuleDecidesInPlaceOfTheTolerance) {
 
 TEST(CompareOptions, PixelsThatAreLeftOutDoNotCount) {
     std::vector<Frame> frames = framesApart();
-    for (Frame& frame : frames) frame.channels.at(gpu::DEBUG_material_id).at(0, 0) = 3;  // a second pixel
+    for (Frame& frame : frames) frame.channels.at(Channel::material_id).at(0, 0) = 3;  // a second pixel
     CompareOptions options;
     options.selection.crop = Crop{0, 0, 1, 1};
     EXPECT_EQ(litOf(compared(frames, options)).stats.different, 0u);
@@ -76,8 +75,8 @@ TEST(CompareOptions, ColoursHaveAFlip) {
 // A path's second run differs from its first by 0.3 at 2 pixels.
 std::vector<Frame> noisyFrames() {
     std::vector<Frame> frames = framesApart();
-    frames[0].noise[litMode] = {2, 0.3};
-    frames[1].noise[litMode] = {0, 0};
+    frames[0].noise[Channel::lit] = {2, 0.3};
+    frames[1].noise[Channel::lit] = {0, 0};
     return frames;
 }
 

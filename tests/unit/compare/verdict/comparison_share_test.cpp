@@ -13,10 +13,10 @@ constexpr std::size_t shareWide = 50, shareHigh = 50, shareCovered = 2000;  // t
 
 Frame shareFrame(Path path, std::size_t wrong) {
     Frame frame = flatFrame(path, shareWide, shareHigh, 1, -1);
-    std::fill_n(frame.channels[idMode].data.begin(), shareCovered, 3.0f);
-    for (std::size_t i = 0; i < wrong; ++i) frame.channels[litMode].pixel(7 * i)[1] = 2;
+    std::fill_n(frame.channels[Channel::material_id].data.begin(), shareCovered, 3.0f);
+    for (std::size_t i = 0; i < wrong; ++i) frame.channels[Channel::lit].pixel(7 * i)[1] = 2;
     for (std::size_t i = shareCovered; i < shareWide * shareHigh; ++i)
-        frame.channels[litMode].pixel(i)[0] = path == Path::reference ? 1.0f : 9.0f;
+        frame.channels[Channel::lit].pixel(i)[0] = path == Path::reference ? 1.0f : 9.0f;
     return frame;
 }
 
@@ -26,7 +26,7 @@ Verdict litVerdict(Path left, Path right, std::size_t wrong) {
     report.frames = {shareFrame(left, 0), shareFrame(right, wrong)};
     const Comparison comparison = compareFrames(report, 0, 1, {}, {});
     for (const ChannelDiff& channel : comparison.channels)
-        if (channel.mode->number == litMode) return channel.verdict;
+        if (channel.mode->channel == Channel::lit) return channel.verdict;
     throw std::runtime_error("no lit");
 }
 

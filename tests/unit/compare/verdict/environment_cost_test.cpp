@@ -31,39 +31,35 @@ struct JudgedPair {
         path.settings.ibl_samples = 64;
     }
     FramePair pair() const { return {reference, path, needs, coverage}; }
-    double allowed(gpu::uint mode) const {
-        return EnvironmentCost(pair()).allowed(debugMode(static_cast<int>(mode)), 0);
-    }
-    std::string because(gpu::uint mode) const {
-        return EnvironmentCost(pair()).because(debugMode(static_cast<int>(mode)));
-    }
+    double allowed(Channel mode) const { return EnvironmentCost(pair()).allowed(debugMode(mode), 0); }
+    std::string because(Channel mode) const { return EnvironmentCost(pair()).because(debugMode(mode)); }
 };
 
 TEST(EnvironmentCost, IsThatOfThePathsSettings) {
     JudgedPair p;
     const double spread = 4 * std::numbers::pi / 64;
-    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_diffuse), 1);
-    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 10 + spread * 1000 + filteredShare * 10000, 1e-9);
-    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit), 1 + 10 + spread * 1000 + filteredShare * 10000, 1e-9);
-    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_ambient), 0);
-    EXPECT_EQ(p.allowed(gpu::DEBUG_albedo), 0);
+    EXPECT_EQ(p.allowed(Channel::lit_diffuse), 1);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 10 + spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(Channel::lit), 1 + 10 + spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_EQ(p.allowed(Channel::lit_ambient), 0);
+    EXPECT_EQ(p.allowed(Channel::albedo), 0);
     p.path.settings.ibl_diffuse = IblDiffuse::map;
     p.path.settings.ibl_bias = 1;
-    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_diffuse), 3);
-    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 30 + 4 * spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_EQ(p.allowed(Channel::lit_diffuse), 3);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 30 + 4 * spread * 1000 + filteredShare * 10000, 1e-9);
     p.path.settings.ibl = Ibl::sampled;
-    EXPECT_NEAR(p.allowed(gpu::DEBUG_lit_specular), 100 + 4 * spread * 1000 + sampledShare / 8 * 10000, 1e-9);
-    EXPECT_EQ(p.because(gpu::DEBUG_lit_ambient), "");
-    EXPECT_NE(p.because(gpu::DEBUG_lit_specular).find("64 samples"), std::string::npos);
-    EXPECT_NE(p.because(gpu::DEBUG_lit_diffuse).find("a map"), std::string::npos);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 100 + 4 * spread * 1000 + sampledShare / 8 * 10000, 1e-9);
+    EXPECT_EQ(p.because(Channel::lit_ambient), "");
+    EXPECT_NE(p.because(Channel::lit_specular).find("64 samples"), std::string::npos);
+    EXPECT_NE(p.because(Channel::lit_diffuse).find("a map"), std::string::npos);
 }
 
 TEST(EnvironmentCost, PartsOfSpecularLightAreGrantedAllOfIt) {
     const JudgedPair p;
-    EXPECT_GT(p.allowed(gpu::DEBUG_lit_specular), 0);
-    for (const gpu::uint mode : {gpu::DEBUG_lit_clearcoat, gpu::DEBUG_lit_sheen})
-        EXPECT_EQ(p.allowed(mode), p.allowed(gpu::DEBUG_lit_specular)) << mode;
-    EXPECT_EQ(p.allowed(gpu::DEBUG_lit_transmission), p.allowed(gpu::DEBUG_lit_diffuse));
+    EXPECT_GT(p.allowed(Channel::lit_specular), 0);
+    for (const Channel mode : {Channel::lit_clearcoat, Channel::lit_sheen})
+        EXPECT_EQ(p.allowed(mode), p.allowed(Channel::lit_specular)) << debugMode(mode).name;
+    EXPECT_EQ(p.allowed(Channel::lit_transmission), p.allowed(Channel::lit_diffuse));
 }
 
 TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
@@ -71,7 +67,7 @@ TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
     EXPECT_TRUE(EnvironmentCost(p.pair()).any());
     p.reference.environment_costs = {};
     EXPECT_FALSE(EnvironmentCost(p.pair()).any());
-    EXPECT_EQ(EnvironmentCost(p.pair()).allowed(debugMode(0), 0), 0);
+    EXPECT_EQ(EnvironmentCost(p.pair()).allowed(debugMode(Channel::lit), 0), 0);
     JudgedPair q;
     q.reference.settings.path = Path::deferred;
     EXPECT_FALSE(EnvironmentCost(q.pair()).any());
@@ -79,11 +75,10 @@ TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
 
 TEST(EnvironmentCost, IsTakenFromThePixelsError) {
     JudgedPair p;
-    const auto mode = static_cast<int>(gpu::DEBUG_lit_diffuse);
-    p.reference.channels[mode] = Image(1, 1, 3, 10.0f);
+    p.reference.channels[Channel::lit_diffuse] = Image(1, 1, 3, 10.0f);
     for (const auto& [value, excess] : {std::pair{10.9f, 0.0}, {11.5f, 0.05}, {8.0f, 0.1}}) {
-        p.path.channels[mode] = Image(1, 1, 3, value);
-        const auto errors = certainErrors(debugMode(mode), p.pair());
+        p.path.channels[Channel::lit_diffuse] = Image(1, 1, 3, value);
+        const auto errors = certainErrors(debugMode(Channel::lit_diffuse), p.pair());
         ASSERT_TRUE(errors);
         EXPECT_NEAR(errors->at(0), excess, 1e-6) << value;
     }
@@ -92,15 +87,15 @@ TEST(EnvironmentCost, IsTakenFromThePixelsError) {
 TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
     JudgedPair p;
     p.reference.environment_costs.data = {1, 0, 0, 3, 0, 0, 0, 0, 0};
-    const DebugMode& lit = debugMode(gpu::DEBUG_lit);
-    p.reference.channels[lit.number] = Image(1, 1, 3, 10.0f);
-    p.path.channels[lit.number] = Image(1, 1, 3, 12.0f);
+    const DebugMode& lit = debugMode(Channel::lit);
+    p.reference.channels[lit.channel] = Image(1, 1, 3, 10.0f);
+    p.path.channels[lit.channel] = Image(1, 1, 3, 12.0f);
     const std::vector<Granted> granted = grantedIn(lit, p.pair());
     EXPECT_EQ(grantedText(lit, granted),
               "lit is off by 20 % in the mean, granted to split IBL (p99.9 15 %): --ibl sampled; diffuse IBL "
               "(p99.9 5 %): --ibl-diffuse map");
     const auto judged = [&](float value, const char* most) {
-        p.path.channels[lit.number] = Image(1, 1, 3, value);
+        p.path.channels[lit.channel] = Image(1, 1, 3, value);
         const std::string text =
             fmt::format(R"({{"rules": [{{"channel": "lit", "granted": {}, "because": "x"}}]}})", most);
         const std::vector<Rule> rules = rulesFromJson(text, "t.json");

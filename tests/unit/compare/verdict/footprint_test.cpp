@@ -30,7 +30,7 @@ std::vector<Frame> evenFrames() {
             path == Path::reference ? ReferenceMode::scene : ReferenceMode::surface;
         for (const DebugMode& mode : debugModes()) {
             if (!isMadeByReference(mode)) continue;
-            Image& image = frame.channels[mode.number] =
+            Image& image = frame.channels[mode.channel] =
                 Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
             if (isAngle(mode.metric))
                 for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -40,16 +40,16 @@ std::vector<Frame> evenFrames() {
     return frames;
 }
 
-Image& channelIn(Frame& frame, gpu::uint mode) {
-    return frame.channels.at(static_cast<int>(mode));
+Image& channelIn(Frame& frame, Channel mode) {
+    return frame.channels.at(mode);
 }
 
-ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptions& options = {},
+ChannelDiff judged(std::vector<Frame> frames, Channel mode, const CompareOptions& options = {},
                    const Requirements& needs = {}) {
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
-    for (Frame& frame : report.frames) frame.requested = {static_cast<int>(mode)};
+    for (Frame& frame : report.frames) frame.requested = {mode};
     const Comparison comparison = compareFrames(report, 0, 1, needs, options);
     const bool traced = std::ranges::any_of(report.frames, [](const Frame& frame) {
         return frame.settings.reference_mode == ReferenceMode::scene;
@@ -58,7 +58,7 @@ ChannelDiff judged(std::vector<Frame> frames, gpu::uint mode, const CompareOptio
                                   [](const auto& n) { return n.starts_with("--reference-mode scene: "); }),
               traced);
     for (const ChannelDiff& channel : comparison.channels)
-        if (channel.mode->number == static_cast<int>(mode)) return channel;
+        if (channel.mode->channel == mode) return channel;
     throw std::runtime_error("no such channel");
 }
 
@@ -71,15 +71,15 @@ void addDetail(Image& image, float low, float high, int phase = 0) {
 
 TEST(Footprint, EvenPixelsAreHeldTightly) {
     std::vector<Frame> frames = evenFrames();
-    const ChannelDiff even = judged(frames, gpu::DEBUG_roughness);
+    const ChannelDiff even = judged(frames, Channel::roughness);
     ASSERT_TRUE(even.footprints.has_value());
     EXPECT_EQ(even.footprints->smooth, std::uint64_t{side * side});
     EXPECT_EQ(even.footprints->detailed, 0u);
     EXPECT_EQ(even.verdict, Verdict::pass);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9e-4f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness).verdict, Verdict::pass);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.2e-4f;
-    const ChannelDiff off = judged(frames, gpu::DEBUG_roughness);
+    for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 0.9e-4f;
+    EXPECT_EQ(judged(frames, Channel::roughness).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 1.2e-4f;
+    const ChannelDiff off = judged(frames, Channel::roughness);
     EXPECT_EQ(off.verdict, Verdict::fail);
     EXPECT_NE(off.reason.find("1.2 times the bound"), std::string::npos) << off.reason;
 }
@@ -88,23 +88,23 @@ TEST(Footprint, EvenPixelsAreHeldTightly) {
 TEST(Footprint, OnePixelInAThousandMayBeBeyond) {
     for (const int count : {1, 2}) {
         std::vector<Frame> frames = evenFrames();
-        for (int i = 0; i < count; ++i) channelIn(frames[1], gpu::DEBUG_depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
-        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, static_cast<std::uint64_t>(count));
+        for (int i = 0; i < count; ++i) channelIn(frames[1], Channel::depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
+        EXPECT_EQ(judged(frames, Channel::depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
+        EXPECT_EQ(judged(frames, Channel::depth).footprints->beyond, static_cast<std::uint64_t>(count));
     }
 }
 
 TEST(Footprint, DetailIsJudgedByFlip) {
     std::vector<Frame> frames = evenFrames();
-    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
-    const ChannelDiff alike = judged(frames, gpu::DEBUG_albedo);
+    for (Frame& frame : frames) addDetail(channelIn(frame, Channel::albedo), 0.2f, 0.8f);
+    const ChannelDiff alike = judged(frames, Channel::albedo);
     EXPECT_EQ(alike.footprints->detailed, std::uint64_t{side * (side / 2 + 1)})
         << "the board, and the even column beside it";
     EXPECT_EQ(alike.footprints->flip, 0);
     EXPECT_EQ(alike.verdict, Verdict::pass);
     // Another mean is another texture; the right half stays unchanged.
-    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
-    const ChannelDiff other = judged(frames, gpu::DEBUG_albedo);
+    addDetail(channelIn(frames[1], Channel::albedo), 0.0f, 0.1f);
+    const ChannelDiff other = judged(frames, Channel::albedo);
     EXPECT_EQ(other.footprints->beyond, 0u);
     EXPECT_GT(other.footprints->flip, detailFlip);
     EXPECT_EQ(other.verdict, Verdict::fail);
@@ -115,28 +115,27 @@ TEST(Footprint, DetailIsJudgedByFlip) {
 // FLIP is averaged over the pixels with detail, however many others the image has.
 TEST(Footprint, FlipIsOfTheDetailAlone) {
     std::vector<Frame> frames = evenFrames();
-    addDetail(channelIn(frames[0], gpu::DEBUG_albedo), 0.2f, 0.8f);
-    addDetail(channelIn(frames[1], gpu::DEBUG_albedo), 0.0f, 0.1f);
+    addDetail(channelIn(frames[0], Channel::albedo), 0.2f, 0.8f);
+    addDetail(channelIn(frames[1], Channel::albedo), 0.0f, 0.1f);
     std::vector<std::uint8_t> detailed(side * side, 0);
     for (std::size_t i = 0; i < detailed.size(); ++i) detailed[i] = i % side <= side / 2;
     FlipOptions options;
     options.covered = detailed;
     const double expected =
-        ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo), channelIn(frames[1], gpu::DEBUG_albedo), options)
-            .mean;
-    const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        ldrFlip(channelIn(frames[0], Channel::albedo), channelIn(frames[1], Channel::albedo), options).mean;
+    const ChannelDiff albedo = judged(frames, Channel::albedo);
     EXPECT_NEAR(albedo.footprints->flip, expected, 1e-12);
-    EXPECT_GT(expected, 1.5 * ldrFlip(channelIn(frames[0], gpu::DEBUG_albedo),
-                                      channelIn(frames[1], gpu::DEBUG_albedo), {})
-                                  .mean);
+    EXPECT_GT(
+        expected,
+        1.5 * ldrFlip(channelIn(frames[0], Channel::albedo), channelIn(frames[1], Channel::albedo), {}).mean);
 }
 
 // Detail in either image counts: a path may filter away detail of the reference, and vice versa.
 TEST(Footprint, APixelIsSmoothOnlyInBoth) {
     for (const std::size_t other : {0u, 1u}) {
         std::vector<Frame> frames = evenFrames();
-        addDetail(channelIn(frames[other], gpu::DEBUG_albedo), 0.47f, 0.53f);
-        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        addDetail(channelIn(frames[other], Channel::albedo), 0.47f, 0.53f);
+        const ChannelDiff albedo = judged(frames, Channel::albedo);
         EXPECT_EQ(albedo.footprints->detailed, std::uint64_t{side * (side / 2 + 1)}) << other;
         EXPECT_EQ(albedo.footprints->beyond, 0u);
         EXPECT_EQ(albedo.verdict, Verdict::pass) << albedo.reason;
@@ -149,19 +148,19 @@ TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
     for (const std::size_t path : {1u, 0u}) {
         std::vector<Frame> frames = evenFrames();
         if (path == 0) std::swap(frames[0], frames[1]);
-        Image& depth = channelIn(frames[path], gpu::DEBUG_depth);
+        Image& depth = channelIn(frames[path], Channel::depth);
         for (int y = 9; y < 12; ++y)
             for (int x = 9; x < 12; ++x) depth.at(x, y) = 0.6f;
         depth.at(10, 10) = 100;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).footprints->beyond, 9u);
-        addDetail(channelIn(frames[path], gpu::DEBUG_albedo), 0.496f, 0.504f);
-        const ChannelDiff albedo = judged(frames, gpu::DEBUG_albedo);
+        EXPECT_EQ(judged(frames, Channel::depth).footprints->beyond, 9u);
+        addDetail(channelIn(frames[path], Channel::albedo), 0.496f, 0.504f);
+        const ChannelDiff albedo = judged(frames, Channel::albedo);
         EXPECT_EQ(albedo.footprints->smooth, std::uint64_t{side * side});
         EXPECT_EQ(albedo.footprints->beyond, std::uint64_t{side * side / 2});
         EXPECT_EQ(albedo.verdict, Verdict::fail);
         // Negative control: a path may vary as much as the reference varies.
         std::swap(frames[0].channels, frames[1].channels);
-        EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).footprints->beyond, 0u);
+        EXPECT_EQ(judged(frames, Channel::albedo).footprints->beyond, 0u);
     }
 }
 
@@ -171,46 +170,46 @@ TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
     for (Frame& frame : frames)
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side / 2; ++x) {
-                channelIn(frame, gpu::DEBUG_material_id).at(x, y) = 4;
-                channelIn(frame, gpu::DEBUG_depth).at(x, y) = 7;
+                channelIn(frame, Channel::material_id).at(x, y) = 4;
+                channelIn(frame, Channel::depth).at(x, y) = 7;
             }
-    channelIn(frames[1], gpu::DEBUG_depth).at(side / 2 - 1, 5) = 0.5f;
-    const ChannelDiff edge = judged(frames, gpu::DEBUG_depth);
+    channelIn(frames[1], Channel::depth).at(side / 2 - 1, 5) = 0.5f;
+    const ChannelDiff edge = judged(frames, Channel::depth);
     EXPECT_EQ(edge.verdict, Verdict::pass);
     EXPECT_EQ(edge.footprints->edges, std::uint64_t{2 * side});
-    for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v *= 1.001f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], Channel::depth).data) v *= 1.001f;
+    EXPECT_EQ(judged(frames, Channel::depth).verdict, Verdict::fail);
 }
 
 // A different material everywhere is not an edge, and neither is a missing object.
 TEST(Footprint, AnotherMaterialIsNoEdge) {
     for (const float id : {5.0f, -1.0f}) {
         std::vector<Frame> frames = evenFrames();
-        for (float& v : channelIn(frames[1], gpu::DEBUG_material_id).data) v = id;
-        for (float& v : channelIn(frames[1], gpu::DEBUG_depth).data) v = id < 0 ? 0 : 0.7f;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_material_id).verdict, Verdict::fail) << id;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_depth).verdict, Verdict::fail) << id;
+        for (float& v : channelIn(frames[1], Channel::material_id).data) v = id;
+        for (float& v : channelIn(frames[1], Channel::depth).data) v = id < 0 ? 0 : 0.7f;
+        EXPECT_EQ(judged(frames, Channel::material_id).verdict, Verdict::fail) << id;
+        EXPECT_EQ(judged(frames, Channel::depth).verdict, Verdict::fail) << id;
     }
 }
 
 // A NaN is a fault everywhere; FLIP's mean over the detail would hide two of them.
 TEST(Footprint, NansAreNeverDetail) {
     std::vector<Frame> frames = evenFrames();
-    for (Frame& frame : frames) addDetail(channelIn(frame, gpu::DEBUG_albedo), 0.2f, 0.8f);
+    for (Frame& frame : frames) addDetail(channelIn(frame, Channel::albedo), 0.2f, 0.8f);
     for (const int x : {3, 7})
-        channelIn(frames[1], gpu::DEBUG_albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
+        channelIn(frames[1], Channel::albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(judged(frames, Channel::albedo).verdict, Verdict::fail);
 }
 
 // An infinite uncertainty of the reference does not excuse a NaN.
 TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
     std::vector<Frame> frames = evenFrames();
     frames[0].uncertainty = Image(side, side, 1, std::numeric_limits<float>::infinity());
-    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v = 0.9f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).footprints->used, 0) << "it excuses any number";
+    for (float& v : channelIn(frames[1], Channel::lit).data) v = 0.9f;
+    EXPECT_EQ(judged(frames, Channel::lit).footprints->used, 0) << "it excuses any number";
     for (const int x : {3, 7})
-        channelIn(frames[1], gpu::DEBUG_lit).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
-    const ChannelDiff lit = judged(frames, gpu::DEBUG_lit);
+        channelIn(frames[1], Channel::lit).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
+    const ChannelDiff lit = judged(frames, Channel::lit);
     EXPECT_EQ(lit.footprints->beyond, 2u);
     EXPECT_EQ(lit.footprints->used, std::numeric_limits<double>::infinity());
     EXPECT_EQ(lit.footprints->x, 3) << "where it is";
@@ -221,28 +220,27 @@ TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
 // Light has tight bounds where both images show the same surface; elsewhere the surface's channel fails.
 TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     std::vector<Frame> frames = evenFrames();
-    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_metallic).data) v += 0.01f;
-    const ChannelDiff light = judged(frames, gpu::DEBUG_lit);
+    for (float& v : channelIn(frames[1], Channel::lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], Channel::metallic).data) v += 0.01f;
+    const ChannelDiff light = judged(frames, Channel::lit);
     EXPECT_EQ(light.footprints->smooth, 0u);
     EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.3";
-    EXPECT_EQ(judged(frames, gpu::DEBUG_metallic).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, Channel::metallic).verdict, Verdict::fail);
 }
 
 // Light is judged alike whichever channels are compared. Channels missing in both images do not matter. If
 // one image lacks a channel, surfaces may differ; then the report says that only FLIP judges, and --strict
 // fails.
 TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
-    constexpr auto lit = static_cast<int>(gpu::DEBUG_lit);
     std::vector<Frame> frames = evenFrames();
-    for (Frame& frame : frames) frame.requested = {lit};
-    for (float& v : channelIn(frames[1], gpu::DEBUG_lit).data) v *= 1.01f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail);
-    for (Frame& frame : frames) frame.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
-    EXPECT_EQ(judged(frames, gpu::DEBUG_lit).verdict, Verdict::fail) << "neither has albedo";
-    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_metallic));
-    const ChannelDiff loose = judged(frames, gpu::DEBUG_lit);
+    for (Frame& frame : frames) frame.requested = {Channel::lit};
+    for (float& v : channelIn(frames[1], Channel::lit).data) v *= 1.01f;
+    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail);
+    for (Frame& frame : frames) frame.channels.erase(Channel::albedo);
+    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail) << "neither has albedo";
+    frames[0].channels.erase(Channel::metallic);
+    const ChannelDiff loose = judged(frames, Channel::lit);
     EXPECT_EQ(loose.footprints->closeShare(), 0);
     EXPECT_EQ(loose.verdict, Verdict::pass);
     Report report;
@@ -260,12 +258,12 @@ TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
 }
 
 TEST(Footprint, TheChannelsOfASurfaceAreThoseThatLightNeeds) {
-    const std::vector<int> channels = footprintChannels();
-    for (const gpu::uint mode : {gpu::DEBUG_albedo, gpu::DEBUG_metallic, gpu::DEBUG_roughness,
-                                 gpu::DEBUG_normals, gpu::DEBUG_emission, gpu::DEBUG_material_id})
-        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 1) << mode;
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_depth, gpu::DEBUG_light_count})
-        EXPECT_EQ(std::ranges::count(channels, static_cast<int>(mode)), 0) << mode;
+    const std::vector<Channel> channels = footprintChannels();
+    for (const Channel mode : {Channel::albedo, Channel::metallic, Channel::roughness, Channel::normals,
+                               Channel::emission, Channel::material_id})
+        EXPECT_EQ(std::ranges::count(channels, mode), 1) << debugMode(mode).name;
+    for (const Channel mode : {Channel::lit, Channel::depth, Channel::light_count})
+        EXPECT_EQ(std::ranges::count(channels, mode), 0) << debugMode(mode).name;
 }
 
 TextureSampling exactTexels() {
@@ -283,36 +281,37 @@ TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     TextureSampling& texels = options.texels.emplace(exactTexels());
     std::vector<Frame> frames = evenFrames();
     // At 0.5 a code is 0.006 wide; mip levels may be off by this.
-    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.005f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo).verdict, Verdict::fail);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.012f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.005f;
+    EXPECT_EQ(judged(frames, Channel::albedo).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.012f;
+    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail);
     texels.srgb[220] = static_cast<float>(exactSrgb(220) * 1.02);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
+    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
     texels.srgb[220] = static_cast<float>(exactSrgb(220));
     texels.srgb[100] = static_cast<float>(exactSrgb(100) * 1.02);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail)
+    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail)
         << "no factor brightens a darker code to a half";
-    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 0.9f / 255;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::pass);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_roughness).data) v = 0.5f + 1.1f / 255;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_roughness, options).verdict, Verdict::fail);
+    for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 0.9f / 255;
+    EXPECT_EQ(judged(frames, Channel::roughness, options).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 1.1f / 255;
+    EXPECT_EQ(judged(frames, Channel::roughness, options).verdict, Verdict::fail);
 }
 
 // A sheen's colour is decoded by the sRGB curve, its roughness and a film's weight are linear.
 TEST(Footprint, TexelsOfASheenAndAFilmAreGranted) {
     CompareOptions options;
     options.texels = exactTexels();
-    for (const auto& [mode, code] : {std::pair{gpu::DEBUG_sheen_color, 0.006f},
-                                     {gpu::DEBUG_sheen_roughness, 1.0f / 255},
-                                     {gpu::DEBUG_iridescence, 1.0f / 255}})
+    for (const auto& [mode, code] : {std::pair{Channel::sheen_color, 0.006f},
+                                     {Channel::sheen_roughness, 1.0f / 255},
+                                     {Channel::iridescence, 1.0f / 255}})
         for (const float share : {0.8f, 2.0f}) {
             std::vector<Frame> frames = evenFrames();
             for (float& v : channelIn(frames[1], mode).data) v = 0.5f + share * code;
-            EXPECT_EQ(judged(frames, mode).verdict, Verdict::fail) << mode << " without texels";
+            EXPECT_EQ(judged(frames, mode).verdict, Verdict::fail)
+                << debugMode(mode).name << " without texels";
             EXPECT_EQ(judged(frames, mode, options).verdict, share < 1 ? Verdict::pass : Verdict::fail)
-                << mode << " " << share;
+                << debugMode(mode).name << " " << share;
         }
 }
 
@@ -323,11 +322,11 @@ TEST(Footprint, TexelsOfAThicknessAreGrantedByItsRange) {
     Requirements needs;
     std::vector<Frame> frames = evenFrames();
     for (Frame& frame : frames)
-        std::ranges::fill(channelIn(frame, gpu::DEBUG_iridescence_thickness).data, 400.0f);
-    for (float& v : channelIn(frames[1], gpu::DEBUG_iridescence_thickness).data) v += 0.9f * 300 / 255;
+        std::ranges::fill(channelIn(frame, Channel::iridescence_thickness).data, 400.0f);
+    for (float& v : channelIn(frames[1], Channel::iridescence_thickness).data) v += 0.9f * 300 / 255;
     for (const float range : {300.0f, 200.0f, 0.0f}) {
         needs.film_thickness_range = range;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_thickness, options, needs).verdict,
+        EXPECT_EQ(judged(frames, Channel::iridescence_thickness, options, needs).verdict,
                   range == 300 ? Verdict::pass : Verdict::fail)
             << range;
     }
@@ -339,10 +338,10 @@ TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
     options.texels = exactTexels();
     Requirements needs;
     std::vector<Frame> frames = evenFrames();
-    for (float& v : channelIn(frames[1], gpu::DEBUG_transmission_thickness).data) v += 0.9f * 0.3f / 255;
+    for (float& v : channelIn(frames[1], Channel::transmission_thickness).data) v += 0.9f * 0.3f / 255;
     for (const float range : {0.3f, 0.2f, 0.0f}) {
         needs.volume_thickness_range = range;
-        EXPECT_EQ(judged(frames, gpu::DEBUG_transmission_thickness, options, needs).verdict,
+        EXPECT_EQ(judged(frames, Channel::transmission_thickness, options, needs).verdict,
                   range == 0.3f ? Verdict::pass : Verdict::fail)
             << range;
     }
@@ -351,11 +350,11 @@ TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
 // As pictures, indices above 1 must not all be white.
 TEST(Footprint, DetailOfLargeIndicesIsJudged) {
     std::vector<Frame> frames = evenFrames();
-    addDetail(channelIn(frames[0], gpu::DEBUG_iridescence_ior), 1.2f, 1.6f);
-    addDetail(channelIn(frames[1], gpu::DEBUG_iridescence_ior), 1.2f, 1.6f);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_ior).verdict, Verdict::pass);
-    addDetail(channelIn(frames[1], gpu::DEBUG_iridescence_ior), 10, 10);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_iridescence_ior).verdict, Verdict::fail);
+    addDetail(channelIn(frames[0], Channel::iridescence_ior), 1.2f, 1.6f);
+    addDetail(channelIn(frames[1], Channel::iridescence_ior), 1.2f, 1.6f);
+    EXPECT_EQ(judged(frames, Channel::iridescence_ior).verdict, Verdict::pass);
+    addDetail(channelIn(frames[1], Channel::iridescence_ior), 10, 10);
+    EXPECT_EQ(judged(frames, Channel::iridescence_ior).verdict, Verdict::fail);
 }
 
 // Specular-glossiness: albedo is diffuse times 1 - F0, so a code of F0 counts as well: at 0.5, and a diffuse
@@ -366,18 +365,18 @@ TEST(Footprint, TexelsOfF0AreGrantedToTheAlbedoThatTheyDarken) {
     Requirements glossy;
     glossy.specular_glossiness = true;
     std::vector<Frame> frames = evenFrames();
-    for (float& v : channelIn(frames[1], gpu::DEBUG_albedo).data) v = 0.5f + 0.010f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options).verdict, Verdict::fail);
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options, glossy).verdict, Verdict::pass);
+    for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.010f;
+    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail);
+    EXPECT_EQ(judged(frames, Channel::albedo, options, glossy).verdict, Verdict::pass);
     for (Frame& frame : frames)
-        for (float& v : channelIn(frame, gpu::DEBUG_dielectric_f0).data) v = 0.01f;
-    EXPECT_EQ(judged(frames, gpu::DEBUG_albedo, options, glossy).verdict, Verdict::fail);
+        for (float& v : channelIn(frame, Channel::dielectric_f0).data) v = 0.01f;
+    EXPECT_EQ(judged(frames, Channel::albedo, options, glossy).verdict, Verdict::fail);
 }
 
 TEST(Footprint, OtherComparisonsHaveNone) {
     std::vector<Frame> frames = evenFrames();
     frames[0].settings.reference_mode = ReferenceMode::surface;
-    EXPECT_FALSE(judged(frames, gpu::DEBUG_roughness).footprints.has_value());
+    EXPECT_FALSE(judged(frames, Channel::roughness).footprints.has_value());
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ constexpr int glassSide = 8;
 
 // A pane 2 m thick on the right half of the reference's picture, from column 4 on.
 struct GlassPair {
+    static constexpr Channel thickness = Channel::transmission_thickness;
     Frame reference, path;
     Requirements needs;
     Coverage covered = everyPixel(std::size_t{glassSide} * glassSide);
@@ -37,7 +38,6 @@ struct GlassPair {
         const FramePair pair{reference, path, needs, covered};
         return certainP999(mode, pair).value() / derivedTolerance(mode, pair).max;
     }
-    static constexpr int thickness = static_cast<int>(gpu::DEBUG_transmission_thickness);
 };
 
 TEST(GlassChannels, EdgesMayBeBesideThoseOfTheReference) {

@@ -12,51 +12,47 @@
 namespace diptych {
 namespace {
 
-constexpr int informedLit = static_cast<int>(gpu::DEBUG_lit);
-
 // Both paths, forward+ with lights per object, and `wrong` channels that differ.
-Report informedReport(const std::vector<gpu::uint>& wrong, std::vector<Rule> rules = {}, bool told = true) {
+Report informedReport(const std::vector<Channel>& wrong, std::vector<Rule> rules = {}, bool told = true) {
     std::vector<Frame> frames = bothFrames();
     frames[1].settings.assign = Assignment::per_object;
-    for (const gpu::uint mode : wrong) frames[1].channels.at(static_cast<int>(mode)).at(1, 2, 0) += 0.25f;
+    for (const Channel mode : wrong) frames[1].channels.at(mode).at(1, 2, 0) += 0.25f;
     CompareOptions options;
     options.rules = std::move(rules);
     if (told) options.light_differs = lightDifferences(frames[0].settings, frames[1].settings);
     return makeReport(std::move(frames), std::vector<Requirements>(2), {"a CPU", "1.0", "cpu"}, options);
 }
 
-const ChannelDiff& informedChannel(const Report& report, int mode) {
+const ChannelDiff& informedChannel(const Report& report, Channel mode) {
     for (const ChannelDiff& channel : report.comparisons[0].channels)
-        if (channel.mode->number == mode) return channel;
+        if (channel.mode->channel == mode) return channel;
     throw std::out_of_range("no such channel");
 }
 
 TEST(Informative, LightDecidesNothingAndSurfacesDo) {
-    const Report light =
-        informedReport({gpu::DEBUG_lit, gpu::DEBUG_lit_specular, gpu::DEBUG_shadow_visibility});
+    const Report light = informedReport({Channel::lit, Channel::lit_specular, Channel::shadow_visibility});
     EXPECT_TRUE(light.passed()) << verdictLine(light);
-    for (const gpu::uint mode : {gpu::DEBUG_lit, gpu::DEBUG_lit_ambient, gpu::DEBUG_shadow_visibility})
-        EXPECT_EQ(informedChannel(light, static_cast<int>(mode)).verdict, Verdict::informative);
-    EXPECT_EQ(informedChannel(light, static_cast<int>(gpu::DEBUG_albedo)).verdict, Verdict::pass);
-    EXPECT_GT(informedChannel(light, informedLit).stats.max, 0.1) << "but it is measured";
-    EXPECT_FALSE(informedReport({gpu::DEBUG_albedo}).passed());
-    EXPECT_FALSE(informedReport({gpu::DEBUG_shadow_visibility}, {}, false).passed()) << "without being told";
+    for (const Channel mode : {Channel::lit, Channel::lit_ambient, Channel::shadow_visibility})
+        EXPECT_EQ(informedChannel(light, mode).verdict, Verdict::informative);
+    EXPECT_EQ(informedChannel(light, Channel::albedo).verdict, Verdict::pass);
+    EXPECT_GT(informedChannel(light, Channel::lit).stats.max, 0.1) << "but it is measured";
+    EXPECT_FALSE(informedReport({Channel::albedo}).passed());
+    EXPECT_FALSE(informedReport({Channel::shadow_visibility}, {}, false).passed()) << "without being told";
     // An impossible value is a fault in any comparison.
     EXPECT_FALSE(
-        informedReport({gpu::DEBUG_transmittance, gpu::DEBUG_transmittance, gpu::DEBUG_transmittance})
-            .passed());
+        informedReport({Channel::transmittance, Channel::transmittance, Channel::transmittance}).passed());
 }
 
 TEST(Informative, ARuleForLitJudgesIt) {
     const std::vector<Rule> rules =
         rulesFromJson(R"({ "rules": [ { "channel": "lit", "max": 0.01, "because": "close" } ] })", "r.json");
     EXPECT_TRUE(informedReport({}, rules).passed());
-    EXPECT_EQ(informedChannel(informedReport({}, rules), informedLit).verdict, Verdict::pass);
-    EXPECT_FALSE(informedReport({gpu::DEBUG_lit}, rules).passed());
+    EXPECT_EQ(informedChannel(informedReport({}, rules), Channel::lit).verdict, Verdict::pass);
+    EXPECT_FALSE(informedReport({Channel::lit}, rules).passed());
 }
 
 TEST(Informative, TheReportSaysWhatDiffers) {
-    const Report report = informedReport({gpu::DEBUG_lit});
+    const Report report = informedReport({Channel::lit});
     EXPECT_EQ(verdictLine(report),
               "pass: all 32 compared channels are within tolerance; 12 channels of light not counted: the "
               "paths' Settings differ (4 more exist on one side only)");

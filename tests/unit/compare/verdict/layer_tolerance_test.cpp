@@ -25,20 +25,18 @@ struct LayerPair {
         deferred.settings.path = Path::deferred;
         forward.settings.path = Path::forward_plus;
         for (const DebugMode& mode : debugModes())
-            if (layerOf(mode.number) != 0)
+            if (layerOf(mode.channel) != 0)
                 for (Frame* frame : {&deferred, &forward})
-                    frame->channels[mode.number] = Image(1, 1, mode.width, 0.5f);
+                    frame->channels[mode.channel] = Image(1, 1, mode.width, 0.5f);
     }
     LayerPair& encoding(GBufferEncoding e) {
         deferred.settings.gbuffer = forward.settings.gbuffer = e;
         return *this;
     }
-    void decoded(gpu::uint mode, float value) {
-        deferred.channels.at(static_cast<int>(mode)).data[0] = value;
-    }
-    void own(gpu::uint mode, float value) { forward.channels.at(static_cast<int>(mode)).data[0] = value; }
-    Tolerance of(gpu::uint mode) const {
-        return derivedTolerance(debugMode(static_cast<int>(mode)), {deferred, forward, needs, covered, true});
+    void decoded(Channel mode, float value) { deferred.channels.at(mode).data[0] = value; }
+    void own(Channel mode, float value) { forward.channels.at(mode).data[0] = value; }
+    Tolerance of(Channel mode) const {
+        return derivedTolerance(debugMode(mode), {deferred, forward, needs, covered, true});
     }
 };
 
@@ -47,12 +45,13 @@ TEST(LayerTolerance, HalfStepsOfASheenAFilmsWeightAndDiffuseTransmission) {
         LayerPair p;
         p.encoding(e).needs.surface_layers =
             gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE | gpu::LAYER_DIFFUSE_TRANSMISSION;
-        for (const gpu::uint mode :
-             {gpu::DEBUG_sheen_roughness, gpu::DEBUG_iridescence, gpu::DEBUG_diffuse_transmission})
-            EXPECT_NEAR(p.of(mode).max, 0.5 / 255, 1e-6) << mode;
+        for (const Channel mode :
+             {Channel::sheen_roughness, Channel::iridescence, Channel::diffuse_transmission})
+            EXPECT_NEAR(p.of(mode).max, 0.5 / 255, 1e-6) << debugMode(mode).name;
         constexpr double h = 0.5 / 255;
-        for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_diffuse_transmission_color})
-            EXPECT_NEAR(p.of(mode).max, 2 * h - h * h, 2e-6) << mode << ": the root is stored";
+        for (const Channel mode : {Channel::sheen_color, Channel::diffuse_transmission_color})
+            EXPECT_NEAR(p.of(mode).max, 2 * h - h * h, 2e-6)
+                << debugMode(mode).name << ": the root is stored";
     }
 }
 
@@ -84,14 +83,14 @@ TEST(LayerTolerance, IndicesAtTheLastCodeHaveNoBound) {
 TEST(LayerTolerance, AnIndexIsGrantedTheBoundOfTheLargest) {
     LayerPair p;
     p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
-    p.own(gpu::DEBUG_iridescence_ior, 1.5f);
+    p.own(Channel::iridescence_ior, 1.5f);
     for (const float decoded : {1.5f, 40.0f}) {
-        p.decoded(gpu::DEBUG_iridescence_ior, decoded);
+        p.decoded(Channel::iridescence_ior, decoded);
         // dn = (n + 1)^2 / 2 dx
-        EXPECT_NEAR(p.of(gpu::DEBUG_iridescence_ior).max, 6.25 / 2 * 0.5 / 510, 1e-5)
+        EXPECT_NEAR(p.of(Channel::iridescence_ior).max, 6.25 / 2 * 0.5 / 510, 1e-5)
             << decoded << ": what was decoded grants itself nothing";
         const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
-        EXPECT_NEAR(derivedTolerance(debugMode(gpu::DEBUG_iridescence_ior), turned).max, 6.25 / 2 * 0.5 / 510,
+        EXPECT_NEAR(derivedTolerance(debugMode(Channel::iridescence_ior), turned).max, 6.25 / 2 * 0.5 / 510,
                     1e-5);
     }
 }
@@ -114,38 +113,38 @@ TEST(LayerTolerance, AThicknessHoldsTheBoundOfAHalf) {
     }
     LayerPair p;
     p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
-    EXPECT_EQ(p.of(gpu::DEBUG_iridescence_thickness).max, 0x1p-11) << "relative to the thickness";
+    EXPECT_EQ(p.of(Channel::iridescence_thickness).max, 0x1p-11) << "relative to the thickness";
 }
 
 // A mean of 2^-16 nm gives a smallest denominator of 1e-3 of it, and half a step stays 2^-25 nm.
 TEST(LayerTolerance, AThicknessBelowTheLastExponentIsStillBound) {
     LayerPair p;
     p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
-    p.decoded(gpu::DEBUG_iridescence_thickness, 0x1p-16f);
-    EXPECT_NEAR(p.of(gpu::DEBUG_iridescence_thickness).max, 0x1p-25 / (1e-3 * 0x1p-16), 1e-6);
+    p.decoded(Channel::iridescence_thickness, 0x1p-16f);
+    EXPECT_NEAR(p.of(Channel::iridescence_thickness).max, 0x1p-25 / (1e-3 * 0x1p-16), 1e-6);
 }
 
 TEST(LayerTolerance, AnAbsentSheenOrFilmIsNotStored) {
     LayerPair p;
     p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_SHEEN;
-    EXPECT_GT(p.of(gpu::DEBUG_sheen_roughness).max, 0);
-    for (const gpu::uint mode :
-         {gpu::DEBUG_iridescence, gpu::DEBUG_iridescence_ior, gpu::DEBUG_iridescence_thickness})
-        EXPECT_EQ(p.of(mode).max, 0) << mode;
+    EXPECT_GT(p.of(Channel::sheen_roughness).max, 0);
+    for (const Channel mode :
+         {Channel::iridescence, Channel::iridescence_ior, Channel::iridescence_thickness})
+        EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
     p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
-    EXPECT_GT(p.of(gpu::DEBUG_iridescence_ior).max, 0);
-    for (const gpu::uint mode : {gpu::DEBUG_sheen_color, gpu::DEBUG_sheen_roughness})
-        EXPECT_EQ(p.of(mode).max, 0) << mode;
+    EXPECT_GT(p.of(Channel::iridescence_ior).max, 0);
+    for (const Channel mode : {Channel::sheen_color, Channel::sheen_roughness})
+        EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
 }
 
 TEST(LayerTolerance, ALayerOfGlassAloneIsNotStored) {
     LayerPair p;
     p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_SHEEN;
     p.needs.layers = gpu::LAYER_SHEEN | gpu::LAYER_TRANSMISSION;
-    EXPECT_GT(p.of(gpu::DEBUG_sheen_roughness).max, 0);
-    EXPECT_EQ(p.of(gpu::DEBUG_transmission).max, 0);
+    EXPECT_GT(p.of(Channel::sheen_roughness).max, 0);
+    EXPECT_EQ(p.of(Channel::transmission).max, 0);
     p.needs.surface_layers = 0;
-    EXPECT_EQ(p.of(gpu::DEBUG_sheen_roughness).max, 0);
+    EXPECT_EQ(p.of(Channel::sheen_roughness).max, 0);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<Frame> sampledFrames(int samples) {
     for (Frame& frame : frames) {
         frame.settings.msaa = samples;
         for (auto& [mode, image] : frame.channels) {
-            if (mode == static_cast<int>(gpu::DEBUG_lit) || debugMode(mode).kind == ChannelKind::id) continue;
+            if (mode == Channel::lit || debugMode(mode).kind == ChannelKind::id) continue;
             for (int c = 0; c < image.components; ++c) image.at(1, 2, c) = 0.577f;
         }
     }
@@ -57,8 +57,7 @@ TEST(SampledComparison, IsOfLitAlone) {
 
 TEST(SampledComparison, FindsWhereLitIsWrong) {
     std::vector<Frame> frames = sampledFrames(4);
-    frames[2].channels[static_cast<int>(gpu::DEBUG_lit)].at(1, 2, 1) =
-        std::numeric_limits<float>::quiet_NaN();
+    frames[2].channels[Channel::lit].at(1, 2, 1) = std::numeric_limits<float>::quiet_NaN();
     const Report report = against(std::move(frames));
     EXPECT_TRUE(report.comparisons[0].passed());
     EXPECT_FALSE(report.comparisons[1].passed());
@@ -66,7 +65,7 @@ TEST(SampledComparison, FindsWhereLitIsWrong) {
 
 TEST(SampledComparison, WithoutLitThereIsNothingToCompare) {
     std::vector<Frame> frames = sampledFrames(4);
-    for (Frame& frame : frames) frame.channels.erase(static_cast<int>(gpu::DEBUG_lit));
+    for (Frame& frame : frames) frame.channels.erase(Channel::lit);
     EXPECT_THROW(against(std::move(frames)), std::runtime_error);
 }
 

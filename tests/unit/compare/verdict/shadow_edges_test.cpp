@@ -40,7 +40,7 @@ TEST(ShadowEdges, CascadesReachByViewDepth) {
     path.settings.path = Path::deferred;
     path.shadow_reach = {{2, 0.1}, {8, 0.4}};
     EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without depths";
-    path.channels[static_cast<int>(gpu::DEBUG_depth)] = rowOf({1, 1, 5, 50});
+    path.channels[Channel::depth] = rowOf({1, 1, 5, 50});
     EXPECT_EQ(nearOf(path, {0.05f, 0.2f, 0.2f, 0.3f}), (std::vector{true, false, true, true}));
 }
 
@@ -49,9 +49,9 @@ TEST(ShadowEdges, AClipmapReachesByTheLevelThatServes) {
     Frame path;
     path.settings.path = Path::deferred;
     path.shadow_level_reach = {{9, 0.1}, {9, 0.2}, {9, 0.4}, {9, 3}};
-    path.channels[static_cast<int>(gpu::DEBUG_cascade)] = rowOf({0, 0, 1, 1});
+    path.channels[Channel::cascade] = rowOf({0, 0, 1, 1});
     EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without what serves";
-    path.channels[static_cast<int>(gpu::DEBUG_page_residency)] = rowOf({0, 2, 0, 2});
+    path.channels[Channel::page_residency] = rowOf({0, 2, 0, 2});
     EXPECT_EQ(nearOf(path, {0.3f, 0.3f, 0.3f, 2.9f}), (std::vector{false, true, false, true}));
 }
 

@@ -9,7 +9,6 @@
 #include "compare/verdict/picture_diff.h"
 #include "shared/image/exr.h"
 #include "tests/support/files.h"
-#include "tests/support/modes.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -41,18 +40,18 @@ CompareOptions strictly(bool strict) {
 
 // Both paths against an earlier deferred Frame without the channels `without`, and with an additional one
 // if `more` names it.
-Report againstBaseline(const std::vector<gpu::uint>& without, const std::string& more, bool strict) {
+Report againstBaseline(const std::vector<Channel>& without, const std::string& more, bool strict) {
     Frame baseline = fewChannels()[0];
     baseline.name = "baseline";
     baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
     if (!more.empty()) baseline.origin.left_out = {more};
-    for (const gpu::uint mode : without) baseline.channels.erase(static_cast<int>(mode));
+    for (const Channel mode : without) baseline.channels.erase(mode);
     return makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
 }
 
 TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
     for (const bool strict : {false, true}) {
-        const Report report = againstBaseline({gpu::DEBUG_albedo}, "", strict);
+        const Report report = againstBaseline({Channel::albedo}, "", strict);
         EXPECT_EQ(report.passed(), !strict);
         for (const std::size_t pair : {0u, 1u}) {
             const Comparison& c = report.comparisons.at(pair);
@@ -88,7 +87,7 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
 
 TEST(Strict, EitherSideMayLackIt) {
     std::vector<Frame> frames = fewChannels();
-    frames[1].channels.erase(gpu::DEBUG_metallic);
+    frames[1].channels.erase(Channel::metallic);
     const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
     EXPECT_EQ(report.comparisons[0].failures,
               Lines{"metallic is in deferred only, but --strict requires the same channels on both sides"});
@@ -111,7 +110,7 @@ TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
         baseline.settings.path = Path::reference;
         baseline.origin = {"b.exr", ours ? "a CPU" : "", "", ""};
         for (const DebugMode& mode : debugModes())
-            if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.number);
+            if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.channel);
         const Report report =
             makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(true), {});
         Lines said, pathsOnly;
@@ -132,12 +131,12 @@ TEST(Strict, OnlyChannelsThatWereAskedForCount) {
     for (const bool asked : {false, true}) {
         Frame baseline = fewChannels()[0];
         baseline.origin = {"b.exr", "a CPU", "1.0", "abc", {"mystery"}};
-        baseline.channels.erase(gpu::DEBUG_albedo);
+        baseline.channels.erase(Channel::albedo);
         std::vector<Frame> frames = fewChannels();
-        baseline.requested = frames[0].requested = frames[1].requested = {litMode};
+        baseline.requested = frames[0].requested = frames[1].requested = {Channel::lit};
         if (asked)
             for (Frame* frame : {&baseline, &frames[0], &frames[1]})
-                frame->requested.push_back(gpu::DEBUG_albedo);
+                frame->requested.push_back(Channel::albedo);
         const Report report = makeBaselineReport(baseline, frames, {}, strictDevice, strictly(true), {});
         EXPECT_EQ(report.passed(), !asked);
     }
@@ -206,11 +205,11 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
 
 // A rule or --channels that names a channel requires it on both sides; a rule for all channels does not.
 TEST(Strict, WhatIsNamedIsDemanded) {
-    const auto failures = [](const std::string& pattern, std::vector<int> required) {
+    const auto failures = [](const std::string& pattern, std::vector<Channel> required) {
         Frame baseline = fewChannels()[0];
         baseline.name = "baseline";
         baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
-        baseline.channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+        baseline.channels.erase(Channel::albedo);
         CompareOptions options;
         options.required = std::move(required);
         if (!pattern.empty())
@@ -225,8 +224,8 @@ TEST(Strict, WhatIsNamedIsDemanded) {
     EXPECT_EQ(failures("albedo", {}),
               Lines{"albedo is in deferred only, but t.json, rule 1 needs both sides"});
     EXPECT_EQ(failures("alb*", {}).size(), 1u);
-    EXPECT_EQ(failures("", {litMode}), Lines{});
-    EXPECT_EQ(failures("", {static_cast<int>(gpu::DEBUG_albedo)}),
+    EXPECT_EQ(failures("", {Channel::lit}), Lines{});
+    EXPECT_EQ(failures("", {Channel::albedo}),
               Lines{"albedo is in deferred only, but --channels requests it"});
 }
 
@@ -330,7 +329,7 @@ TEST(Strict, ARuleOnAOneSidedChannelIsNotIdle) {
     options.rules =
         rulesFromJson(R"({"rules": [{"channel": "albedo", "max": 1, "because": "any"}]})", "t.json");
     std::vector<Frame> frames = fewChannels();
-    frames[0].channels.erase(static_cast<int>(gpu::DEBUG_albedo));
+    frames[0].channels.erase(Channel::albedo);
     Report report;
     report.device = strictDevice;
     report.frames = std::move(frames);

@@ -33,11 +33,11 @@ struct Pair {
         forward.settings.path = Path::forward_plus;
         deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
-            forward.channels[mode.number] = Image(1, 1, mode.width, 0.5f);
-            if (isAngle(mode.metric)) forward.channels[mode.number].data = {0.6f, 0, 0.8f};
+            forward.channels[mode.channel] = Image(1, 1, mode.width, 0.5f);
+            if (isAngle(mode.metric)) forward.channels[mode.channel].data = {0.6f, 0, 0.8f};
             if (mode.maker != MadeBy::forward_only)
-                deferred.channels[mode.number] = forward.channels[mode.number];
-            if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.number);
+                deferred.channels[mode.channel] = forward.channels[mode.channel];
+            if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.channel);
         }
     }
     Pair& encoding(GBufferEncoding e) {
@@ -45,7 +45,7 @@ struct Pair {
         return *this;
     }
     FramePair pair() const { return {deferred, forward, needs, covered, cpu}; }
-    Tolerance of(gpu::uint mode) const { return derivedTolerance(debugMode(static_cast<int>(mode)), pair()); }
+    Tolerance of(Channel mode) const { return derivedTolerance(debugMode(mode), pair()); }
 };
 
 double quantised(double x, unsigned bits) {
@@ -119,34 +119,33 @@ TEST(Tolerance, OctahedralBoundIsThatOfTheMeasuredTable) {
 
 TEST(Tolerance, HalfStepsOfEachPackedNumber) {
     Pair p;
-    EXPECT_NEAR(p.encoding(GBufferEncoding::standard).of(gpu::DEBUG_metallic).max, 0.5 / 255, 1e-6);
-    EXPECT_NEAR(p.of(gpu::DEBUG_roughness).max, 0.5 / 4095, 1e-6);
-    EXPECT_NEAR(p.of(gpu::DEBUG_occlusion).max, 0.5 / 255, 1e-6);
-    EXPECT_NEAR(p.encoding(GBufferEncoding::compact).of(gpu::DEBUG_metallic).max, 0.5 / 63, 1e-6);
-    EXPECT_NEAR(p.of(gpu::DEBUG_roughness).max, 0.5 / 255, 1e-6);
-    EXPECT_NEAR(p.of(gpu::DEBUG_normals).max, 0.0589, 1e-3);
+    EXPECT_NEAR(p.encoding(GBufferEncoding::standard).of(Channel::metallic).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.of(Channel::roughness).max, 0.5 / 4095, 1e-6);
+    EXPECT_NEAR(p.of(Channel::occlusion).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.encoding(GBufferEncoding::compact).of(Channel::metallic).max, 0.5 / 63, 1e-6);
+    EXPECT_NEAR(p.of(Channel::roughness).max, 0.5 / 255, 1e-6);
+    EXPECT_NEAR(p.of(Channel::normals).max, 0.0589, 1e-3);
 }
 
 TEST(Tolerance, HalfStepsOfEachLayer) {
     for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard}) {
         Pair p;
         p.encoding(e).needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
-        for (const gpu::uint mode :
-             {gpu::DEBUG_clearcoat, gpu::DEBUG_clearcoat_roughness, gpu::DEBUG_anisotropy})
-            EXPECT_NEAR(p.of(mode).max, 0.5 / 4095, 1e-6) << mode;
-        EXPECT_NEAR(p.of(gpu::DEBUG_clearcoat_normal).max, 0.00370, 2e-4);
-        EXPECT_GT(p.of(gpu::DEBUG_anisotropy_direction).max, p.of(gpu::DEBUG_normals).max);
+        for (const Channel mode : {Channel::clearcoat, Channel::clearcoat_roughness, Channel::anisotropy})
+            EXPECT_NEAR(p.of(mode).max, 0.5 / 4095, 1e-6) << debugMode(mode).name;
+        EXPECT_NEAR(p.of(Channel::clearcoat_normal).max, 0.00370, 2e-4);
+        EXPECT_GT(p.of(Channel::anisotropy_direction).max, p.of(Channel::normals).max);
     }
 }
 
 TEST(Tolerance, AnAbsentLayerIsNotStored) {
     Pair p;
     p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_ANISOTROPY;
-    EXPECT_EQ(p.of(gpu::DEBUG_clearcoat).max, 0);
-    EXPECT_GT(p.of(gpu::DEBUG_anisotropy).max, 0);
+    EXPECT_EQ(p.of(Channel::clearcoat).max, 0);
+    EXPECT_GT(p.of(Channel::anisotropy).max, 0);
     p.needs.surface_layers = gpu::LAYER_CLEARCOAT;
-    EXPECT_GT(p.of(gpu::DEBUG_clearcoat).max, 0);
-    EXPECT_EQ(p.of(gpu::DEBUG_anisotropy_direction).max, 0);
+    EXPECT_GT(p.of(Channel::clearcoat).max, 0);
+    EXPECT_EQ(p.of(Channel::anisotropy_direction).max, 0);
 }
 
 // A unit direction perpendicular to n, through an angle of its projection onto the decoded normal's plane.
@@ -205,8 +204,8 @@ TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
         const double x = i / 1e6;
         worstAlbedo = std::max(worstAlbedo, std::abs(x - quantisedSqrt(x, gpu::ALBEDO_BITS)));
     }
-    EXPECT_LE(worstAlbedo, p.of(gpu::DEBUG_albedo).max);
-    EXPECT_GE(worstAlbedo, 0.99 * p.of(gpu::DEBUG_albedo).max);
+    EXPECT_LE(worstAlbedo, p.of(Channel::albedo).max);
+    EXPECT_GE(worstAlbedo, 0.99 * p.of(Channel::albedo).max);
 
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform;
@@ -224,8 +223,8 @@ TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
                              qf = stored ? quantisedSqrt(f, gpu::SPECULAR_BITS) : f;
                 worst = std::max(worst, std::abs(std::lerp(f, a, m) - std::lerp(qf, qa, qm)));
             }
-            EXPECT_LE(worst, p.of(gpu::DEBUG_specular).max);
-            EXPECT_GE(worst, 0.8 * p.of(gpu::DEBUG_specular).max);
+            EXPECT_LE(worst, p.of(Channel::specular).max);
+            EXPECT_GE(worst, 0.8 * p.of(Channel::specular).max);
         }
 }
 
@@ -233,14 +232,14 @@ TEST(Tolerance, EmissionIsHalfOfNineBits) {
     Pair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
-    EXPECT_NEAR(p.of(gpu::DEBUG_emission).max, 0.5 / 256, 0.01 * 0.5 / 256);
+    EXPECT_NEAR(p.of(Channel::emission).max, 0.5 / 256, 0.01 * 0.5 / 256);
     p.needs.max_emission = 70000;
-    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0) << "float32 beyond the packed range";
+    EXPECT_EQ(p.of(Channel::emission).max, 0) << "float32 beyond the packed range";
     p.needs.max_emission = 1;
     p.needs.min_emission = 1e-6f;
-    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0);
+    EXPECT_EQ(p.of(Channel::emission).max, 0);
     p.needs = {};
-    EXPECT_EQ(p.of(gpu::DEBUG_emission).max, 0) << "nothing emits";
+    EXPECT_EQ(p.of(Channel::emission).max, 0) << "nothing emits";
 }
 
 TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
@@ -249,8 +248,8 @@ TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
     Pair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
-    p.deferred.channels[gpu::DEBUG_emission] = Image(1, 1, 3, 0x1p-20f);
-    EXPECT_NEAR(p.of(gpu::DEBUG_emission).max, 0x1p-25 / (1e-3 * 0x1p-20), 1e-6);
+    p.deferred.channels[Channel::emission] = Image(1, 1, 3, 0x1p-20f);
+    EXPECT_NEAR(p.of(Channel::emission).max, 0x1p-25 / (1e-3 * 0x1p-20), 1e-6);
 }
 
 TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
@@ -258,10 +257,9 @@ TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
         Pair p;
         p.encoding(e);
-        for (const gpu::uint mode :
-             {gpu::DEBUG_material_id, gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_lightmapped,
-              gpu::DEBUG_light_count, gpu::DEBUG_list_overflow})
-            EXPECT_EQ(p.of(mode).max, 0) << mode;
+        for (const Channel mode : {Channel::material_id, Channel::depth, Channel::position,
+                                   Channel::lightmapped, Channel::light_count, Channel::list_overflow})
+            EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
     }
 }
 
@@ -287,14 +285,14 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
 TEST(Tolerance, ADepthThatWasNotStoredIsNamedOnAGpu) {
     for (const bool cpu : {true, false})
         for (const Switch prepass : {Switch::on, Switch::off, Switch::automatic})
-            for (const gpu::uint mode : {gpu::DEBUG_depth, gpu::DEBUG_position, gpu::DEBUG_albedo}) {
+            for (const Channel mode : {Channel::depth, Channel::position, Channel::albedo}) {
                 Pair p;
                 p.cpu = cpu;
                 p.encoding(GBufferEncoding::full);
                 p.forward.settings.prepass = prepass;
                 const bool named = p.of(mode).because.find("the fragment's own depth") != std::string::npos;
-                EXPECT_EQ(named, !cpu && prepass != Switch::on && mode != gpu::DEBUG_albedo)
-                    << cpu << nameOf(prepass) << mode;
+                EXPECT_EQ(named, !cpu && prepass != Switch::on && mode != Channel::albedo)
+                    << cpu << nameOf(prepass) << debugMode(mode).name;
             }
 }
 
@@ -317,42 +315,42 @@ TEST(Tolerance, EveryChannelSaysWhy) {
 // lit: only changes that the encoding's bits can cause are tolerated.
 Pair litPair() {
     Pair p;
-    p.forward.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.0f);
-    p.forward.through_gbuffer[gpu::DEBUG_lit] = p.deferred.channels[gpu::DEBUG_lit] = Image(1, 1, 3, 1.25f);
+    p.forward.channels[Channel::lit] = Image(1, 1, 3, 1.0f);
+    p.forward.through_gbuffer[Channel::lit] = p.deferred.channels[Channel::lit] = Image(1, 1, 3, 1.25f);
     return p;
 }
 
 TEST(Tolerance, LitIsGrantedWhatDecodedSurfacesChange) {
     const Pair p = litPair();
     // 0.25 of 1.25, with deferred as the baseline.
-    EXPECT_NEAR(p.of(gpu::DEBUG_lit).max, 0.2, 1e-9);
-    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("up to 0.2"), std::string::npos);
+    EXPECT_NEAR(p.of(Channel::lit).max, 0.2, 1e-9);
+    EXPECT_NE(p.of(Channel::lit).because.find("up to 0.2"), std::string::npos);
     const FramePair turned{p.forward, p.deferred, p.needs, p.covered, true};
-    EXPECT_NEAR(derivedTolerance(debugMode(gpu::DEBUG_lit), turned).max, 0.25, 1e-9)
+    EXPECT_NEAR(derivedTolerance(debugMode(Channel::lit), turned).max, 0.25, 1e-9)
         << "forward+ being the baseline";
-    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 0u);
+    EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 0u);
 }
 
 TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
     Pair p = litPair();
     // Closer to forward+ than the tolerance, yet different from the encoding's result.
-    p.deferred.channels[gpu::DEBUG_lit].data[1] = std::nextafter(1.25f, 2.0f);
-    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
+    p.deferred.channels[Channel::lit].data[1] = std::nextafter(1.25f, 2.0f);
+    EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 1u);
     p.cpu = false;
-    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 0u) << "16 ULP on a GPU";
-    p.deferred.channels[gpu::DEBUG_lit].data[1] = 1.25f * (1 + 20 * 0x1p-23f);
-    EXPECT_EQ(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()), 1u);
+    EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 0u) << "16 ULP on a GPU";
+    p.deferred.channels[Channel::lit].data[1] = 1.25f * (1 + 20 * 0x1p-23f);
+    EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 1u);
 }
 
 TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
     Pair p = litPair();
     p.forward.through_gbuffer.clear();
-    EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0);
-    EXPECT_NE(p.of(gpu::DEBUG_lit).because.find("so it explains no difference"), std::string::npos);
-    EXPECT_FALSE(unexplainedPixels(debugMode(gpu::DEBUG_lit), p.pair()).has_value());
+    EXPECT_EQ(p.of(Channel::lit).max, 0);
+    EXPECT_NE(p.of(Channel::lit).because.find("so it explains no difference"), std::string::npos);
+    EXPECT_FALSE(unexplainedPixels(debugMode(Channel::lit), p.pair()).has_value());
     p = litPair();
     p.deferred.settings.gbuffer = GBufferEncoding::compact;
-    EXPECT_EQ(p.of(gpu::DEBUG_lit).max, 0) << "another encoding explains nothing";
+    EXPECT_EQ(p.of(Channel::lit).max, 0) << "another encoding explains nothing";
 }
 
 Report reportOf(const Pair& p) {
@@ -361,10 +359,9 @@ Report reportOf(const Pair& p) {
     report.frames = {p.deferred, p.forward};
     return report;
 }
-const ChannelDiff& channelOf(const Comparison& comparison, gpu::uint number) {
-    return *std::ranges::find_if(comparison.channels, [&](const ChannelDiff& c) {
-        return c.mode->number == static_cast<int>(number);
-    });
+const ChannelDiff& channelOf(const Comparison& comparison, Channel wanted) {
+    return *std::ranges::find_if(comparison.channels,
+                                 [&](const ChannelDiff& c) { return c.mode->channel == wanted; });
 }
 
 TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
@@ -372,32 +369,32 @@ TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
     EXPECT_TRUE(c.passed());
     EXPECT_EQ(c.channels.size(), debugModes().size());
-    EXPECT_EQ(channelOf(c, gpu::DEBUG_texcoords).verdict, Verdict::forward_only);
-    EXPECT_EQ(channelOf(c, gpu::DEBUG_shaded_samples).verdict, Verdict::deferred_only);
+    EXPECT_EQ(channelOf(c, Channel::texcoords).verdict, Verdict::forward_only);
+    EXPECT_EQ(channelOf(c, Channel::shaded_samples).verdict, Verdict::deferred_only);
 }
 
 TEST(Diff, EveryChannelCanFail) {
     for (const DebugMode& mode : debugModes()) {
         if (mode.maker == MadeBy::forward_only || mode.maker == MadeBy::deferred_only) continue;
         Pair p;
-        float& value = p.forward.channels[mode.number].data[0];
+        float& value = p.forward.channels[mode.channel].data[0];
         value = mode.metric == Metric::exact ? value + 1 : -value;
         const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
         EXPECT_FALSE(c.passed()) << mode.name;
         EXPECT_EQ(std::ranges::count(c.channels, Verdict::fail, &ChannelDiff::verdict), 1) << mode.name;
-        EXPECT_FALSE(channelOf(c, static_cast<gpu::uint>(mode.number)).reason.empty());
+        EXPECT_FALSE(channelOf(c, mode.channel).reason.empty());
 
         Pair bad;
-        bad.deferred.channels[mode.number].data[0] = std::numeric_limits<float>::quiet_NaN();
+        bad.deferred.channels[mode.channel].data[0] = std::numeric_limits<float>::quiet_NaN();
         EXPECT_FALSE(compareFrames(reportOf(bad), 0, 1, bad.needs).passed()) << mode.name << ": NaN";
     }
 }
 
 TEST(Diff, TheUnexplainedFailsWithinTheTolerance) {
     Pair p = litPair();
-    p.deferred.channels[gpu::DEBUG_lit].data = {1.2f, 1.2f, 1.2f};
+    p.deferred.channels[Channel::lit].data = {1.2f, 1.2f, 1.2f};
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
-    const ChannelDiff& lit = channelOf(c, gpu::DEBUG_lit);
+    const ChannelDiff& lit = channelOf(c, Channel::lit);
     EXPECT_LT(lit.stats.max, lit.tolerance.max);
     EXPECT_EQ(lit.unexplained_pixels, 1u);
     EXPECT_EQ(lit.verdict, Verdict::fail);
@@ -418,7 +415,7 @@ TEST(Diff, AFrameThatItsCaptureDoesNotReproduceFails) {
 TEST(Diff, NonFiniteLitFailsThoughBothAgree) {
     Pair p;
     for (Frame* frame : {&p.deferred, &p.forward}) {
-        frame->channels[gpu::DEBUG_lit].data[0] = std::numeric_limits<float>::infinity();
+        frame->channels[Channel::lit].data[0] = std::numeric_limits<float>::infinity();
         frame->counters.nonfinite_pixels = 1;
     }
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);

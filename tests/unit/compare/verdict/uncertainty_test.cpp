@@ -25,7 +25,7 @@ Frame frameOf(Path path, float left, float right) {
     Frame frame = flatFrame(path, 2, 1);
     frame.scene = "builtin:one";
     frame.camera.far = std::numeric_limits<double>::infinity();
-    frame.channels[litMode].data = {left, left, left, right, right, right};
+    frame.channels[Channel::lit].data = {left, left, left, right, right, right};
     return frame;
 }
 
@@ -61,7 +61,7 @@ TEST(Uncertainty, ComesBackAsItWas) {
     EXPECT_EQ(back.relative_uncertainty, referenceFrame.relative_uncertainty);
     EXPECT_EQ(back.notes, std::vector<std::string>{uncertaintyNote(referenceFrame.relative_uncertainty)});
     EXPECT_EQ(back.channels.size(), 2u) << "it is no channel";
-    EXPECT_EQ(back.channels.at(litMode).data, referenceFrame.channels.at(litMode).data);
+    EXPECT_EQ(back.channels.at(Channel::lit).data, referenceFrame.channels.at(Channel::lit).data);
 }
 
 // Infinite and NaN uncertainties are read back, too: a reader accepts everything that diptych writes.
@@ -81,7 +81,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
     for (const float right : {2.0f, 2.02f, 2.2f}) {
         const Frame path = frameOf(Path::forward_plus, 1.5f, right);
         const ChannelDiff now = judged(referenceFrame, path), stored = judged(back, path);
-        ASSERT_EQ(now.mode->number, litMode);
+        ASSERT_EQ(now.mode->channel, Channel::lit);
         EXPECT_EQ(now.verdict, right > 2.1f ? Verdict::fail : Verdict::pass) << right;
         EXPECT_EQ(stored.verdict, now.verdict) << right;
         ASSERT_TRUE(stored.certain_p999.has_value());
@@ -98,7 +98,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
 std::vector<double> certainOf(const Frame& a, const Frame& b) {
     const Requirements needs;
     const Coverage covered = coverage(a, b);
-    return certainErrors(debugMode(litMode), FramePair{a, b, needs, covered}).value();
+    return certainErrors(debugMode(Channel::lit), FramePair{a, b, needs, covered}).value();
 }
 
 // Relative to the pixel, like the error, however dark it is; with the reference on either side.
@@ -115,9 +115,9 @@ TEST(Uncertainty, IsTakenOffThePixelsError) {
     EXPECT_NEAR(errors[1], (0.01 - 2.29 * 0.001) / 0.02, 1e-6);
     EXPECT_EQ(certainOf(traced, frameOf(Path::forward_plus, 1.002f, 0.01f)), (std::vector<double>{0, 0}))
         << "what is less than it is not known to differ";
-    traced.channels[idMode].data = {-1, -1};
+    traced.channels[Channel::material_id].data = {-1, -1};
     Frame half = path;
-    half.channels[idMode].data = {-1, 3};
+    half.channels[Channel::material_id].data = {-1, 3};
     EXPECT_EQ(certainOf(traced, half).size(), 1u) << "the background does not count";
 }
 
@@ -126,20 +126,19 @@ TEST(Uncertainty, RoundingIsTakenOffTheChannelsOfItsLight) {
     Frame traced = frameOf(Path::reference, 1, 1), path = frameOf(Path::forward_plus, 1.01f, 1.01f);
     traced.rounding = Image(2, 1, 4);
     traced.rounding.data = {0.001f, 0.002f, 0.003f, 0.004f, 0, 0, 0, 0};
-    for (const auto& [mode, granted] : {std::pair{gpu::DEBUG_lit, 0.003},
-                                        {gpu::DEBUG_lit_diffuse, 0.001},
-                                        {gpu::DEBUG_lit_specular, 0.002},
-                                        {gpu::DEBUG_lit_clearcoat, 0.003},
-                                        {gpu::DEBUG_lit_sheen, 0.004},
-                                        {gpu::DEBUG_lit_ambient, 0.0}}) {
-        const int number = static_cast<int>(mode);
-        for (Frame* const frame : {&traced, &path}) frame->channels[number] = frame->channels[litMode];
+    for (const auto& [mode, granted] : {std::pair{Channel::lit, 0.003},
+                                        {Channel::lit_diffuse, 0.001},
+                                        {Channel::lit_specular, 0.002},
+                                        {Channel::lit_clearcoat, 0.003},
+                                        {Channel::lit_sheen, 0.004},
+                                        {Channel::lit_ambient, 0.0}}) {
+        for (Frame* const frame : {&traced, &path}) frame->channels[mode] = frame->channels[Channel::lit];
         const Coverage covered = coverage(traced, path);
         const Requirements needs;
-        const auto errors = certainErrors(debugMode(number), FramePair{traced, path, needs, covered});
+        const auto errors = certainErrors(debugMode(mode), FramePair{traced, path, needs, covered});
         ASSERT_TRUE(errors);
-        EXPECT_NEAR(errors->at(0), 0.01 - granted, 1e-6) << number;
-        EXPECT_NEAR(errors->at(1), 0.01, 1e-6) << number;
+        EXPECT_NEAR(errors->at(0), 0.01 - granted, 1e-6) << debugMode(mode).name;
+        EXPECT_NEAR(errors->at(1), 0.01, 1e-6) << debugMode(mode).name;
     }
 }
 
@@ -150,7 +149,7 @@ TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
             Frame traced = frameOf(Path::reference, 1, 2);
             traced.uncertainty = Image(2, 1, 1, known);
             Frame path = frameOf(Path::forward_plus, 1, 2);
-            path.channels[litMode].at(1, 0, 2) = wrong;
+            path.channels[Channel::lit].at(1, 0, 2) = wrong;
             const std::vector<double> errors = certainOf(traced, path);
             EXPECT_EQ(errors[0], 0);
             EXPECT_EQ(errors[1], std::numeric_limits<double>::infinity()) << known << " " << wrong;
@@ -190,7 +189,7 @@ TEST(Uncertainty, OfABlackReferenceExcusesNoLight) {
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {
     Frame referenceFrame = sampled();
-    referenceFrame.requested = {idMode};
+    referenceFrame.requested = {Channel::material_id};
     EXPECT_TRUE(throughExr(referenceFrame).uncertainty.empty());
     referenceFrame = sampled();
     referenceFrame.uncertainty = {};

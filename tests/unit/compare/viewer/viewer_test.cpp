@@ -23,9 +23,6 @@
 namespace diptych::viewer {
 namespace {
 
-constexpr auto lit = static_cast<int>(gpu::DEBUG_lit), ids = static_cast<int>(gpu::DEBUG_material_id),
-               normals = static_cast<int>(gpu::DEBUG_normals);
-
 // ---- keys ------------------------------------------------------------------------------------------------
 
 TEST(ViewerKeys, NoKeyDoesTwoThings) {
@@ -71,9 +68,9 @@ TEST(ViewerKeys, TheReadmeHasTheTable) {
 TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
     const Frame left = flatFrame(Path::deferred, 2, 1, 0.5f);
     Frame right = flatFrame(Path::deferred, 2, 1, 0.5f);
-    right.channels[lit].at(0, 0, 1) = 0.75f;   // + 0.25
-    right.channels[lit].at(0, 0, 2) = 0.375f;  // - 0.125, smaller
-    right.channels[lit].at(1, 0, 0) = 0.0f;    // - 0.5
+    right.channels[Channel::lit].at(0, 0, 1) = 0.75f;   // + 0.25
+    right.channels[Channel::lit].at(0, 0, 2) = 0.375f;  // - 0.125, smaller
+    right.channels[Channel::lit].at(1, 0, 0) = 0.0f;    // - 0.5
     Look look;
     look.difference = Difference::signed_difference;
     const DifferencePanel panel = differenceOf(left, right, look);
@@ -103,9 +100,9 @@ TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
     EXPECT_TRUE(panel.missing.empty()) << panel.missing;
     EXPECT_EQ(panel.top, 1);
     EXPECT_GT(panel.values.at(8, 8), 0.05f);
-    left.channels[normals] = Image(16, 16, 3, 0.5f);
-    right.channels[normals] = Image(16, 16, 3, 0.5f);
-    look.mode = normals;
+    left.channels[Channel::normals] = Image(16, 16, 3, 0.5f);
+    right.channels[Channel::normals] = Image(16, 16, 3, 0.5f);
+    look.mode = Channel::normals;
     EXPECT_NE(differenceOf(left, right, look).missing.find("normals"), std::string::npos);
 }
 
@@ -115,7 +112,7 @@ TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
     EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 3, 2, 0), look)
                   .missing.find("2x2"),
               std::string::npos);
-    look.mode = normals;
+    look.mode = Channel::normals;
     EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 2, 2, 0), look)
                   .missing.find("normals"),
               std::string::npos);
@@ -124,7 +121,7 @@ TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
 // The panels equal the output of `render`.
 TEST(ViewerPictures, ArePicturesOfTheChannel) {
     Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
-    left.channels[ids].at(2, 1) = -1;
+    left.channels[Channel::material_id].at(2, 1) = -1;
     Look look;
     look.exposure = 2;
     Shown shown;
@@ -132,10 +129,12 @@ TEST(ViewerPictures, ArePicturesOfTheChannel) {
     EXPECT_EQ(exposure.factor, 2);
     makePictures(left, right, look, exposure, shown);
     const Frame* frames[] = {&left};
-    EXPECT_EQ(shown.panels[0].picture.data,
-              channelPicture(debugMode(lit), left, scaleFor(debugMode(lit), exposure, frames)).data);
+    EXPECT_EQ(
+        shown.panels[0].picture.data,
+        channelPicture(debugMode(Channel::lit), left, scaleFor(debugMode(Channel::lit), exposure, frames))
+            .data);
     EXPECT_FALSE(shown.difference);
-    look.mode = normals;
+    look.mode = Channel::normals;
     makePictures(left, right, look, exposure, shown);
     EXPECT_FALSE(shown.panels[0].missing.empty());
     EXPECT_TRUE(shown.panels[0].picture.data.empty());
@@ -228,11 +227,11 @@ TEST(ViewerSettings, SizeStopsFollowingTheWindow) {
 TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
     Look look;
     for (const DebugMode& mode : debugModes()) {
-        look.mode = mode.number;
+        look.mode = mode.channel;
         look.heat = true;
-        EXPECT_EQ(look.channel(), static_cast<int>(gpu::DEBUG_light_count)) << mode.name;
+        EXPECT_EQ(look.channel(), Channel::light_count) << mode.name;
         look.heat = false;
-        EXPECT_EQ(look.channel(), mode.number);
+        EXPECT_EQ(look.channel(), mode.channel);
     }
 }
 
@@ -240,10 +239,10 @@ TEST(ViewerCommands, SayTheWholeView) {
     InterfaceState state;
     state.subject.scene = "a b.glb";
     state.subject.settings.camera = "eye=1,2,3 target=0,0,0";
-    state.look.mode = normals;
+    state.look.mode = Channel::normals;
     EXPECT_EQ(renderCommand(state),
               "diptych render --debug normals --camera 'eye=1,2,3 target=0,0,0' 'a b.glb'");
-    state.look.mode = lit;
+    state.look.mode = Channel::lit;
     state.look.exposure = 0.5;
     state.look.tonemap = false;
     EXPECT_EQ(renderCommand(state),

@@ -15,33 +15,32 @@
 namespace diptych {
 namespace {
 
-constexpr int lit_alone = static_cast<int>(gpu::DEBUG_lit);
 constexpr VkFormat of_lit = VK_FORMAT_B10G11R11_UFLOAT_PACK32, of_others = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-std::vector<int> everyMode() {
-    std::vector<int> modes;
-    for (const DebugMode& mode : debugModes()) modes.push_back(mode.number);
+std::vector<Channel> everyMode() {
+    std::vector<Channel> modes;
+    for (const DebugMode& mode : debugModes()) modes.push_back(mode.channel);
     return modes;
 }
 
 // No two channels share a component, none is truncated, and channels of light are in the last images.
 TEST(Captures, EachChannelHasComponentsOfItsOwn) {
-    std::map<std::pair<gpu::uint, gpu::uint>, int> taken;
+    std::map<std::pair<gpu::uint, gpu::uint>, Channel> taken;
     for (const DebugMode& mode : debugModes()) {
-        const auto [image, component] = placeInCaptures(mode.number);
+        const auto [image, component] = placeInCaptures(mode.channel);
         ASSERT_LT(image, gpu::CAPTURE_IMAGES) << mode.name;
         EXPECT_LE(component + static_cast<gpu::uint>(mode.width), 4u) << mode.name;
-        EXPECT_EQ(image >= gpu::FIRST_LIT_IMAGE, isShaded(mode.number)) << mode.name;
+        EXPECT_EQ(image >= gpu::FIRST_LIT_IMAGE, isShaded(mode.channel)) << mode.name;
         for (gpu::uint c = component; c < component + static_cast<gpu::uint>(mode.width); ++c)
-            EXPECT_EQ(taken.emplace(std::pair{image, c}, mode.number).first->second, mode.number)
+            EXPECT_EQ(taken.emplace(std::pair{image, c}, mode.channel).first->second, mode.channel)
                 << mode.name;
     }
-    for (const int mode : {lit_alone, static_cast<int>(gpu::DEBUG_shaded_samples)})
-        for (const int other : everyMode()) {
+    for (const Channel mode : {Channel::lit, Channel::shaded_samples})
+        for (const Channel other : everyMode()) {
             if (other == mode) continue;
-            EXPECT_NE(placeInCaptures(other).image, placeInCaptures(mode).image) << other;
+            EXPECT_NE(placeInCaptures(other).image, placeInCaptures(mode).image) << debugMode(other).name;
         }
-    EXPECT_THROW(placeInCaptures(19), std::out_of_range);
+    EXPECT_THROW(placeInCaptures(foreignChannel(0)), std::out_of_range);
 }
 
 // Every requested channel once, images in order; light in as few passes as possible.
@@ -49,7 +48,7 @@ TEST(Captures, PassesHoldWhatIsAskedFor) {
     for (const std::size_t most : {std::size_t{8}, std::size_t{4}}) {
         const auto groups = captureGroups(everyMode(), of_lit, most);
         EXPECT_EQ(groups.size(), most == 8 ? 5u : 8u);
-        std::vector<int> modes;
+        std::vector<Channel> modes;
         gpu::uint all = 0;
         for (const CaptureGroup& group : groups) {
             EXPECT_LE(group.formats.size(), most);
@@ -69,10 +68,9 @@ TEST(Captures, PassesHoldWhatIsAskedFor) {
 }
 
 TEST(Captures, LightIsBesideSurfacesWhereItFits) {
-    const int albedo = static_cast<int>(gpu::DEBUG_albedo), metallic = static_cast<int>(gpu::DEBUG_metallic);
-    const auto groups = captureGroups(std::vector{lit_alone, metallic, albedo}, of_lit);
+    const auto groups = captureGroups(std::vector{Channel::lit, Channel::metallic, Channel::albedo}, of_lit);
     ASSERT_EQ(groups.size(), 1u);
-    EXPECT_EQ(groups[0].modes, (std::vector{albedo, metallic, lit_alone}));
+    EXPECT_EQ(groups[0].modes, (std::vector{Channel::albedo, Channel::metallic, Channel::lit}));
     EXPECT_EQ(groups[0].formats, (std::vector{of_others, of_lit}));
     EXPECT_TRUE(captureGroups({}, of_lit).empty());
 }

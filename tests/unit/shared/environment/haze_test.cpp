@@ -163,31 +163,30 @@ TEST(Haze, OneHeightKeepsTheColumn) {
 // A march may have an error proportional to the scattered light, smaller with more steps; a closed form
 // may not.
 TEST(Haze, OfAMarchSomeErrorIsGranted) {
-    const int lit = static_cast<int>(gpu::DEBUG_lit), lit_haze = static_cast<int>(gpu::DEBUG_lit_haze);
     Frame reference, path;
     reference.settings.path = Path::reference;
-    reference.channels[lit] = Image(1, 1, 3, 2.0f);
-    reference.channels[lit_haze] = Image(1, 1, 3, 1.0f);
+    reference.channels[Channel::lit] = Image(1, 1, 3, 2.0f);
+    reference.channels[Channel::lit_haze] = Image(1, 1, 3, 1.0f);
     path.settings = hazeSettings(1);
-    path.channels[lit] = Image(1, 1, 3, 2.0625f);
-    path.channels[lit_haze] = Image(1, 1, 3, 1.0625f);
+    path.channels[Channel::lit] = Image(1, 1, 3, 2.0625f);
+    path.channels[Channel::lit_haze] = Image(1, 1, 3, 1.0625f);
     const Requirements needs;
     const Coverage coverage = everyPixel(1);
     const FramePair pair{reference, path, needs, coverage};
-    const auto excess = [&](int mode) {
+    const auto excess = [&](Channel mode) {
         const auto errors = certainErrors(debugMode(mode), pair);
         return errors ? errors->at(0) : -1.0;
     };
-    EXPECT_EQ(excess(lit_haze), -1) << "judged as it is";
+    EXPECT_EQ(excess(Channel::lit_haze), -1) << "judged as it is";
     path.settings.haze_march_steps = 4;
-    EXPECT_NEAR(excess(lit_haze), 0.0625 - 0.025, 1e-6);
-    EXPECT_NEAR(excess(lit), (0.0625 - 0.025) / 2, 1e-6);
+    EXPECT_NEAR(excess(Channel::lit_haze), 0.0625 - 0.025, 1e-6);
+    EXPECT_NEAR(excess(Channel::lit), (0.0625 - 0.025) / 2, 1e-6);
     path.settings.haze_march_steps = 1;
-    EXPECT_EQ(excess(lit_haze), 0);
-    reference.channels.erase(lit_haze);
-    EXPECT_EQ(excess(lit), 0);
+    EXPECT_EQ(excess(Channel::lit_haze), 0);
+    reference.channels.erase(Channel::lit_haze);
+    EXPECT_EQ(excess(Channel::lit), 0);
     path.settings.haze = false;
-    EXPECT_EQ(excess(lit), -1);
+    EXPECT_EQ(excess(Channel::lit), -1);
 }
 
 }  // namespace

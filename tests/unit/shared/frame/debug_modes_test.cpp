@@ -16,13 +16,14 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
     std::set<std::string_view> names;
     int last = -1;
     for (const DebugMode& mode : debugModes()) {
-        EXPECT_GT(mode.number, last) << mode.name;
-        last = mode.number;
+        EXPECT_GT(channelNumber(mode.channel), last) << mode.name;
+        last = channelNumber(mode.channel);
+        EXPECT_EQ(channelOfNumber(last), mode.channel);
         EXPECT_TRUE(names.insert(mode.name).second) << mode.name;
         EXPECT_FALSE(mode.shows.empty()) << mode.name;
         EXPECT_EQ(findDebugMode(mode.name), &mode);
-        EXPECT_EQ(findDebugMode(std::to_string(mode.number)), &mode);
-        EXPECT_EQ(&debugMode(mode.number), &mode);
+        EXPECT_EQ(findDebugMode(std::to_string(last)), &mode);
+        EXPECT_EQ(&debugMode(mode.channel), &mode);
     }
 }
 
@@ -30,21 +31,25 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
 TEST(DebugModes, ZeroToNineAreFixed) {
     const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
                                  "emission", "occlusion", "specular", "material_id", "texcoords"};
-    for (int number = 0; number < 10; ++number) EXPECT_EQ(debugMode(number).name, names[number]);
+    for (int number = 0; number < 10; ++number)
+        EXPECT_EQ(debugMode(channelOfNumber(number).value()).name, names[number]);
 }
 
 TEST(DebugModes, WhatIsNotThereIsNotFound) {
     for (const char* word : {"", "Lit", "lit ", "-1", "9999", "1x", "+1"})
         EXPECT_EQ(findDebugMode(word), nullptr) << word;
-    EXPECT_THROW(debugMode(9999), std::out_of_range);
+    EXPECT_THROW(debugMode(foreignChannel(0)), std::out_of_range);
+    for (const int number : {-1, 9999}) EXPECT_EQ(channelOfNumber(number), std::nullopt);
 }
 
 TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {
-    EXPECT_EQ(exrChannels(debugMode(0)), (std::vector<std::string>{"R", "G", "B"}));
-    EXPECT_EQ(exrChannels(debugMode(2)), (std::vector<std::string>{"normals.X", "normals.Y", "normals.Z"}));
-    EXPECT_EQ(exrChannels(debugMode(4)), (std::vector<std::string>{"roughness.Y"}));
-    EXPECT_EQ(exrChannels(debugMode(8)), (std::vector<std::string>{"material_id.Y"}));
-    EXPECT_EQ(exrChannels(debugMode(9)), (std::vector<std::string>{"texcoords.X", "texcoords.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(Channel::lit)), (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(exrChannels(debugMode(Channel::normals)),
+              (std::vector<std::string>{"normals.X", "normals.Y", "normals.Z"}));
+    EXPECT_EQ(exrChannels(debugMode(Channel::roughness)), (std::vector<std::string>{"roughness.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(Channel::material_id)), (std::vector<std::string>{"material_id.Y"}));
+    EXPECT_EQ(exrChannels(debugMode(Channel::texcoords)),
+              (std::vector<std::string>{"texcoords.X", "texcoords.Y"}));
     EXPECT_EQ(exrChannels(*findDebugMode("depth")), (std::vector<std::string>{"Z"}));
     std::set<std::string> all;
     for (const DebugMode& mode : debugModes()) {
@@ -71,7 +76,7 @@ TEST(DebugModes, AnglesAreBetweenUnitVectors) {
             << mode.name;
         EXPECT_TRUE(!isAngle(mode.metric) || mode.width == 3) << mode.name;
     }
-    EXPECT_EQ(debugMode(gpu::DEBUG_anisotropy_direction).metric, Metric::axial) << "it has no sign";
+    EXPECT_EQ(debugMode(Channel::anisotropy_direction).metric, Metric::axial) << "it has no sign";
 }
 
 // A pixel's surface is found before the light that reaches it, and that before the light it sends.
@@ -79,12 +84,12 @@ TEST(DebugModes, StepsFollowTheComputation) {
     std::set<int> steps;
     for (const DebugMode& mode : debugModes()) {
         EXPECT_TRUE(steps.insert(mode.step).second) << mode.name << " has the step of another channel";
-        const ChannelStage stage = sourceOf(mode.number).stage;
+        const ChannelStage stage = sourceOf(mode.channel).stage;
         const int hundreds = stage < ChannelStage::list ? 100 : stage < ChannelStage::light ? 400 : 500;
         EXPECT_GE(mode.step, hundreds) << mode.name;
         EXPECT_LT(mode.step, hundreds == 100 ? 400 : hundreds == 400 ? 500 : 700) << mode.name;
     }
-    EXPECT_EQ(*steps.rbegin(), debugMode(gpu::DEBUG_lit).step) << "what all else makes";
+    EXPECT_EQ(*steps.rbegin(), debugMode(Channel::lit).step) << "what all else makes";
 }
 
 TEST(DebugModes, CodesHaveBits) {
@@ -96,8 +101,8 @@ TEST(DebugModes, CodesHaveBits) {
         const bool turned = of.code == FieldCode::octahedral || of.code == FieldCode::line;
         EXPECT_TRUE(!turned || isAngle(mode.metric)) << mode.name;
     }
-    EXPECT_EQ(debugMode(gpu::DEBUG_normals).stored.compact, 12u);
-    EXPECT_EQ(debugMode(gpu::DEBUG_normals).stored.standard, 16u);
+    EXPECT_EQ(debugMode(Channel::normals).stored.compact, 12u);
+    EXPECT_EQ(debugMode(Channel::normals).stored.standard, 16u);
 }
 
 TEST(DebugModes, PlacesAmongRelatedChannelsAreUnique) {
@@ -106,7 +111,7 @@ TEST(DebugModes, PlacesAmongRelatedChannelsAreUnique) {
         if (mode.related != 0) {
             EXPECT_TRUE(places.insert(mode.related).second) << mode.name;
         }
-    EXPECT_EQ(*places.begin(), debugMode(gpu::DEBUG_lit).related);
+    EXPECT_EQ(*places.begin(), debugMode(Channel::lit).related);
     EXPECT_EQ(*places.rbegin(), static_cast<int>(places.size()));
 }
 
@@ -114,7 +119,7 @@ TEST(DebugModes, PlacesAmongRelatedChannelsAreUnique) {
 TEST(DebugModes, TexelsMakeSurfaces) {
     for (const DebugMode& mode : debugModes()) {
         if (mode.texels == TexelUse::none) continue;
-        EXPECT_EQ(sourceOf(mode.number).stage, ChannelStage::surface) << mode.name;
+        EXPECT_EQ(sourceOf(mode.channel).stage, ChannelStage::surface) << mode.name;
         const bool color = mode.texels == TexelUse::color || mode.texels == TexelUse::scaled_color;
         EXPECT_EQ(color, mode.kind == ChannelKind::color) << mode.name;
         EXPECT_EQ(mode.texels == TexelUse::line, mode.metric == Metric::axial) << mode.name;
@@ -134,17 +139,17 @@ TEST(DebugModes, LayersHaveTheirChannels) {
             : name == "lit_transmission"    ? gpu::LAYER_TRANSMISSION | gpu::LAYER_DIFFUSE_TRANSMISSION
             : names("transmission") || names("attenuation") || names("dispersion") ? gpu::LAYER_TRANSMISSION
                                                                                    : 0u;
-        EXPECT_EQ(layerOf(mode.number), layer) << name;
+        EXPECT_EQ(layerOf(mode.channel), layer) << name;
     }
 }
 
 // A channel of several layers is shown if a scene has any of them.
 TEST(DebugModes, ScenesShowTheChannelsOfTheirLayers) {
     for (const DebugMode& mode : debugModes()) {
-        const gpu::uint layers = layerOf(mode.number);
-        EXPECT_EQ(mayShow(mode.number, 0), layers == 0) << mode.name;
+        const gpu::uint layers = layerOf(mode.channel);
+        EXPECT_EQ(mayShow(mode.channel, 0), layers == 0) << mode.name;
         for (gpu::uint layer = 1; layer <= gpu::LAYER_TRANSMISSION; layer *= 2) {
-            EXPECT_EQ(mayShow(mode.number, layer), layers == 0 || (layers & layer) != 0) << mode.name;
+            EXPECT_EQ(mayShow(mode.channel, layer), layers == 0 || (layers & layer) != 0) << mode.name;
         }
     }
 }

@@ -12,29 +12,28 @@ namespace diptych {
 namespace {
 
 TEST(MadeChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
-    const auto why = [](Path path, gpu::uint mode, int samples = 1) {
+    const auto why = [](Path path, Channel mode, int samples = 1) {
         Settings settings;
         settings.path = path;
         settings.msaa = samples;
-        return std::string(notMadeBecause(settings, debugMode(static_cast<int>(mode))));
+        return std::string(notMadeBecause(settings, debugMode(mode)));
     };
     for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
-        EXPECT_EQ(why(path, gpu::DEBUG_albedo), "");
-    EXPECT_NE(why(Path::deferred, gpu::DEBUG_texcoords).find("--path forward_plus"), std::string::npos);
-    EXPECT_EQ(why(Path::reference, gpu::DEBUG_texcoords), "");
-    EXPECT_NE(why(Path::reference, gpu::DEBUG_light_count).find("--path forward_plus"), std::string::npos);
-    EXPECT_NE(why(Path::forward_plus, gpu::DEBUG_shaded_samples, 4).find("--path deferred"),
-              std::string::npos);
-    EXPECT_NE(why(Path::reference, gpu::DEBUG_shaded_samples).find("--path deferred"), std::string::npos);
-    EXPECT_NE(why(Path::deferred, gpu::DEBUG_shaded_samples).find("--msaa 4"), std::string::npos);
-    EXPECT_EQ(why(Path::deferred, gpu::DEBUG_shaded_samples, 4), "");
+        EXPECT_EQ(why(path, Channel::albedo), "");
+    EXPECT_NE(why(Path::deferred, Channel::texcoords).find("--path forward_plus"), std::string::npos);
+    EXPECT_EQ(why(Path::reference, Channel::texcoords), "");
+    EXPECT_NE(why(Path::reference, Channel::light_count).find("--path forward_plus"), std::string::npos);
+    EXPECT_NE(why(Path::forward_plus, Channel::shaded_samples, 4).find("--path deferred"), std::string::npos);
+    EXPECT_NE(why(Path::reference, Channel::shaded_samples).find("--path deferred"), std::string::npos);
+    EXPECT_NE(why(Path::deferred, Channel::shaded_samples).find("--msaa 4"), std::string::npos);
+    EXPECT_EQ(why(Path::deferred, Channel::shaded_samples, 4), "");
 }
 
 TEST(MadeChannels, TheReferenceMakesWhatIsAboutTheScene) {
     for (const auto& [mode, made] :
-         {std::pair{gpu::DEBUG_lit, true}, std::pair{gpu::DEBUG_tangent, true},
-          std::pair{gpu::DEBUG_shaded_samples, false}, std::pair{gpu::DEBUG_cascade, false}})
-        EXPECT_EQ(isMadeByReference(debugMode(static_cast<int>(mode))), made) << mode;
+         {std::pair{Channel::lit, true}, std::pair{Channel::tangent, true},
+          std::pair{Channel::shaded_samples, false}, std::pair{Channel::cascade, false}})
+        EXPECT_EQ(isMadeByReference(debugMode(mode)), made) << debugMode(mode).name;
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ enum class Twice : std::uint8_t { none, lit, all };
 struct RenderOptions {
     // Debug modes to render; forward-only ones are omitted from a deferred Frame, those of layers that the
     // scene lacks unless they are `requested` and named. Empty: only time the frame.
-    std::vector<int> channels;
-    bool named = true;           // whether somebody named the requested channels; false: all that there are
-    std::vector<int> requested;  // subset of `channels` for Frame::requested; empty: all
-    int runs = 5;                // timed frames, apart from those with timed passes; 0: no times
+    std::vector<Channel> channels;
+    bool named = true;  // whether somebody named the requested channels; false: all that there are
+    std::vector<Channel> requested;  // subset of `channels` for Frame::requested; empty: all
+    int runs = 5;                    // timed frames, apart from those with timed passes; 0: no times
     // Also shade lit channels from the surfaces that deferred decodes (Frame::through_gbuffer). Forward+
     // encodes and decodes its own; renderAll() passes the deferred Frame's surfaces to the reference.
     bool through_gbuffer = false;
-    std::vector<int> every_sample;    // with MSAA: subset of `channels` for Frame::further_samples
-    std::optional<Settings> decoded;  // reference in mode surface: the deferred Frame's Settings
+    std::vector<Channel> every_sample;  // with MSAA: subset of `channels` for Frame::further_samples
+    std::optional<Settings> decoded;    // reference in mode surface: the deferred Frame's Settings
     // reference: also the errors of environment approximations (Frame::environment_costs), and the
     // environment and ambient light that geometry occludes (Frame::hidden_light).
     bool environment_errors = false;
@@ -50,24 +50,21 @@ struct RenderOptions {
     Stage progress;                                   // of renderAll()
     // For a reference: called from any thread with each finished tile: all channels, of which only the
     // tile may be read, and its left and top pixel, width and height.
-    std::function<void(const std::map<int, Image>& channels, int x, int y, int width, int height)> tile{};
+    std::function<void(const std::map<Channel, Image>& channels, int x, int y, int width, int height)> tile{};
     // Opens a reference's checkpoint, for reference::Request::keep; called once for each. Empty: no
     // checkpoints.
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
 
 // Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
-inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, int mode) {
+inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, Channel mode) {
     const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
     return !mayShow(mode, layers) && !asked;
 }
 inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
     std::erase_if(options.channels,
-                  [given = options, layers](int mode) { return isLeftOut(given, layers, mode); });
+                  [given = options, layers](Channel mode) { return isLeftOut(given, layers, mode); });
     return options;
 }
-
-// Cost of one Frame relative to rendering one frame; for progress lines.
-double framesIn(const RenderOptions& options);
 
 }  // namespace diptych

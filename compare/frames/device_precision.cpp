@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/render/device_precision.h"
+#include "compare/frames/device_precision.h"
 
 #include "shared/vulkan/device.h"
 

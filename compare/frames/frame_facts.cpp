@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compare/render/frame_facts.h"
+#include "compare/frames/frame_facts.h"
 
+#include "shared/contract/surface_channels.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device.h"
@@ -14,6 +15,13 @@
 #include <string>
 
 namespace diptych {
+
+std::span<const Channel> surfaceChannels() {
+#define DIPTYCH_CHANNEL(number, name) Channel::name,
+    static constexpr std::array channels{SURFACE_CHANNELS(DIPTYCH_CHANNEL)};
+#undef DIPTYCH_CHANNEL
+    return channels;
+}
 
 ViewRequest viewRequest(const Settings& settings) {
     ViewRequest request;

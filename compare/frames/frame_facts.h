@@ -8,12 +8,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace diptych {
 
 class Device;
+
+// The channels that light shades (SURFACE_CHANNELS of the contract), in that order.
+std::span<const Channel> surfaceChannels();
 
 // The view that these Settings request.
 ViewRequest viewRequest(const Settings& settings);
