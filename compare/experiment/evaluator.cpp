@@ -29,10 +29,6 @@ std::vector<Settings> fromEachCamera(const Settings& settings, const ReferenceFr
 
 }  // namespace
 
-bool SceneEvaluator::isOfReferenceSize(const Settings& settings) const {
-    return settings.size == references_.frames.front().settings.size;
-}
-
 FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
@@ -44,37 +40,28 @@ FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
 }
 
 Judged SceneEvaluator::judge(const Settings& settings) {
-    // An image of another size is upsampled by its channels, which requires a capture.
-    if (!isOfReferenceSize(settings)) return judgeCaptured(settings);
     ErrorsOfCameras errors;
     Judged judged;
-    const std::vector<Settings> seen = fromEachCamera(settings, references_);
-    for (std::size_t camera = 0; camera < cameras(); ++camera) {
-        PreparedFrames& frames = drawn(seen[camera]);
-        errors.add(errorsOf(camera, frames.lit(0)));
-        const FrameBytes& bytes = frames.described(0).bytes;
+    const auto add = [&](std::size_t camera, const Image& lit, const FrameBytes& bytes) {
+        errors.add(errorsOf(camera, lit));
         judged.bytes = std::max(judged.bytes, bytes.images + bytes.buffers);
-    }
-    judged.error = errors.errors().at(figure_);
-    return judged;
-}
-
-Judged SceneEvaluator::judgeCaptured(const Settings& settings) {
+    };
     RenderOptions drawing = litOptions(options_, false);
     drawing.runs = 0;
     drawing.progress = {};
-    ErrorsOfCameras all;
-    Judged judged;
+    const std::vector<Settings> seen = fromEachCamera(settings, references_);
     for (std::size_t camera = 0; camera < cameras(); ++camera) {
-        const Frame& reference = references_.frames[camera];
-        Frame frame = renderer_.draw(seenFrom(reference, settings), drawing);
-        judged.bytes = std::max(judged.bytes, frame.bytes.images + frame.bytes.buffers);
-        frame = upsampled(std::move(frame), reference.settings.size);
-        const FrameErrors errors = (*references_.errors[camera])(frame.channels.at(Channel::lit));
-        all.add(errors);
-        judged.error = errors.errors.at(figure_);
+        const Size& size = references_.frames[camera].settings.size;
+        if (settings.size == size) {
+            PreparedFrames& frames = drawn(seen[camera]);
+            add(camera, frames.lit(0), frames.described(0).bytes);
+        } else {
+            // An image of another size is upsampled by its channels, which requires a capture.
+            const Frame frame = upsampled(renderer_.draw(seen[camera], drawing), size);
+            add(camera, frame.channels.at(Channel::lit), frame.bytes);
+        }
     }
-    if (cameras() > 1) judged.error = all.errors().at(figure_);
+    judged.error = errors.errors().at(figure_);
     return judged;
 }
 

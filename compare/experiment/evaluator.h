@@ -56,8 +56,6 @@ public:
 
 private:
     std::size_t cameras() const { return references_.frames.size(); }
-    bool isOfReferenceSize(const Settings& settings) const;
-    Judged judgeCaptured(const Settings& settings);
     // Errors of one camera's image. FLIP results are cached by the image's hash.
     FrameErrors errorsOf(std::size_t camera, const Image& lit);
 

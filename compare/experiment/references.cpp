@@ -22,6 +22,7 @@ RenderOptions litOptions(const RenderOptions& options, bool shadows) {
     drawing.requested = drawing.channels;
     drawing.twice = Twice::none;
     drawing.through_gbuffer = false;
+    drawing.recheck = false;  // lit is the timed frame's
     return drawing;
 }
 

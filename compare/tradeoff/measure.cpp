@@ -46,8 +46,6 @@ void warn(TradeoffRow& row, const Frame& frame) {
     add(frame.counters.overflowed_lists, "light list", "overflowed: every light was evaluated there");
     add(frame.counters.shadow_pages.fallback, "shadow page", "did not fit: a coarser level was used there");
     add(frame.counters.unsorted.fragments, "blended fragment", "overflowed the list: blended as one layer");
-    add(frame.counters.unreproduced_pixels, "pixel",
-        "of the captured channels did not match the timed pipeline");
 }
 
 // Adds a camera with the errors of `frame`, which has the reference's size. The first one's pictures show

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Optimisations that skip work on the device (gathered uniforms, unread inputs, triangle normals) change
 // no bit of the image.
+#include "compare/experiment/references.h"
 #include "compare/frames/frame_facts.h"
 #include "shared/scene/load.h"
 #include "tests/image/changed_view.h"
@@ -73,6 +74,24 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
                       0u)
                 << nameOf(path) << ", " << nameOf(encoding);
         }
+}
+
+// Rows of an experiment take lit from the timed frame: pipelines that capture it take most of a row's time.
+TEST(SkippedWork, ARowOfAnExperimentDrawsLightOnce) {
+    const Scene scene = loadScene("builtin:gallery");
+    for (const Path path : {Path::deferred, Path::forward_plus}) {
+        Renderer renderer(device(), scene);
+        RenderOptions options = experiment::litOptions({}, true);
+        options.runs = 0;
+        const Frame row = renderer.draw(smallFrame(path), options);
+        const std::size_t made = renderer.pipelines();
+        options.recheck = true;
+        const Frame checked = renderer.draw(smallFrame(path), options);
+        EXPECT_GT(renderer.pipelines(), made) << nameOf(path);
+        for (const Channel channel : {Channel::lit, Channel::shadow_visibility})
+            EXPECT_EQ(differingPixels(row.channels.at(channel), checked.channels.at(channel), true), 0u)
+                << nameOf(path) << " " << debugMode(channel).name;
+    }
 }
 
 // Overdraw is counted in a small image and scaled to the whole.
