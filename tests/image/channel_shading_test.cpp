@@ -13,8 +13,9 @@
 namespace diptych::tests {
 namespace {
 
-constexpr Channel litTerms[] = {Channel::lit_diffuse, Channel::lit_specular,  Channel::lit_ambient,
-                                Channel::lit_haze,    Channel::transmittance, Channel::lit_environment};
+constexpr Channel litTerms[] = {
+    Channel::lit_diffuse,   Channel::lit_specular,    Channel::lit_ambient,       Channel::lit_haze,
+    Channel::transmittance, Channel::lit_environment, Channel::shadow_visibility, Channel::local_visibility};
 
 std::vector<Channel> shadedChannels() {
     std::vector<Channel> modes(surfaceChannels().begin(), surfaceChannels().end());
@@ -46,9 +47,10 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
             std::size_t differ = 0;
             for (std::size_t p = 0; p < own.pixels(); ++p)
                 differ += !std::equal(own.pixel(p), own.pixel(p) + 3, shaded.pixel(p));
-            const Image* const made[] = {&own_terms.diffuse,       &own_terms.specular,
-                                         &own_terms.ambient,       &own_terms.haze,
-                                         &own_terms.transmittance, &own_terms.environment};
+            const Image* const made[] = {&own_terms.diffuse,           &own_terms.specular,
+                                         &own_terms.ambient,           &own_terms.haze,
+                                         &own_terms.transmittance,     &own_terms.environment,
+                                         &own_terms.shadow_visibility, &own_terms.local_visibility};
             for (std::size_t t = 0; t < std::size(litTerms); ++t) {
                 const Image& theirs = frame.channels.at(litTerms[t]);
                 for (std::size_t i = 0; i < theirs.data.size(); ++i)
