@@ -76,7 +76,7 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
         }
 }
 
-// Rows of an experiment take lit from the timed frame: pipelines that capture it take most of a row's time.
+// Rows of an experiment take lit from the timed frame and make no pipelines that capture it.
 TEST(SkippedWork, ARowOfAnExperimentDrawsLightOnce) {
     const Scene scene = loadScene("builtin:gallery");
     for (const Path path : {Path::deferred, Path::forward_plus}) {
