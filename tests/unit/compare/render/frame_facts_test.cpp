@@ -130,6 +130,7 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     scene.notes = {"a light was left out"};
     SceneView view;
     view.lights.resize(3);
+    view.pose.notes = {"an instance was left out at 1 s"};
     Settings settings;
     settings.path = Path::deferred;
     const Frame frame = describedFrame(scene, view, settings);
@@ -137,7 +138,8 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     EXPECT_EQ(frame.scene, "a.glb");
     EXPECT_EQ(frame.settings, settings);
     EXPECT_EQ(frame.background, (std::array<float, 3>{0.25f, 0.5f, 0.75f}));
-    EXPECT_EQ(frame.notes, scene.notes);
+    EXPECT_EQ(frame.notes,
+              (std::vector<std::string>{"a light was left out", "an instance was left out at 1 s"}));
     EXPECT_EQ(frame.counters.lights, 3u);
     view.view.width = view.view.height = 90;
     view.view.wider_frame = 2;
