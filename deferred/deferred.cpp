@@ -308,7 +308,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
              addCaptureImages(passes, pass, group, lit, inputs.samples, request.every_sample))
             images.push_back(image);
         Variant variant = lightingVariant(inputs);
-        variant.set(gpu::FEATURE_captures, group.images);
+        variant.set(gpu::FEATURE_captures, group.feature());
         if (stored)
             addDeferredLighting(passes, pass, inputs, shaded,
                                 {Shader::deferred_capture_frag, variant, group.formats, inputs.samples},

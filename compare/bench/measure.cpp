@@ -199,7 +199,7 @@ void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines,
     std::vector<TimedFrame> times = timeInTurns(frames, timed, bench.runs, profiled, step);
     for (std::size_t k = 0; k < timed.size(); ++k) {
         const std::size_t i = timed[k];
-        const Frame& frame = frames.described(i);
+        const Frame frame = frames.frame(i);
         BenchRow row{tried[i],
                      group.scene,
                      group.lights,
@@ -213,8 +213,6 @@ void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines,
                      partsOf(bench.options, tried[i]),
                      group.growth,
                      group.cover};
-        row.counters.nonfinite_pixels = nonfinitePixels(frames.lit(i));
-        frames.readCounters(i, row.counters);
         bench.rows.push_back(std::move(row));
     }
 }

@@ -8,9 +8,11 @@
 #include "compare/run/print.h"
 #include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/sweep.h"
+#include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
@@ -47,7 +49,15 @@ int sweepOne(const Options& options, const experiment::SweepRows& rows) {
                                    SweepState::folderOf(folder).string()));
     const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const TradeoffTable table(sweep.tradeoff(), sweep.rows(), terminalColumns(stdout), options.verbose);
-    const auto shown = [&](std::size_t row) { print(table.line(sweep.tradeoff(), row)); };
+    // Once a minute, somebody who watches sees the fronts so far.
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point next = Clock::now() + std::chrono::minutes(1);
+    const auto shown = [&](std::size_t row) {
+        print(table.line(sweep.tradeoff(), row));
+        if (terminalColumns(stdout) == 0 || Clock::now() < next) return;
+        print(fmt::format("so far, after {}:\n{}", counted(row + 1, "row"), frontsText(sweep.tradeoff())));
+        next = Clock::now() + std::chrono::minutes(1);
+    };
     print(table.head());
     sweep.draw(shown);
     const std::vector<SceneError> errors = sweep.drawExternally(options.renderers, shown);

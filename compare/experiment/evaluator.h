@@ -2,12 +2,11 @@
 // Draws Settings of a scene, judges their images and times them in turn.
 #pragma once
 
+#include "compare/experiment/prepared_pool.h"
 #include "compare/experiment/references.h"
-#include "compare/render/renderer.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <list>
 #include <map>
 #include <span>
 #include <utility>
@@ -43,13 +42,13 @@ public:
     // `figure`: index in errorFigures. The renderer and the references must outlive the object.
     SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, std::size_t figure,
                    const RenderOptions& options)
-        : renderer_(renderer), references_(references), figure_(figure), options_(options) {}
+        : renderer_(renderer), references_(references), figure_(figure), options_(options), pool_(renderer) {}
 
     Judged judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the prepared frames, which own images.
     void release() {
-        drawn_.clear();
+        pool_.clear();
         judged_.clear();
     }
     std::vector<PassTime> profile(const Settings& settings) override;
@@ -59,21 +58,11 @@ private:
     // Errors of one camera's image. FLIP results are cached by the image's hash.
     FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
-    struct Drawn {
-        Settings settings;
-        PreparedFrames frames;
-        std::uint64_t bytes;
-    };
-    // Frames of these Settings, camera included, rendered at least once: the first frame may differ from the
-    // next. Keeps others for later, the latest up to mostKept bytes.
-    PreparedFrames& drawn(const Settings& seen);
-    void keep(std::uint64_t most);  // the latest up to that many bytes, at least one
-
     Renderer& renderer_;
     const ReferenceFrames& references_;
     std::size_t figure_;
     RenderOptions options_;
-    std::list<Drawn> drawn_;  // by latest use, the latest last
+    PreparedPool pool_;
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
     std::map<std::pair<std::size_t, std::uint64_t>, FrameErrors> judged_;
 };

@@ -7,11 +7,6 @@
 #include <algorithm>
 
 namespace diptych::experiment {
-namespace {
-
-// Channels that evaluate shadows.
-
-}  // namespace
 
 RenderOptions litOptions(const RenderOptions& options, bool shadows) {
     RenderOptions drawing = options;

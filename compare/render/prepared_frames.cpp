@@ -76,6 +76,18 @@ void PreparedFrames::readCounters(std::size_t i, FrameCounters& counters) const 
     diptych::readCounters(state_->frames.at(i)->view, counters);
 }
 
+Frame PreparedFrames::frame(std::size_t i) {
+    Frame frame = described(i);
+    readCounters(i, frame.counters);
+    Image image = lit(i);
+    if (auto repaired = repairNonfinite(image); !repaired.empty()) {
+        frame.counters.nonfinite_pixels = repaired.size();
+        frame.repaired[Channel::lit] = std::move(repaired);
+    }
+    frame.channels[Channel::lit] = std::move(image);
+    return frame;
+}
+
 const Frame& PreparedFrames::described(std::size_t i) const {
     return state_->described.at(i);
 }

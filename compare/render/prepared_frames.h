@@ -44,6 +44,8 @@ public:
     Image lit(std::size_t i);
     // Number of light lists of that frame that overflowed.
     void readCounters(std::size_t i, FrameCounters& counters) const;
+    // The Frame with lit and the counters of the last frame; NaN and infinity in lit are replaced.
+    Frame frame(std::size_t i);
     // The Frame as known without rendering: Settings, camera, lights, bytes, notes.
     const Frame& described(std::size_t i) const;
 

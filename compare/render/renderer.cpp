@@ -33,11 +33,6 @@ namespace {
 
 constexpr double captureFrames = 3;  // cost of capturing all channels; measured on lavapipe
 
-// Number of frames whose passes are timed one by one, apart from `runs` timed frames.
-int profiledOf(int runs) {
-    return runs < 3 ? std::min(runs, 1) : 3;
-}
-
 class FrameMaker {
 public:
     FrameMaker(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings,

@@ -4,6 +4,7 @@
 
 #include "compare/render/prepared_frames.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -27,6 +28,11 @@ struct TimedFrame {
 std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
                                     int profiled,
                                     const std::function<void(std::size_t, const std::string&)>& step = {});
+
+// Number of frames whose passes are timed one by one, apart from `runs` timed frames.
+constexpr int profiledOf(int runs) {
+    return runs < 3 ? std::min(runs, 1) : 3;
+}
 
 // Calls draw(round, i) for each of `count` frames in every round.
 void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw);

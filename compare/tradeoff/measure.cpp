@@ -2,7 +2,9 @@
 #include "compare/tradeoff/measure.h"
 
 #include "compare/experiment/upsample.h"
+#include "compare/frames/frame_facts.h"
 #include "compare/page/text.h"
+#include "compare/render/timing.h"
 #include "compare/tradeoff/sample_figures.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
@@ -10,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <optional>
 #include <utility>
 
 namespace diptych::tradeoff {
@@ -20,16 +24,45 @@ namespace {
 
 constexpr int widestThumbnail = 480;  // pixels; width of a card on the page
 
-// Compares the row with --msaa-edges exact; empty without a choice of samples. `options`: used to render
-// `frame`.
-std::optional<SampleShares> choiceOfSamples(Renderer& renderer, const Frame& frame, RenderOptions options) {
+using Clock = std::chrono::steady_clock;
+
+double msSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// The first timing block from one camera.
+CameraRow timed(experiment::PreparedPool& pool, const Settings& seen, int runs) {
+    CameraRow camera;
+    std::vector<std::vector<PassTime>> passes;
+    const std::vector<std::size_t> order(static_cast<std::size_t>(runs), 0);
+    camera.blocks = {diptych::timeOf(pool.time(std::span(&seen, 1), order))};
+    PreparedFrames& frames = pool.frame(seen);
+    for (int i = 0; i < profiledOf(runs); ++i) passes.push_back(frames.profile(0));
+    camera.passes = mediansOf(passes);
+    camera.bytes = frames.described(0).bytes;
+    return camera;
+}
+
+// Adds what a capture shows: errors of shadows and of the choice of samples, compared with --msaa-edges
+// exact; and the material of each pixel, which an image of another size is enlarged by.
+void addCaptured(Renderer& renderer, const Frame& reference, const RenderOptions& options, Frame& frame,
+                 CameraRow& camera) {
+    const bool shadows = !reference.shadow_edge.empty();
     const std::optional<Settings> exact = exactEdges(frame.settings);
-    if (!exact) return {};
-    if (*exact == frame.settings) return sampleSharesOf(frame, frame);
-    options.runs = 0;
-    options.progress = {};
-    options.on_step = {};
-    return sampleSharesOf(renderer.draw(*exact, options), frame);
+    if (!shadows && !exact && frame.settings.size == reference.settings.size) {
+        frame.channels[Channel::material_id] = reference.channels.at(Channel::material_id);
+        return;
+    }
+    RenderOptions drawing = experiment::litOptions(options, shadows);
+    drawing.runs = 0;
+    if (exact) drawing.channels.push_back(Channel::shaded_samples);
+    drawing.requested = drawing.channels;
+    frame = renderer.draw(frame.settings, drawing);
+    camera.shadow = shadowErrorsOf(reference, frame);
+    if (!exact) return;
+    drawing.on_step = {};
+    drawing.progress = {};
+    camera.samples = sampleSharesOf(*exact == frame.settings ? frame : renderer.draw(*exact, drawing), frame);
 }
 
 Image8 small(Image8 image) {
@@ -91,10 +124,8 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFr
     return measured;
 }
 
-MeasuredRow measureRow(Renderer& renderer, const Settings& settings,
+MeasuredRow measureRow(Renderer& renderer, experiment::PreparedPool& pool, const Settings& settings,
                        const experiment::ReferenceFrames& references, const RenderOptions& options) {
-    const bool shadows = !references.frames.front().shadow_edge.empty();
-    RenderOptions drawing = experiment::litOptions(options, shadows);
     MeasuredRow measured;
     TradeoffRow& row = measured.row;
     row.settings = experiment::seenFrom(references.frames.front(), settings);
@@ -102,22 +133,19 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings,
     for (std::size_t i = 0; i < references.frames.size(); ++i) {
         const Frame& reference = references.frames[i];
         const double from = static_cast<double>(i), count = static_cast<double>(references.frames.size());
-        drawing.progress = options.progress.part(from / count, (from + 1) / count);
+        const Stage progress = options.progress.part(from / count, (from + 1) / count);
         const Settings seen = experiment::seenFrom(reference, settings);
-        RenderOptions with_samples = drawing;
-        if (exactEdges(seen)) with_samples.channels.push_back(Channel::shaded_samples);
-        with_samples.requested = with_samples.channels;
-        Frame frame = renderer.draw(seen, with_samples);
-        row.drawing_ms += frame.made_in_ms;
+        const auto start = Clock::now();
+        progress.at(0, fmt::format("{}: time", nameOf(seen.path)));
+        if (options.on_step) options.on_step(fmt::format("{}: time", nameOf(seen.path)));
+        CameraRow camera = timed(pool, seen, options.runs);
+        Frame frame = pool.frame(seen).frame(0);
+        camera.camera = cameraTitle(frame);
         warn(row, frame);
-        CameraRow camera{cameraTitle(frame),
-                         {frame.time},
-                         frame.passes,
-                         frame.bytes,
-                         {},
-                         0,
-                         shadowErrorsOf(reference, frame),
-                         choiceOfSamples(renderer, frame, with_samples)};
+        RenderOptions captured = options;
+        captured.progress = progress.part(0.5, 1);
+        addCaptured(renderer, reference, captured, frame, camera);
+        row.drawing_ms += msSince(start);
         if (camera.samples && camera.samples->back() > 0)
             row.warnings.push_back(
                 cameraTitle(frame) +
@@ -128,19 +156,25 @@ MeasuredRow measureRow(Renderer& renderer, const Settings& settings,
     return measured;
 }
 
-void timeAgain(Renderer& renderer, std::span<TradeoffRow* const> rows,
-               const experiment::ReferenceFrames& references, const RenderOptions& options) {
-    RenderOptions timing = options;
+void timeAgain(experiment::PreparedPool& pool, std::span<TradeoffRow* const> rows,
+               const experiment::ReferenceFrames& references, int runs, const Stage& progress) {
+    std::vector<std::size_t> order;
+    for (int run = 0; run < runs; ++run)
+        for (std::size_t i = 0; i < rows.size(); ++i) order.push_back(i);
     for (std::size_t camera = 0; camera < references.frames.size(); ++camera) {
-        const double from = static_cast<double>(camera), all = static_cast<double>(references.frames.size());
-        timing.progress = options.progress.part(from / all, (from + 1) / all);
+        progress.at(static_cast<double>(camera) / static_cast<double>(references.frames.size()),
+                    "time again");
         std::vector<Settings> seen;
         for (const TradeoffRow* row : rows)
             seen.push_back(experiment::seenFrom(references.frames[camera], row->settings));
-        const std::vector<TimedFrame> times = renderer.time(seen, timing);
+        const auto start = Clock::now();
+        const std::vector<double> times = pool.time(seen, order);
+        const double took = msSince(start) / static_cast<double>(rows.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            rows[i]->drawing_ms += times[i].made_in_ms;
-            rows[i]->cameras[camera].blocks.push_back(times[i].time);
+            std::vector<double> ms;
+            for (std::size_t at = i; at < times.size(); at += rows.size()) ms.push_back(times[at]);
+            rows[i]->drawing_ms += took;
+            rows[i]->cameras[camera].blocks.push_back(diptych::timeOf(std::move(ms)));
         }
     }
 }

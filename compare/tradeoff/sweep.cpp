@@ -74,6 +74,7 @@ Sweep::Sweep(SweepQuestion question, Device& device, const Stage& stage)
       scene_(loadShown(question_.scene, question_.settings, stage.part(0, loaded_))),
       views_(scene_),
       renderer_(device, sensitiveViews()),
+      pool_(renderer_),
       kept_references_(question_.folder, true),
       references_(drawReferences()),
       state_(question_.folder, key()) {}
@@ -141,7 +142,7 @@ void Sweep::drawRows(const Stage& stage, const std::function<void(std::size_t)>&
             RenderOptions render = question_.drawing;
             render.runs = blocks.front();
             render.progress = stage.part(from, done / all);
-            MeasuredRow measured = measureRow(renderer_, settings, references_, render);
+            MeasuredRow measured = measureRow(renderer_, pool_, settings, references_, render);
             tradeoff_.cost.drawing += measured.row.drawing_ms;
             state_.keep(measured);
             tradeoff_.rows.push_back(std::move(measured.row));
@@ -151,9 +152,8 @@ void Sweep::drawRows(const Stage& stage, const std::function<void(std::size_t)>&
 }
 
 // Times the remaining blocks in rounds over all rows, each round in a random order. A temporary disturbance
-// of the device then biases no row. The rows of one batch are interleaved.
+// of the device then biases no row. Rows whose images fit into the pool together are interleaved.
 void Sweep::timeAgain(const Stage& stage) {
-    constexpr std::size_t atOnce = 6;  // rows with allocated images
     const std::vector<int> blocks = blockSizes(tradeoff_.runs);
     double all = 0, done = 0;
     for (const TradeoffRow& row : tradeoff_.rows)
@@ -165,18 +165,19 @@ void Sweep::timeAgain(const Stage& stage) {
         for (TradeoffRow& row : tradeoff_.rows)
             if (row.cameras.front().blocks.size() == block) round.push_back(&row);
         std::ranges::shuffle(round, random);
-        for (std::size_t at = 0; at < round.size(); at += atOnce) {
-            const auto rows = std::span(round).subspan(at, std::min(atOnce, round.size() - at));
-            RenderOptions render = question_.drawing;
-            render.runs = blocks[block];
-            double before = 0;
+        for (std::size_t at = 0, count = 0; at < round.size(); at += count) {
+            std::uint64_t bytes = 0;
             const double from = done / all;
-            for (const TradeoffRow* row : rows) {
-                done += weightOf(row->settings);
-                before += row->drawing_ms;
+            double before = 0;
+            for (count = 0; at + count < round.size(); ++count) {
+                const TradeoffRow& row = *round[at + count];
+                bytes += memoryOf(row);
+                if (count > 0 && bytes > experiment::PreparedPool::mostBytes) break;
+                done += weightOf(row.settings);
+                before += row.drawing_ms;
             }
-            render.progress = stage.part(from, done / all);
-            tradeoff::timeAgain(renderer_, rows, references_, render);
+            const auto rows = std::span(round).subspan(at, count);
+            tradeoff::timeAgain(pool_, rows, references_, blocks[block], stage.part(from, done / all));
             for (const TradeoffRow* row : rows) {
                 tradeoff_.cost.drawing += row->drawing_ms;
                 state_.renew(*row);

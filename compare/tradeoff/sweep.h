@@ -71,6 +71,7 @@ private:
     const Scene scene_;
     SceneViews views_;
     Renderer renderer_;
+    experiment::PreparedPool pool_;
     KeptReferences kept_references_;
     const experiment::ReferenceFrames references_;
     SweepState state_;

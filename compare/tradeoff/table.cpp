@@ -78,7 +78,7 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
     return lines;
 }
 
-std::string tradeoffEnd(const Tradeoff& tradeoff) {
+std::string frontsText(const Tradeoff& tradeoff) {
     std::string out;
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
         std::vector<std::size_t> numbers;
@@ -88,6 +88,11 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
                                            : fmt::format("row{} {}", numbers.size() == 1 ? "" : "s",
                                                          fmt::join(numbers, ", ")));
     }
+    return out;
+}
+
+std::string tradeoffEnd(const Tradeoff& tradeoff) {
+    std::string out = frontsText(tradeoff);
     out += inText(shadowTable(tradeoff)) + inText(sampleTable(tradeoff));
     if (driftOf(tradeoff))
         out +=

@@ -79,6 +79,8 @@ private:
     std::size_t words_;  // width of the Settings
     bool commands_;
 };
+// A line for each error: its front among the rows so far.
+std::string frontsText(const Tradeoff& tradeoff);
 // Fronts, warnings, skips with reasons, notes, cost.
 std::string tradeoffEnd(const Tradeoff& tradeoff);
 // Sentences on drift of the device's speed and on the cost of the sweep.

@@ -284,6 +284,8 @@
 CONTRACT_BEGIN
 CONTRACT_CONST(uint, CAPTURE_IMAGES, 29);
 CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 19);
+// Set in FEATURE_captures if shadow_visibility is the only channel of lit images: no light is evaluated.
+CONTRACT_CONST(uint, CAPTURES_UNLIT, 0x80000000u);
 
 #define DIPTYCH_DEBUG_NUMBER(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
                              standard, compact, part, texels, related)                                   \

@@ -39,6 +39,9 @@ std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat
     gpu::uint images = 0;
     for (const Channel mode : modes) images |= 1u << placeInCaptures(mode).image;
     const auto lit_images = static_cast<std::size_t>(std::popcount(images >> gpu::FIRST_LIT_IMAGE));
+    const bool unlit = std::ranges::none_of(modes, [](Channel mode) {
+        return placeInCaptures(mode).image >= gpu::FIRST_LIT_IMAGE && mode != Channel::shadow_visibility;
+    });
     std::vector<CaptureGroup> groups;
     for (const auto& [mode, place] : capture_places) {
         if (std::ranges::find(modes, mode) == modes.end()) continue;
@@ -54,6 +57,7 @@ std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat
         group.modes.push_back(mode);
         if ((group.images & bit) != 0) continue;
         group.images |= bit;
+        group.unlit = unlit && place.image >= gpu::FIRST_LIT_IMAGE;
         group.formats.push_back(mode == Channel::lit ? lit : VK_FORMAT_R32G32B32A32_SFLOAT);
     }
     return groups;

@@ -24,9 +24,12 @@ PlaceInCaptures placeInCaptures(Channel mode);  // throws std::out_of_range
 // in them. Channels that do not depend on light have passes of their own, unless all lit channels fit in
 // beside them.
 struct CaptureGroup {
-    gpu::uint images = 0;           // bit mask: FEATURE_captures
+    gpu::uint images = 0;           // bit mask
     std::vector<VkFormat> formats;  // by image: RGBA32F; for lit the frame's own
     std::vector<Channel> modes;     // by image
+    bool unlit = false;             // of lit images only shadow_visibility: no light is evaluated
+
+    gpu::uint feature() const { return unlit ? images | gpu::CAPTURES_UNLIT : images; }
 };
 // `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
 std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit,

@@ -80,7 +80,7 @@ PipelineKey forwardCaptureKey(const FrameInputs& inputs, const DrawItem& item, c
     PipelineKey key = forwardKey(inputs, item, batch);
     key.fragment = Shader::forward_capture_frag;
     key.colors = group.formats;
-    key.variant.set(gpu::FEATURE_captures, group.images);
+    key.variant.set(gpu::FEATURE_captures, group.feature());
     key.variant.set(gpu::FEATURE_captured);
     return key;
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Optimisations that skip work on the device (gathered uniforms, unread inputs, triangle normals) change
 // no bit of the image.
+#include "compare/experiment/prepared_pool.h"
 #include "compare/experiment/references.h"
 #include "compare/frames/frame_facts.h"
 #include "shared/scene/load.h"
 #include "tests/image/changed_view.h"
 #include "tests/image/scenes.h"
 
+#include <array>
 #include <functional>
 
 namespace diptych::tests {
@@ -91,6 +93,26 @@ TEST(SkippedWork, ARowOfAnExperimentDrawsLightOnce) {
         for (const Channel channel : {Channel::lit, Channel::shadow_visibility})
             EXPECT_EQ(differingPixels(row.channels.at(channel), checked.channels.at(channel), true), 0u)
                 << nameOf(path) << " " << debugMode(channel).name;
+    }
+}
+
+TEST(SkippedWork, AnExperimentReadsTheImageThatItTimes) {
+    const Scene scene = loadScene("builtin:gallery");
+    Renderer renderer(device(), scene);
+    experiment::PreparedPool pool(renderer);
+    const std::array frames{smallFrame(Path::deferred), smallFrame(Path::forward_plus)};
+    const std::vector<double> ms = pool.time(frames, std::array<std::size_t, 4>{0, 1, 1, 0});
+    EXPECT_EQ(ms.size(), 4u);
+    EXPECT_TRUE(std::ranges::all_of(ms, [](double each) { return each > 0; }));
+    RenderOptions options = experiment::litOptions({}, false);
+    options.runs = 0;
+    for (const Settings& settings : frames) {
+        const Frame frame = renderer.draw(settings, options);
+        const experiment::Shot& shot = pool.shot(settings);
+        EXPECT_EQ(shot.settings, settings);
+        EXPECT_EQ(differingPixels(shot.lit, frame.channels.at(Channel::lit), true), 0u)
+            << nameOf(settings.path);
+        EXPECT_EQ(shot.bytes.images + shot.bytes.buffers, frame.bytes.images + frame.bytes.buffers);
     }
 }
 

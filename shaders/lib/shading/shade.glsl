@@ -316,15 +316,13 @@ void addAmbient(const Shading shading, inout Radiance radiance) {
     }
 }
 
+bool shadesSuns() { return on(feature_directional_lights) && feature_light_batch != BATCH_LATER; }
+
 // Sums over the pixel's lights, in the buffer's order. Occlusion dims ambient light and environments. Haze
 // lies in front of the sum and only lit() applies it.
-Radiance shade(const Surface s, const PixelLights lights) {
+Radiance shade(const Surface s, const PixelLights lights, const float sun_visibility) {
     Radiance radiance = noRadiance();
-    bool has_suns = on(feature_directional_lights) && feature_light_batch != BATCH_LATER;
-    // First, while few values are live: a shadow map's filter needs more registers than anything after it.
-    // On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
-    // A capture shows it after the last batch, too.
-    if (has_suns || on(feature_captures)) radiance.sun_visibility = sunVisibility(s);
+    radiance.sun_visibility = sun_visibility;
     radiance.emission = s.emission;
     Shading shading = makeShading(s, radiance.emission);
     if (feature_light_batch == BATCH_LATER) readPartialSums(radiance);
@@ -334,7 +332,7 @@ Radiance shade(const Surface s, const PixelLights lights) {
         radiance.diffuse = reflected;
     }
     if (on(feature_environment)) addEnvironment(shading, radiance);
-    if (has_suns) addDirectionalLights(shading, radiance);
+    if (shadesSuns()) addDirectionalLights(shading, radiance);
     if (on(feature_point_lights) || on(feature_spot_lights)) addPunctualLights(shading, lights, radiance);
     if (on(feature_area_lights)) addAreaLights(shading, lights, radiance);
     addAmbient(shading, radiance);
@@ -344,6 +342,12 @@ Radiance shade(const Surface s, const PixelLights lights) {
         radiance.haze = hazed.scattered;
     }
     return radiance;
+}
+
+// The sun's visibility comes first, while few values are live: a shadow map's filter needs more registers
+// than anything after it. On RDNA 2 this order takes 80 instead of 128 (compare/bench/MEASURED.md).
+Radiance shade(const Surface s, const PixelLights lights) {
+    return shade(s, lights, shadesSuns() ? sunVisibility(s) : 1.0);
 }
 
 #endif

@@ -36,8 +36,9 @@ void write(const uint image, const vec4 texel, inout uint free) {
 void capture(const Surface s, const float z, const uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z, on(feature_transmission));
     Radiance radiance = noRadiance();
-    if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) {
-        radiance = shade(s, lights);
+    if ((feature_captures >> FIRST_LIT_IMAGE) != 0u) radiance.sun_visibility = sunVisibility(s);
+    if ((feature_captures >> FIRST_LIT_IMAGE) != 0u && !on(feature_captures & CAPTURES_UNLIT)) {
+        radiance = shade(s, lights, radiance.sun_visibility);
         if (on(feature_transmission)) radiance = withTransmission(s, radiance, gl_FragCoord.xy);
     }
     vec4 images[CAPTURE_IMAGES];

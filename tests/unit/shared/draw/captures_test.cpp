@@ -75,5 +75,18 @@ TEST(Captures, LightIsBesideSurfacesWhereItFits) {
     EXPECT_TRUE(captureGroups({}, of_lit).empty());
 }
 
+TEST(Captures, TheSunsShadowAloneNeedsNoLight) {
+    const std::vector shadow{Channel::depth, Channel::shadow_visibility};
+    const auto alone = captureGroups(shadow, of_lit);
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_EQ(alone[0].feature(), alone[0].images | gpu::CAPTURES_UNLIT);
+    for (const Channel other : {Channel::lit_diffuse, Channel::local_visibility, Channel::lit}) {
+        const auto lit = captureGroups(std::vector{Channel::shadow_visibility, other}, of_lit);
+        for (const CaptureGroup& group : lit) EXPECT_EQ(group.feature(), group.images);
+    }
+    for (const CaptureGroup& group : captureGroups(std::vector{Channel::depth}, of_lit))
+        EXPECT_EQ(group.feature(), group.images);
+}
+
 }  // namespace
 }  // namespace diptych
