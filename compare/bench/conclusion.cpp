@@ -5,26 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace diptych::bench {
 namespace {
-
-constexpr double wantedConfidence = 0.95;
-
-// Probability that the median of n lies between the k-th least and the k-th greatest value: 1 - 2
-// P(Binomial(n, 1/2) < k).
-double confidenceOf(int n, int k) {
-    double below = 0;
-    // In log space: 2^-n underflows from about a thousand pairs on.
-    for (int i = 0; i < k; ++i)
-        below += std::exp(std::lgamma(n + 1.0) - std::lgamma(i + 1.0) - std::lgamma(n - i + 1.0) -
-                          n * std::numbers::ln2);
-    return 1 - 2 * below;
-}
 
 bool comparable(const BenchRow& a, const BenchRow& b) {
     return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights && a.parts == b.parts;
@@ -50,23 +35,6 @@ std::string passMs(double ms) {
 }
 
 }  // namespace
-
-PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < std::min(slower.size(), faster.size()); ++i)
-        if (faster[i] > 0) ratios.push_back(slower[i] / faster[i]);
-    PairedRatio result;
-    result.pairs = static_cast<int>(ratios.size());
-    if (ratios.empty()) return result;
-    std::ranges::sort(ratios);
-    result.median = 0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]);
-    int k = 1;
-    while (2 * k < result.pairs && confidenceOf(result.pairs, k + 1) >= wantedConfidence) ++k;
-    result.confidence = std::max(0.0, confidenceOf(result.pairs, k));
-    result.low = ratios[static_cast<std::size_t>(k) - 1];
-    result.high = ratios[ratios.size() - static_cast<std::size_t>(k)];
-    return result;
-}
 
 std::string Conclusion::inWords() const {
     const Settings &a = faster->settings, &b = slower->settings;

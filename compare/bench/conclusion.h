@@ -4,23 +4,15 @@
 #pragma once
 
 #include "compare/bench/bench.h"
+#include "compare/experiment/intervals.h"
 
 #include <string>
 #include <vector>
 
 namespace diptych::bench {
 
-// Median of paired ratios with a distribution-free confidence interval: order statistics of a sign test
-// (Thompson 1936, "On Confidence Ranges for the Median and Other Expectation Distributions for Populations
-// of Unknown Distribution Form"; Conover 1999, "Practical Nonparametric Statistics", 3.2). 95 % needs at
-// least six pairs.
-struct PairedRatio {
-    double median = 1, low = 1, high = 1;
-    double confidence = 0;  // 0 to 1
-    int pairs = 0;
-    bool isSure() const { return confidence > 0.9 && (low > 1 || high < 1); }
-};
-PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
+using experiment::pairedRatio;
+using experiment::PairedRatio;
 
 // Compares rows with equal size, light count and image: the fastest with the fastest of the other path.
 // With only one path, compares it with the next row.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/common.h"
 
+#include "compare/experiment/intervals.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 
 namespace diptych::choose {
@@ -245,7 +246,7 @@ private:
             CommonCandidate& candidate = all()[finalists[k]];
             candidate.race_time = result.finalists[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
-                candidate.scenes[scene].ms = std::exp(mean(rounds[scene][k]));
+                candidate.scenes[scene].ms = std::exp(experiment::meanOf(rounds[scene][k]));
             if (k == result.winner) continue;
             if (!candidate.race_time->isSlower()) found_.ties.push_back(finalists[k]);
             if (!second || candidate.race_time->ratio < result.finalists[*second].ratio) second = k;
@@ -255,9 +256,11 @@ private:
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
             const std::size_t place = ownPlace(scene, finalists);
-            found_.slower[scene] = place == result.winner
-                                       ? Slowdown{}
-                                       : slowdown(rounds[scene][result.winner], rounds[scene][place]);
+            found_.slower[scene] = Slowdown{};
+            if (place == result.winner) continue;
+            const auto [log, half_width] =
+                experiment::meanDifference(rounds[scene][result.winner], rounds[scene][place], 0.05);
+            found_.slower[scene] = {std::exp(log), std::exp(log - half_width), std::exp(log + half_width)};
         }
     }
     // Index of the scene's own choice in `finalists`; their count if it is not there.
@@ -266,22 +269,6 @@ private:
         const auto found = std::ranges::find_if(
             finalists, [&](std::size_t i) { return found_.candidates[i].settings == own; });
         return static_cast<std::size_t>(found - finalists.begin());
-    }
-
-    static double mean(const std::vector<double>& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    }
-    static Slowdown slowdown(const std::vector<double>& of, const std::vector<double>& to) {
-        std::vector<double> ratios(of.size());
-        for (std::size_t k = 0; k < of.size(); ++k) ratios[k] = of[k] - to[k];
-        const double middle = mean(ratios);
-        double squares = 0;
-        for (const double ratio : ratios) squares += (ratio - middle) * (ratio - middle);
-        const auto n = static_cast<double>(ratios.size());
-        const double half_width = ratios.size() < 2 ? std::numeric_limits<double>::infinity()
-                                                    : studentT(0.05, static_cast<int>(ratios.size()) - 1) *
-                                                          std::sqrt(squares / (n - 1) / n);
-        return {std::exp(middle), std::exp(middle - half_width), std::exp(middle + half_width)};
     }
 
     void forgetRace() {

@@ -1,59 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/ranking.h"
 
+#include "compare/experiment/intervals.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace diptych::choose {
 
-namespace {
-
-// P(|T| <= t) of Student's t distribution.
-double within(double t, int freedom) {
-    const double angle = std::atan(t / std::sqrt(static_cast<double>(freedom)));
-    const double c = std::cos(angle), s = std::sin(angle);
-    double term = freedom % 2 == 1 ? c : 1, sum = freedom == 1 ? 0 : term;
-    for (int k = freedom % 2 == 1 ? 3 : 2; k < freedom; k += 2) {
-        term *= c * c * (k - 1) / k;
-        sum += term;
-    }
-    return freedom % 2 == 1 ? 2 / std::numbers::pi * (angle + s * sum) : s * sum;
-}
-
-double meanOf(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Mean and half-width of the confidence interval of a - b, over the rounds of both.
-struct Difference {
-    double mean = 0, half_width = 0;
-};
-Difference differenceOf(std::span<const double> a, std::span<const double> b) {
-    std::vector<double> differences(std::min(a.size(), b.size()));
-    for (std::size_t k = 0; k < differences.size(); ++k) differences[k] = a[k] - b[k];
-    const double mean = meanOf(differences);
-    if (differences.size() < 2) return {mean, std::numeric_limits<double>::infinity()};
-    double squares = 0;
-    for (const double each : differences) squares += (each - mean) * (each - mean);
-    const auto n = static_cast<double>(differences.size());
-    const double t = studentT(1 - rankingConfidence, static_cast<int>(differences.size()) - 1);
-    return {mean, t * std::sqrt(squares / (n - 1) / n)};
-}
-
-}  // namespace
-
-double studentT(double probability, int freedom) {
-    double low = 0, high = 1;
-    while (within(high, freedom) < 1 - probability && high < 1e12) high *= 2;
-    for (int i = 0; i < 100 && low < high; ++i) {
-        const double middle = 0.5 * (low + high);
-        (within(middle, freedom) < 1 - probability ? low : high) = middle;
-    }
-    return high;
-}
+using experiment::meanDifference;
+using experiment::meanOf;
 
 Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, int most) {
     Ranking result;
@@ -82,7 +39,8 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
         bool equal = true;
         std::erase_if(running, [&](std::size_t i) {
             if (i == result.winner) return false;
-            const auto [mean, half_width] = differenceOf(rounds[i], rounds[result.winner]);
+            const auto [mean, half_width] =
+                meanDifference(rounds[i], rounds[result.winner], 1 - rankingConfidence);
             const bool slower = mean - half_width > 0;
             equal = equal && (slower || mean + half_width < std::log(equalTimes));
             return slower;
@@ -95,7 +53,8 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
         race_time.rounds = static_cast<int>(rounds[i].size());
         race_time.ms = std::exp(meanOf(rounds[i]));
         if (i == result.winner) continue;
-        const auto [mean, half_width] = differenceOf(rounds[i], rounds[result.winner]);
+        const auto [mean, half_width] =
+            meanDifference(rounds[i], rounds[result.winner], 1 - rankingConfidence);
         race_time.ratio = std::exp(mean);
         race_time.low = std::exp(mean - half_width);
         race_time.high = std::exp(mean + half_width);

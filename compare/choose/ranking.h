@@ -37,8 +37,4 @@ struct Ranking {
 // has `least` rounds.
 Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least = 2, int most = 8);
 
-// Student's t quantile: |t| exceeds it with `probability`, 0 to 1. `freedom` is at least 1. Uses the
-// finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4.
-double studentT(double probability, int freedom);
-
 }  // namespace diptych::choose

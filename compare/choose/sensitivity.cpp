@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/sensitivity.h"
 
+#include "compare/experiment/intervals.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,11 +30,9 @@ TimedValue timedValue(const Variation& variation, int rounds) {
         result.ms[order[at]] += times[at] / (2 * n);
         differences[at / 4] += (order[at] == 1 ? 0.5 : -0.5) * times[at];
     }
-    result.difference = result.ms[1] - result.ms[0];
-    double squares = 0;
-    for (const double difference : differences)
-        squares += (difference - result.difference) * (difference - result.difference);
-    result.half_width = studentT(doubted, rounds - 1) * std::sqrt(squares / (n - 1) / n);
+    const experiment::MeanInterval interval = experiment::meanInterval(differences, doubted);
+    result.difference = interval.mean;
+    result.half_width = interval.half_width;
     return result;
 }
 

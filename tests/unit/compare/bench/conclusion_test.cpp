@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -43,50 +42,6 @@ Bench oneCount() {
         timed("forward_plus", "clustered", {20, 22, 21, 26, 20, 21}, {{"assign lights", 2}, {"shade", 19}}),
         timed("forward_plus", "per_object", {1, 1, 1, 1, 1, 1}, {{"shade", 1}})};
     return bench;
-}
-
-TEST(PairedRatio, IsTheMedianOfWhatWasTimedTogether) {
-    // The machine becomes ten times slower from the third frame on; the ratio stays.
-    const PairedRatio ratio = pairedRatio({2, 2, 20, 20, 20, 22}, {1, 1, 10, 10, 10, 10});
-    EXPECT_DOUBLE_EQ(ratio.median, 2);
-    EXPECT_DOUBLE_EQ(ratio.low, 2);
-    EXPECT_DOUBLE_EQ(ratio.high, 2.2);
-    EXPECT_EQ(ratio.pairs, 6);
-    EXPECT_TRUE(ratio.isSure());
-}
-
-// Tables of the sign test: the k-th smallest and k-th largest of n values enclose the median with these
-// confidences. n = 6, k = 1: 1 - 2 / 64; n = 9, k = 2: 1 - 2 (1 + 9) / 512; n = 20, k = 6: 0.9586. 2^-n
-// underflows to 0 in double from 1,075 pairs on.
-TEST(PairedRatio, ThousandsOfFramesHaveANarrowInterval) {
-    std::vector<double> slower, faster(5000, 1.0);
-    for (int i = 0; i < 5000; ++i) slower.push_back(1 + i / 5000.0);
-    const PairedRatio ratio = pairedRatio(slower, faster);
-    EXPECT_NEAR(ratio.confidence, 0.95, 0.002);
-    // Normal approximation: 1.96 sqrt(n) / 2 ranks to both sides of the median.
-    EXPECT_NEAR(ratio.high - ratio.low, 1.96 * std::sqrt(5000.0) / 5000, 5e-4);
-}
-
-TEST(PairedRatio, TheIntervalIsThatOfTheSignTest) {
-    const auto of = [](int n) {
-        Times slower, faster;
-        for (int i = 1; i <= n; ++i) {
-            slower.push_back(i + 1);
-            faster.push_back(1);
-        }
-        return pairedRatio(slower, faster);
-    };
-    EXPECT_NEAR(of(6).confidence, 1 - 2.0 / 64, 1e-12);
-    EXPECT_DOUBLE_EQ(of(6).low, 2);
-    EXPECT_NEAR(of(9).confidence, 1 - 20.0 / 512, 1e-12);
-    EXPECT_DOUBLE_EQ(of(9).low, 3);
-    EXPECT_DOUBLE_EQ(of(9).high, 9);
-    EXPECT_NEAR(of(20).confidence, 0.9586, 1e-4);
-    EXPECT_DOUBLE_EQ(of(20).low, 7);
-    EXPECT_NEAR(of(5).confidence, 1 - 2.0 / 32, 1e-12) << "as sure as five can be";
-    EXPECT_FALSE(of(3).isSure());
-    EXPECT_NEAR(of(1).confidence, 0, 1e-12);
-    EXPECT_FALSE(of(0).isSure());
 }
 
 TEST(BenchConclusion, SaysWhichIsFasterByHowMuchAndWhy) {

@@ -36,14 +36,6 @@ Ranking raced(const std::vector<double>& ms, double deviation, double drift, std
     return rankByTime(ms.size(), [&](std::span<const std::size_t> order) { return device(order); });
 }
 
-TEST(ChooseRanking, StudentsQuantilesAreThoseOfTheTables) {
-    EXPECT_NEAR(studentT(0.05, 1), 12.706, 1e-3);
-    EXPECT_NEAR(studentT(0.05, 2), 4.303, 1e-3);
-    EXPECT_NEAR(studentT(0.01, 5), 4.032, 1e-3);
-    EXPECT_NEAR(studentT(0.05, 10), 2.228, 1e-3);
-    EXPECT_NEAR(studentT(0.001, 30), 3.646, 1e-3);
-}
-
 // 400 pairs of identical candidates: few have a significant winner, and the draw order decides none.
 TEST(ChooseRanking, TwoCopiesAreATie) {
     for (const double drift : {0.0, 0.01}) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Confidence intervals of measured times.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace diptych::experiment {
+
+// Student's t quantile: |t| exceeds it with `probability`, 0 to 1. `freedom` is at least 1. Uses the
+// finite series of Abramowitz and Stegun, 26.7.3 and 26.7.4.
+double studentT(double probability, int freedom);
+
+double meanOf(std::span<const double> values);  // of at least one
+
+// Mean and half-width of its confidence interval (Student 1908, "The Probable Error of a Mean");
+// infinite with fewer than two values.
+struct MeanInterval {
+    double mean = 0, half_width = 0;
+};
+// `doubted`: 1 - confidence.
+MeanInterval meanInterval(std::span<const double> values, double doubted);
+// Of a[i] - b[i], as far as both go.
+MeanInterval meanDifference(std::span<const double> a, std::span<const double> b, double doubted);
+
+// Median of paired ratios with a distribution-free confidence interval: order statistics of a sign test
+// (Thompson 1936, "On Confidence Ranges for the Median and Other Expectation Distributions for Populations
+// of Unknown Distribution Form"; Conover 1999, "Practical Nonparametric Statistics", 3.2). 95 % needs at
+// least six pairs.
+struct PairedRatio {
+    double median = 1, low = 1, high = 1;
+    double confidence = 0;  // 0 to 1
+    int pairs = 0;
+    bool isSure() const { return confidence > 0.9 && (low > 1 || high < 1); }
+};
+PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
+
+}  // namespace diptych::experiment
