@@ -20,7 +20,7 @@ struct MeanInterval {
 };
 // `doubted`: 1 - confidence.
 MeanInterval meanInterval(std::span<const double> values, double doubted);
-// Of a[i] - b[i], as far as both go.
+// The same for the differences a[i] - b[i]. Values that only one of them has are left out.
 MeanInterval meanDifference(std::span<const double> a, std::span<const double> b, double doubted);
 
 // Median of paired ratios with a distribution-free confidence interval: order statistics of a sign test
