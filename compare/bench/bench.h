@@ -16,30 +16,6 @@
 
 namespace diptych::bench {
 
-// Vector registers, per lane, of the pipelines with which a pass shades.
-struct PassRegisters {
-    std::string pass;
-    double least = 0, most = 0;
-};
-
-// Measurements of one Settings.
-struct BenchRow {
-    Settings settings;
-    std::string scene;  // includes the light count
-    std::optional<std::uint32_t> requested_lights;
-    std::string camera;  // title
-    FrameTime time;
-    std::vector<double> ms;        // all timed frames, in order
-    std::vector<PassTime> passes;  // medians over profiled frames
-    FrameBytes bytes;
-    FrameCounters counters;
-    std::vector<std::string> notes;  // caveats for the reader
-    ModeParts parts = {};
-    std::optional<GrowthPoint> growth = {};
-    std::optional<Cover> cover = {};
-    std::vector<PassRegisters> registers = {};  // --compile-on
-};
-
 // Prefix of passes that build light lists.
 inline constexpr std::string_view assignPasses = "assign";
 // Time of these passes in profiled frames, ms, and their fraction of all passes, 0 to 1.
@@ -52,10 +28,12 @@ struct Bench {
     BenchOptions options;
     ReportDevice device;
     int runs = 0;
-    std::vector<BenchRow> rows;
-    std::vector<BenchSkip> skips;
+    std::vector<BenchRow> rows, skips;
     std::string compiler = {};  // device of --compile-on; empty: none
 };
+
+// Rows, then skips.
+std::vector<const experiment::Row*> allRows(const Bench& bench);
 
 // Measures the rows of one group. First renders one frame each to warm up, which also finds rows over
 // options.max_ms. Then runs `runs` rounds of one frame each, and as many profiled rounds, at least three.
@@ -71,7 +49,7 @@ std::vector<std::string> commonNotes(const Bench& bench);
 // "1024", "36.4", "0.0123": four significant digits, all digits from 1000 on.
 std::string msText(double ms);
 
-std::string timeInWords(const FrameTime& time);  // "12.3 (12.1 to 14)", ms
+std::string timeInWords(const BenchRow& row);  // "12.3 (12.1 to 14)", ms
 
 // Distinct sizes, in order of the rows.
 std::vector<Size> sizesOf(const Bench& bench);
@@ -91,7 +69,7 @@ bool hasAnotherPicture(const Bench& bench);
 // greatest time. With one light count: a stacked bar of passes per mode.
 std::string benchPlot(const Bench& bench, PlotPlace place);
 std::string benchHtml(const Bench& bench);
-// bench.json, schema 1. `files`: all files of the folder.
+// bench.json, schema 2. `files`: all files of the folder.
 std::string benchJson(const Bench& bench, const std::vector<std::string>& files);
 
 // Writes the folder; returns bench.json.

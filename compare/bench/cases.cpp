@@ -339,11 +339,14 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
     if (counts.empty()) counts.emplace_back();
 
     BenchCases cases;
-    const auto skip = [&](const BenchSkip& skipped) {
-        const auto same = [&](const BenchSkip& s) {
-            return s.path == skipped.path && s.assign == skipped.assign && s.reason == skipped.reason;
+    const auto skip = [&](Settings settings, const std::string& reason) {
+        const auto same = [&](const BenchRow& s) {
+            return s.settings.path == settings.path && s.settings.assign == settings.assign &&
+                   s.failed == reason;
         };
-        if (std::ranges::none_of(cases.skips, same)) cases.skips.push_back(skipped);
+        if (std::ranges::any_of(cases.skips, same)) return;
+        settings.size = {0, 0};
+        cases.skips.push_back({{.scene = scene, .settings = settings, .failed = reason}});
     };
     for (const std::optional<std::uint32_t>& count : counts) {
         BenchGroup group{count, scene, {}};
@@ -362,7 +365,7 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
                             settings.lighting = lighting;
                             for (const Settings& sampled : bySamples(settings, options))
                                 if (const auto problem = sampled.problem())
-                                    skip({path, assign, std::nullopt, std::nullopt, {}, *problem});
+                                    skip(sampled, *problem);
                                 else
                                     group.settings.push_back(sampled);
                         }
@@ -370,7 +373,7 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
     }
     if (cases.groups.empty())
         throw std::runtime_error(fmt::format("nothing to time: {}: {}", skipName(cases.skips.front()),
-                                             cases.skips.front().reason));
+                                             cases.skips.front().failed));
     return cases;
 }
 
@@ -420,10 +423,15 @@ std::string modeLabel(Path path, Assignment assign, const ModeParts& parts) {
     return fmt::format("{}, {}", nameOf(path), assignLabel(assign, parts));
 }
 
-std::string skipName(const BenchSkip& skip) {
-    std::string name = modeName(skip.path, skip.assign, skip.parts);
-    if (skip.size) name += fmt::format(", {}x{}", skip.size->width, skip.size->height);
-    if (skip.lights) name += ", " + counted(*skip.lights, "light");
+std::string BenchRow::name() const {
+    return modeName(settings.path, settings.assign, parts);
+}
+
+std::string skipName(const BenchRow& skip) {
+    std::string name = skip.name();
+    const Size& size = skip.settings.size;
+    if (size.width > 0) name += fmt::format(", {}x{}", size.width, size.height);
+    if (skip.requested_lights) name += ", " + counted(*skip.requested_lights, "light");
     if (skip.growth) name += fmt::format(", {:.6g} {}", skip.growth->value, nameOf(skip.growth->axis));
     if (skip.cover) name += ", " + coverName(*skip.cover);
     return name;

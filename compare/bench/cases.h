@@ -2,6 +2,7 @@
 // Settings that a benchmark times together, and those it skips, with reasons.
 #pragma once
 
+#include "compare/experiment/row.h"
 #include "shared/frame/settings.h"
 
 #include <cstdint>
@@ -13,6 +14,8 @@
 #include <vector>
 
 namespace diptych::bench {
+
+using experiment::Measure;
 
 // Rows of the benchmark: all modes; both paths with and without transparency, by samples per pixel; both
 // paths by an increasing quantity; or both paths and --layers, by the share that layered materials cover.
@@ -78,20 +81,27 @@ struct BenchGroup {
     std::optional<Cover> cover = {};
 };
 
-struct BenchSkip {
-    Path path = Path::deferred;
-    Assignment assign = Assignment::every;
-    std::optional<Size> size;             // empty: all sizes
-    std::optional<std::uint32_t> lights;  // empty: all counts
-    ModeParts parts;
-    std::string reason;
-    std::optional<GrowthPoint> growth = {};
-    std::optional<Cover> cover = {};
+// Vector registers, per lane, of the pipelines with which a pass shades.
+struct PassRegisters {
+    std::string pass;
+    double least = 0, most = 0;
+};
+
+// One Settings. Row::scene includes the light count, Row::warnings are caveats for the reader. `failed` if
+// it is skipped; its size is then 0x0 if it is skipped at every size.
+struct BenchRow : experiment::Row {
+    std::optional<std::uint32_t> requested_lights{};  // skipped: empty for all counts
+    ModeParts parts{};
+    std::optional<GrowthPoint> growth{};
+    std::optional<Cover> cover{};
+    std::vector<PassRegisters> registers{};  // --compile-on
+
+    std::string name() const;  // "forward_plus, clustered, list, 4 samples"
 };
 
 struct BenchCases {
     std::vector<BenchGroup> groups;  // by light count
-    std::vector<BenchSkip> skips;
+    std::vector<BenchRow> skips;
 };
 
 // Light counts apply to a built-in scene that takes ?lights=N, to {} in --lights, or else to a seeded rig
@@ -118,6 +128,6 @@ std::string modeLabel(Path path, Assignment assign, const ModeParts& parts = {})
 inline constexpr const char* starMeans =
     "* draws a different picture: only some lights are shaded per pixel, the others per object";
 // "forward_plus, every, 640x360, 1024 lights"
-std::string skipName(const BenchSkip& skip);
+std::string skipName(const BenchRow& skip);
 
 }  // namespace diptych::bench

@@ -12,7 +12,8 @@ namespace diptych::bench {
 namespace {
 
 bool comparable(const BenchRow& a, const BenchRow& b) {
-    return a.settings.size == b.settings.size && a.counters.lights == b.counters.lights && a.parts == b.parts;
+    return a.settings.size == b.settings.size && a.whole(Measure::lights) == b.whole(Measure::lights) &&
+           a.parts == b.parts;
 }
 
 void findPass(Conclusion& c) {
@@ -44,8 +45,8 @@ std::string Conclusion::inWords() const {
     std::string words = fmt::format(
         "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {}; {:.2f} to {:.2f} at "
         "{:.1f} % confidence)",
-        a.size.width, a.size.height, counted(faster->counters.lights, "light"), mode(a),
-        msText(faster->time.median), mode(b), ratio.median,
+        a.size.width, a.size.height, counted(faster->whole(Measure::lights), "light"), mode(a),
+        msText((*faster)[Measure::ms]), mode(b), ratio.ratio,
         counted(static_cast<std::uint64_t>(ratio.pairs), "interleaved frame pair"), ratio.low, ratio.high,
         100 * ratio.confidence);
     if (!ratio.isSure()) return words + "; no significant difference, more --runs may help";
@@ -67,7 +68,7 @@ std::vector<Conclusion> conclusionsOf(const Bench& bench) {
         for (const BenchRow* row : left)
             if (comparable(*row, *left.front())) group.push_back(row);
         std::erase_if(left, [&](const BenchRow* row) { return std::ranges::count(group, row) > 0; });
-        std::ranges::stable_sort(group, {}, [](const BenchRow* row) { return row->time.median; });
+        std::ranges::stable_sort(group, {}, [](const BenchRow* row) { return (*row)[Measure::ms]; });
         if (group.size() < 2) continue;
         const auto other = std::ranges::find_if(
             group, [&](const BenchRow* row) { return row->settings.path != group.front()->settings.path; });

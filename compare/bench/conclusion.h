@@ -12,13 +12,13 @@
 namespace diptych::bench {
 
 using experiment::pairedRatio;
-using experiment::PairedRatio;
+using experiment::TimeRatio;
 
 // Compares rows with equal size, light count and image: the fastest with the fastest of the other path.
 // With only one path, compares it with the next row.
 struct Conclusion {
     const BenchRow *faster = nullptr, *slower = nullptr;
-    PairedRatio ratio;  // time of the slower over the faster
+    TimeRatio ratio;  // time of the slower over the faster
     // The pass that accounts for most of the difference; empty if none does.
     std::string pass;
     double faster_ms = 0, slower_ms = 0;  // of that pass, ms; 0 if the row lacks it

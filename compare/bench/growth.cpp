@@ -104,7 +104,7 @@ Bend bendOf(const std::vector<double>& values, const std::vector<double>& amount
 }
 
 double memoryMib(const BenchRow& row) {
-    return static_cast<double>(row.bytes.images + row.bytes.buffers) / bytesOfMib;
+    return static_cast<double>(row.whole(Measure::memory)) / bytesOfMib;
 }
 
 std::vector<std::string> growthInWords(const Bench& bench) {
@@ -113,7 +113,7 @@ std::vector<std::string> growthInWords(const Bench& bench) {
         if (line.rows.size() < 2) continue;
         std::vector<double> ms, mib;
         for (const BenchRow* row : line.rows) {
-            ms.push_back(row->time.median);
+            ms.push_back((*row)[Measure::ms]);
             mib.push_back(memoryMib(*row));
         }
         words.push_back(lineInWords(line, "time", ms, "ms", cause(line)));
@@ -135,8 +135,9 @@ std::string growthText(const Bench& bench) {
     for (const GrowthLine& line : growthLines(bench))
         for (const BenchRow* row : line.rows)
             table.rows.push_back({{nameOf(line.axis), numberText(valueOf(*row)), nameOf(line.path),
-                                   msText(row->time.median), msText(row->time.min), msText(row->time.max),
-                                   fmt::format("{:.1f}", memoryMib(*row)), passesInWords(*row)}});
+                                   msText((*row)[Measure::ms]), msText((*row)[Measure::ms_min]),
+                                   msText((*row)[Measure::ms_max]), fmt::format("{:.1f}", memoryMib(*row)),
+                                   passesInWords(*row)}});
     std::string out = inText(table);
     for (const std::string& sentence : growthInWords(bench)) out += sentence + "\n";
     return out;
@@ -155,10 +156,12 @@ nlohmann::ordered_json growthJson(const Bench& bench) {
     for (const GrowthLine& line : growthLines(bench)) {
         Json points = Json::array();
         for (const BenchRow* row : line.rows)
-            points.push_back(
-                {{"value", valueOf(*row)},
-                 {"ms", {{"median", row->time.median}, {"min", row->time.min}, {"max", row->time.max}}},
-                 {"mib", memoryMib(*row)}});
+            points.push_back({{"value", valueOf(*row)},
+                              {"ms",
+                               {{"median", (*row)[Measure::ms]},
+                                {"min", (*row)[Measure::ms_min]},
+                                {"max", (*row)[Measure::ms_max]}}},
+                              {"mib", memoryMib(*row)}});
         all.push_back({{"axis", nameOf(line.axis)},
                        {"unit", unitOf(line.axis)},
                        {"path", nameOf(line.path)},

@@ -41,10 +41,10 @@ std::vector<Block> tableBlocks(const Bench& bench) {
     return {};
 }
 
-void addSkips(std::vector<Block>& blocks, const std::vector<BenchSkip>& skips) {
+void addSkips(std::vector<Block>& blocks, const std::vector<BenchRow>& skips) {
     if (skips.empty()) return;
     output::Terms terms{{}, "box skips"};
-    for (const BenchSkip& skip : skips) terms.items.emplace_back(skipName(skip), skip.reason);
+    for (const BenchRow& skip : skips) terms.items.emplace_back(skipName(skip), skip.failed);
     blocks.insert(blocks.end(), {Heading{2, "Not timed, and why"}, terms});
 }
 
@@ -73,7 +73,7 @@ std::string benchHtml(const Bench& bench) {
                                                counted(static_cast<std::uint64_t>(bench.runs), "frame"),
                                                bench.device.name, bench.device.driver),
                           .blocks = {},
-                          .files = {"bench.json"},
+                          .files = {"bench.json", experiment::rowsFile},
                           .style = plotStyle,
                           .skip = "rows"};
     output::List conclusions{{}, "box says"};
@@ -87,6 +87,7 @@ std::string benchHtml(const Bench& bench) {
             output::Box{"box drawn", {output::Drawing{benchPlot(bench, PlotPlace::page)}}});
     }
     page.blocks.push_back(rows(bench));
+    page.blocks.push_back(experiment::rowsBox(allRows(bench)));
     addSkips(page.blocks, bench.skips);
     page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, how(bench)});
     return inHtml(page);

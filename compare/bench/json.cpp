@@ -25,57 +25,35 @@ Json jsonOf(const Size& size) {
 }
 
 Json jsonOf(const BenchRow& row) {
-    Json passes = Json::array();
-    for (const PassTime& pass : row.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    return {{"name", modeName(row.settings.path, row.settings.assign, row.parts)},
-            {"path", nameOf(row.settings.path)},
-            {"assign", nameOf(row.settings.assign)},
-            {"transparency", nameOf(row.settings.transparency)},
-            {"lighting", nameOf(row.settings.lighting)},
-            {"samples", row.settings.msaa},
-            {"same_picture", !drawsAnotherPicture(row.settings.assign)},
-            {"scene", row.scene},
-            {"camera", row.camera},
-            {"size", jsonOf(row.settings.size)},
-            {"light_count", orNull(row.requested_lights)},
-            {"settings", parseOrderedJson(toJson(row.settings))},
-            {"ms",
-             {{"median", row.time.median},
-              {"min", row.time.min},
-              {"max", row.time.max},
-              {"runs", row.time.runs},
-              {"all", row.ms}}},
-            {"host_ms", {{"record", row.time.record}, {"object_lists", row.time.object_lists}}},
-            {"passes", passes},
-            {"assign_ms", assignMs(row)},
-            {"assign_share", assignShare(row)},
-            {"bytes",
-             {{"images", row.bytes.images},
-              {"buffers", row.bytes.buffers},
-              {"gbuffer_per_pixel", row.bytes.gbuffer_per_pixel},
-              {"picture_images", row.bytes.picture_images}}},
-            {"counters",
-             {{"nonfinite_pixels", row.counters.nonfinite_pixels},
-              {"overflowed_lists", row.counters.overflowed_lists},
-              {"lights", row.counters.lights},
-              {"unsorted_fragments", row.counters.unsorted.fragments}}},
-            {"notes", row.notes}};
+    Json json = experiment::jsonOf(row);
+    json.update({{"name", row.name()},
+                 {"assign", nameOf(row.settings.assign)},
+                 {"transparency", nameOf(row.settings.transparency)},
+                 {"lighting", nameOf(row.settings.lighting)},
+                 {"samples", row.settings.msaa},
+                 {"same_picture", !drawsAnotherPicture(row.settings.assign)},
+                 {"size", jsonOf(row.settings.size)},
+                 {"light_count", orNull(row.requested_lights)},
+                 {"assign_ms", assignMs(row)},
+                 {"assign_share", assignShare(row)}});
+    return json;
 }
 
-Json jsonOf(const BenchSkip& skip) {
-    return {{"path", nameOf(skip.path)},
-            {"assign", nameOf(skip.assign)},
-            {"size", skip.size ? jsonOf(*skip.size) : Json(nullptr)},
-            {"light_count", orNull(skip.lights)},
-            {"reason", skip.reason}};
+Json skipJson(const BenchRow& skip) {
+    const Size& size = skip.settings.size;
+    return {{"path", nameOf(skip.settings.path)},
+            {"assign", nameOf(skip.settings.assign)},
+            {"size", size.width > 0 ? jsonOf(size) : Json(nullptr)},
+            {"light_count", orNull(skip.requested_lights)},
+            {"reason", skip.failed}};
 }
 
 Json jsonOf(const Conclusion& c) {
     return {{"size", jsonOf(c.faster->settings.size)},
-            {"lights", c.faster->counters.lights},
-            {"faster", modeName(c.faster->settings.path, c.faster->settings.assign, c.faster->parts)},
-            {"slower", modeName(c.slower->settings.path, c.slower->settings.assign, c.slower->parts)},
-            {"ratio", c.ratio.median},
+            {"lights", c.faster->whole(Measure::lights)},
+            {"faster", c.faster->name()},
+            {"slower", c.slower->name()},
+            {"ratio", c.ratio.ratio},
             {"interval", {c.ratio.low, c.ratio.high}},
             {"confidence", c.ratio.confidence},
             {"pairs", c.ratio.pairs},
@@ -90,11 +68,11 @@ Json jsonOf(const Conclusion& c) {
 std::string benchJson(const Bench& bench, const std::vector<std::string>& files) {
     Json rows = Json::array(), skips = Json::array();
     for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
-    for (const BenchSkip& skip : bench.skips) skips.push_back(jsonOf(skip));
+    for (const BenchRow& skip : bench.skips) skips.push_back(skipJson(skip));
     Json conclusions = Json::array();
     for (const Conclusion& conclusion : conclusionsOf(bench)) conclusions.push_back(jsonOf(conclusion));
     const Json json = {
-        {"schema", 1},
+        {"schema", 2},
         {"software", softwareName},
         {"device",
          {{"name", bench.device.name}, {"driver", bench.device.driver}, {"type", bench.device.type}}},
@@ -102,7 +80,7 @@ std::string benchJson(const Bench& bench, const std::vector<std::string>& files)
         {"runs", bench.runs},
         {"max_ms", bench.options.max_ms},
         {"conclusions", conclusions},
-        {"frames", rows},
+        {"rows", rows},
         {"msaa_tables", sampleTablesJson(bench)},
         {"growth", growthJson(bench)},
         {"layers", layersJson(bench)},

@@ -31,16 +31,16 @@ void compareWays(LayerRow& row) {
     for (const BenchRow* const way : row.ways) {
         if (way == nullptr) continue;
         ++timed;
-        if (least == nullptr || way->time.median < least->time.median) least = way;
+        if (least == nullptr || (*way)[Measure::ms] < (*least)[Measure::ms]) least = way;
     }
     if (timed < 2) return;
     for (std::size_t i = 0; i < row.ways.size(); ++i) {
         if (row.ways[i] == nullptr) continue;
-        const PairedRatio ratio = pairedRatio(row.ways[i]->ms, least->ms);
+        const TimeRatio ratio = pairedRatio(row.ways[i]->ms, least->ms);
         if (row.ways[i] == least || !ratio.isSure() || ratio.low < 1)
             row.fastest.push_back(i);
         else
-            row.lead = row.lead == 0 ? ratio.median : std::min(row.lead, ratio.median);
+            row.lead = row.lead == 0 ? ratio.ratio : std::min(row.lead, ratio.ratio);
     }
 }
 
@@ -118,7 +118,7 @@ std::string outcomeInWords(const std::vector<const LayerRow*>& rows, std::size_t
 
 std::uint64_t imageBytesPerPixel(const BenchRow& row) {
     const Size& size = row.settings.size;
-    return row.bytes.picture_images /
+    return row.whole(Measure::picture_bytes) /
            (static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
 }
 
@@ -130,7 +130,7 @@ std::optional<std::string> bytesInWords(const std::vector<LayerRow>& rows, std::
     std::vector<std::uint64_t> stored, all;
     for (const LayerRow& row : rows)
         if (const BenchRow* const timed = row.ways.at(way)) {
-            stored.push_back(timed->bytes.gbuffer_per_pixel);
+            stored.push_back(timed->whole(Measure::gbuffer_bytes));
             all.push_back(imageBytesPerPixel(*timed));
         }
     if (stored.empty()) return {};
@@ -228,8 +228,8 @@ output::Table layerTable(const Bench& bench) {
                 out.cells.insert(out.cells.end(), registers ? 4 : 3, output::either("-", ""));
                 continue;
             }
-            out.cells.emplace_back(timeInWords(way->time));
-            out.cells.emplace_back(fmt::format("{}", way->bytes.gbuffer_per_pixel));
+            out.cells.emplace_back(timeInWords(*way));
+            out.cells.emplace_back(fmt::format("{}", way->whole(Measure::gbuffer_bytes)));
             out.cells.emplace_back(fmt::format("{}", imageBytesPerPixel(*way)));
             if (registers) out.cells.emplace_back(registersInWords(*way));
         }
@@ -263,12 +263,14 @@ nlohmann::ordered_json layersJson(const Bench& bench) {
             Json registers = Json::array();
             for (const PassRegisters& pass : way->registers)
                 registers.push_back({{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}});
-            ways.push_back(
-                {{"name", layerWays.at(i).name()},
-                 {"ms", {{"median", way->time.median}, {"min", way->time.min}, {"max", way->time.max}}},
-                 {"bytes_per_pixel", way->bytes.gbuffer_per_pixel},
-                 {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
-                 {"registers", registers}});
+            ways.push_back({{"name", layerWays.at(i).name()},
+                            {"ms",
+                             {{"median", (*way)[Measure::ms]},
+                              {"min", (*way)[Measure::ms_min]},
+                              {"max", (*way)[Measure::ms_max]}}},
+                            {"bytes_per_pixel", way->whole(Measure::gbuffer_bytes)},
+                            {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
+                            {"registers", registers}});
         }
         for (const std::string& name : namesOf(row.fastest)) fastest.push_back(name);
         rows.push_back({{"covered", row.cover.kind},

@@ -32,7 +32,7 @@ struct LayerRow {
     std::uint64_t lights = 0;
     std::array<const BenchRow*, layerWays.size()> ways{};  // nullptr: not timed
     // Indices into `ways`, ascending: the least median, and all that do not differ from it significantly
-    // (PairedRatio). Empty if fewer than two were timed.
+    // (TimeRatio). Empty if fewer than two were timed.
     std::vector<std::size_t> fastest{};
     double lead = 0;  // how many times as long the next takes, median ratio; 0 if none takes longer
 };

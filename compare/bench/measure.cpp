@@ -27,9 +27,22 @@ constexpr int fewestProfiled = 3;
 // repeated.
 constexpr double compiling = 4;
 
-BenchSkip skipOf(const Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
-    return {settings.path,     settings.assign, settings.size, group.lights, partsOf(bench.options, settings),
-            std::move(reason), group.growth,    group.cover};
+BenchRow rowOf(const Bench& bench, const Settings& settings, const BenchGroup& group) {
+    BenchRow row{{.scene = group.scene, .settings = settings},
+                 group.lights,
+                 partsOf(bench.options, settings),
+                 group.growth,
+                 group.cover};
+    if (group.growth) row.varied = nameOf(group.growth->axis);
+    if (group.cover) row.varied = group.cover->kind;
+    if (group.growth) row.measured[Measure::magnitude] = group.growth->value;
+    if (group.cover) row.measured[Measure::magnitude] = group.cover->percent;
+    return row;
+}
+
+void skip(Bench& bench, const Settings& settings, const BenchGroup& group, std::string reason) {
+    bench.skips.push_back(rowOf(bench, settings, group));
+    bench.skips.back().failed = std::move(reason);
 }
 
 bool isMode(const Settings& a, const Settings& b) {
@@ -41,23 +54,22 @@ bool isMode(const Settings& a, const Settings& b) {
 // measured.
 std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings& settings) {
     if (group.growth) {
-        for (const BenchSkip& skip : bench.skips)
-            if (skip.growth && skip.growth->axis == group.growth->axis && skip.path == settings.path)
+        for (const BenchRow& skip : bench.skips)
+            if (skip.growth && skip.growth->axis == group.growth->axis && skip.settings.path == settings.path)
                 return fmt::format("{:.6g} {} were too many already", skip.growth->value,
                                    nameOf(skip.growth->axis));
         return {};
     }
     if (!group.lights) return {};
-    for (const BenchSkip& skip : bench.skips)
-        if (skip.path == settings.path && skip.assign == settings.assign && skip.size == settings.size &&
-            skip.parts == partsOf(bench.options, settings) && skip.cover == group.cover && skip.lights &&
-            *skip.lights < *group.lights)
+    for (const BenchRow& skip : bench.skips)
+        if (isMode(skip.settings, settings) && skip.cover == group.cover && skip.requested_lights &&
+            *skip.requested_lights < *group.lights)
             return fmt::format("already over --max-ms {:.6g} with {}", bench.options.max_ms,
-                               counted(*skip.lights, "light"));
+                               counted(*skip.requested_lights, "light"));
     std::vector<std::pair<std::uint32_t, double>> measured;
     for (const BenchRow& row : bench.rows)
         if (row.requested_lights && row.cover == group.cover && isMode(row.settings, settings))
-            measured.emplace_back(*row.requested_lights, row.time.median);
+            measured.emplace_back(*row.requested_lights, row[Measure::ms]);
     const std::optional<double> predicted = predictedMs(measured, *group.lights);
     if (!predicted || *predicted <= bench.options.max_ms) return {};
     return fmt::format("would take about {} ms (estimated from {} and {} lights), over --max-ms {:.6g}",
@@ -85,7 +97,7 @@ std::vector<Settings> tableRows(Device& device, const BenchGroup& group, const R
         if (std::string reason = leftOut(settings, needs, samples); reason.empty())
             rows.push_back(settings);
         else
-            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
+            skip(bench, settings, group, std::move(reason));
     return rows;
 }
 
@@ -97,7 +109,7 @@ std::vector<Settings> triedSettings(Device& device, const BenchGroup& group, con
         if (std::string reason = hopeless(bench, group, settings); reason.empty())
             tried.push_back(settings);
         else
-            bench.skips.push_back(skipOf(bench, settings, group, std::move(reason)));
+            skip(bench, settings, group, std::move(reason));
     return tried;
 }
 
@@ -108,8 +120,7 @@ std::optional<PreparedFrames> preparedFrames(Renderer& renderer, const BenchGrou
         return renderer.prepare(tried);
     } catch (const std::runtime_error& error) {
         if (!group.growth) throw;
-        for (const Settings& settings : tried)
-            bench.skips.push_back(skipOf(bench, settings, group, error.what()));
+        for (const Settings& settings : tried) skip(bench, settings, group, error.what());
         return {};
     }
 }
@@ -129,12 +140,18 @@ double assignShare(const BenchRow& row) {
     return all > 0 ? assignMs(row) / all : 0;
 }
 
+std::vector<const experiment::Row*> allRows(const Bench& bench) {
+    std::vector<const experiment::Row*> rows = experiment::pointersTo(bench.rows);
+    for (const BenchRow& skip : bench.skips) rows.push_back(&skip);
+    return rows;
+}
+
 std::vector<std::string> commonNotes(const Bench& bench) {
     std::vector<std::string> common;
     if (bench.rows.empty()) return common;
-    for (const std::string& note : bench.rows.front().notes)
-        if (std::ranges::all_of(bench.rows,
-                                [&](const BenchRow& row) { return std::ranges::count(row.notes, note) > 0; }))
+    for (const std::string& note : bench.rows.front().warnings)
+        if (std::ranges::all_of(
+                bench.rows, [&](const BenchRow& row) { return std::ranges::count(row.warnings, note) > 0; }))
             common.push_back(note);
     return common;
 }
@@ -148,8 +165,9 @@ std::string msText(double ms) {
     return ms < 1000 ? fmt::format("{:.4g}", ms) : fmt::format("{:.0f}", ms);
 }
 
-std::string timeInWords(const FrameTime& time) {
-    return fmt::format("{} ({} to {})", msText(time.median), msText(time.min), msText(time.max));
+std::string timeInWords(const BenchRow& row) {
+    return fmt::format("{} ({} to {})", msText(row[Measure::ms]), msText(row[Measure::ms_min]),
+                       msText(row[Measure::ms_max]));
 }
 
 std::vector<Size> sizesOf(const Bench& bench) {
@@ -192,27 +210,24 @@ void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines,
         if (ms <= bench.options.max_ms)
             timed.push_back(i);
         else
-            bench.skips.push_back(skipOf(bench, tried[i], group,
-                                         fmt::format("its first frame took {} ms, over --max-ms {:.6g}",
-                                                     msText(ms), bench.options.max_ms)));
+            skip(bench, tried[i], group,
+                 fmt::format("its first frame took {} ms, over --max-ms {:.6g}", msText(ms),
+                             bench.options.max_ms));
     }
     std::vector<TimedFrame> times = timeInTurns(frames, timed, bench.runs, profiled, step);
     for (std::size_t k = 0; k < timed.size(); ++k) {
         const std::size_t i = timed[k];
         const Frame frame = frames.frame(i);
-        BenchRow row{tried[i],
-                     group.scene,
-                     group.lights,
-                     cameraTitle(frame),
-                     times[k].time,
-                     std::move(times[k].ms),
-                     std::move(times[k].passes),
-                     frame.bytes,
-                     frame.counters,
-                     frame.notes,
-                     partsOf(bench.options, tried[i]),
-                     group.growth,
-                     group.cover};
+        BenchRow row = rowOf(bench, tried[i], group);
+        row.camera = cameraTitle(frame);
+        row.ms = std::move(times[k].ms);
+        row.passes = std::move(times[k].passes);
+        row.measured.set(times[k].time);
+        row.measured[Measure::record_ms] = times[k].time.record;
+        row.measured[Measure::lists_ms] = times[k].time.object_lists;
+        row.measured.set(frame.bytes);
+        row.measured.set(frame.counters);
+        row.warnings = frame.notes;
         bench.rows.push_back(std::move(row));
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/plot_parts.h"
 #include "compare/page/text.h"
+#include "compare/plot/error_over_time.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ constexpr double headHeight = 34, rowHeight = 52;  // panel; bar with its label
 constexpr double barHeight = 20, below = 62;       // bar; ticks and axis title
 constexpr std::size_t mostColours = 8;             // of plot.css; other passes are merged
 constexpr const char* otherPasses = "other passes";
+constexpr double smallHeight = 260, smallTop = 50, smallBottom = 56, smallGap = 66;  // panels in pairs
 
 // Passes in order. If there are more than colours, the longest ones and one merged entry.
 std::vector<std::string> passNames(const std::vector<const BenchRow*>& rows) {
@@ -75,21 +77,68 @@ double Legend::end() const {
     return top_ + (entries_ + 1) / 2 * entryHeight + 16;
 }
 
-std::string traceOf(Path path, std::string_view style, const std::vector<PlotPoint>& points) {
-    std::string line, marks;
-    for (const PlotPoint& at : points) {
-        line += fmt::format("{}{} {}", line.empty() ? "M" : "L", svgNumber(at.x), svgNumber(at.y));
-        marks += fmt::format("<g><title>{}</title>{}</g>", page::markup(at.title), markAt(path, at.x, at.y));
-    }
-    return fmt::format("<g class=\"series {} {}\"><path class=\"trace\" d=\"{}\"/>{}</g>", nameOf(path),
-                       style, line, marks);
+namespace {
+
+std::string classesOf(const PlotLine& line) {
+    return fmt::format("series {} {}", nameOf(line.path), line.style);
 }
 
-std::string legendOf(Legend& legend, Path path, std::string_view style, const std::string& name) {
+}  // namespace
+
+std::string panelOf(const LinePanel& panel, const PlotBox& box, double title_left) {
+    std::vector<double> xs, ys;
+    for (const PlotLine& line : panel.lines)
+        for (const PlotPoint& point : line.points) {
+            xs.push_back(point.x);
+            ys.push_back(point.y);
+            if (point.low < point.high) ys.insert(ys.end(), {point.low, point.high});
+        }
+    const LogAxis across(xs), up(ys);
+    const auto count = static_cast<double>(panel.places.size());
+    const auto x = [&](double value) {
+        const double at = panel.places.empty() ? across.place(value) : (value + 0.5) / count;
+        return box.left + at * (box.right - box.left);
+    };
+    const auto y = [&](double value) { return box.bottom - up.place(value) * (box.bottom - box.top); };
+    std::vector<Tick> ticks = panel.places.empty() ? across.ticks() : std::vector<Tick>();
+    for (const std::string& place : panel.places) ticks.push_back({static_cast<double>(ticks.size()), place});
+    Drawing drawing;
+    drawing.axes(box, {ticks, x, panel.across}, {up.ticks(), y, panel.up});
+    drawing.text("name", title_left, box.top - (panel.up.empty() ? 16 : 38), panel.title);
+    std::string out = drawing.group();
+    for (const PlotLine& line : panel.lines) {
+        std::string trace, marks;
+        for (const PlotPoint& point : line.points) {
+            const double px = x(point.x), py = y(point.y);
+            trace += fmt::format("{}{} {}", trace.empty() ? "M" : "L", svgNumber(px), svgNumber(py));
+            marks += fmt::format("<g><title>{}</title>", page::markup(point.title));
+            if (point.low < point.high)
+                marks += fmt::format("<path class=\"bar\" d=\"M{} {}V{}\"/>", svgNumber(px),
+                                     svgNumber(y(point.low)), svgNumber(y(point.high)));
+            marks += pathMark(line.path, px, py, 4) + "</g>";
+        }
+        out += fmt::format("<g class=\"{}\"><path class=\"trace\" d=\"{}\"/>{}</g>", classesOf(line), trace,
+                           marks);
+    }
+    return out;
+}
+
+std::string legendOf(Legend& legend, const PlotLine& line) {
     const auto [x, y] = legend.next();
-    return fmt::format("<g class=\"series {} {}\"><path class=\"trace\" d=\"M{} {}h24\"/>{}{}</g>",
-                       nameOf(path), style, svgNumber(x), svgNumber(y), markAt(path, x + 12, y),
-                       legend.words(name));
+    return fmt::format("<g class=\"{}\"><path class=\"trace\" d=\"M{} {}h24\"/>{}{}</g>", classesOf(line),
+                       svgNumber(x), svgNumber(y), pathMark(line.path, x + 12, y, 4),
+                       legend.words(line.name));
+}
+
+PlotBox smallBox(std::size_t n) {
+    constexpr double width = (plotWidth - plotRight - plotLeft - smallGap) / 2;
+    const double left = plotLeft + static_cast<double>(n % 2) * (width + smallGap),
+                 above = static_cast<double>(n / 2) * smallHeight;
+    return {left, above + smallTop, left + width, above + smallHeight - smallBottom};
+}
+
+double belowSmall(std::size_t panels) {
+    return static_cast<double>((panels + 1) / 2) * smallHeight + 4;
 }
 
 Panel barsOf(const Bench& bench, const Size& size, double above) {
@@ -100,7 +149,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
         rows.push_back(&row);
         double sum = 0;
         for (const PassTime& pass : row.passes) sum += pass.ms;
-        most = std::max({most, sum, row.time.max});
+        most = std::max({most, sum, row[Measure::ms_max]});
     }
     if (!(most > 0)) most = 1;
     const std::vector<std::string> names = passNames(rows);
@@ -114,7 +163,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
     Drawing drawing;
     drawing.text("name", plotTitleLeft, above + headHeight - 12,
                  fmt::format("{}x{}, {}, {}", size.width, size.height,
-                             counted(rows.front()->counters.lights, "light"), bench.scene));
+                             counted(rows.front()->whole(Measure::lights), "light"), bench.scene));
     const double step = stepOf(most);
     for (double tick = 0; tick <= most; tick += step) {
         drawing.line("grid", x(tick), above + headHeight, x(tick), bottom);
@@ -126,7 +175,7 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
     double y = above + headHeight + rowHeight - barHeight - 8;
     for (const BenchRow* row : rows) {
         const std::string label = modeLabel(row->settings.path, row->settings.assign, row->parts);
-        drawing.text("tick", plotLeft, y - 6, fmt::format("{}: {} ms", label, msText(row->time.median)));
+        drawing.text("tick", plotLeft, y - 6, fmt::format("{}: {} ms", label, msText((*row)[Measure::ms])));
         double from = 0;
         for (const PassTime& pass : row->passes) {
             drawing.add(fmt::format(
@@ -136,8 +185,9 @@ Panel barsOf(const Bench& bench, const Size& size, double above) {
                 page::markup(fmt::format("{}, {}: {} ms", label, pass.name, msText(pass.ms)))));
             from += pass.ms;
         }
-        drawing.line("frame", x(row->time.min), y + barHeight / 2, x(row->time.max), y + barHeight / 2);
-        drawing.line("frame", x(row->time.median), y - 2, x(row->time.median), y + barHeight + 2);
+        drawing.line("frame", x((*row)[Measure::ms_min]), y + barHeight / 2, x((*row)[Measure::ms_max]),
+                     y + barHeight / 2);
+        drawing.line("frame", x((*row)[Measure::ms]), y - 2, x((*row)[Measure::ms]), y + barHeight + 2);
         y += rowHeight;
     }
     Legend legend(bottom + below);

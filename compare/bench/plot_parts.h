@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/bench/bench.h"
+#include "compare/plot/drawing.h"
 
 #include <string>
 #include <string_view>
@@ -37,14 +38,29 @@ private:
 struct PlotPoint {
     double x, y;
     std::string title;
+    double low = 0, high = 0;  // ends of a bar, up; equal: none
 };
-// Points joined by a line. `style`: CSS classes besides the path's.
-std::string traceOf(Path path, std::string_view style, const std::vector<PlotPoint>& points);
-// A line's symbol in a legend, and its name.
-std::string legendOf(Legend& legend, Path path, std::string_view style, const std::string& name);
+// Points joined by a line. Paths differ in the shape of markers and the dashes of lines.
+struct PlotLine {
+    Path path;
+    std::string style;  // CSS classes besides the path's
+    std::string name;   // in the legend
+    std::vector<PlotPoint> points;
+};
 
-// A marker. Paths differ in the shape of markers and the dashes of lines.
-std::string markAt(Path path, double x, double y);
+// Lines over logarithmic axes. `places`: x has these ticks at even distances instead, from 0.
+struct LinePanel {
+    std::string title, across, up;  // titles of the panel and its axes
+    std::vector<PlotLine> lines;
+    std::vector<std::string> places{};
+};
+std::string panelOf(const LinePanel& panel, const PlotBox& box, double title_left);
+// A line's symbol in a legend, and its name.
+std::string legendOf(Legend& legend, const PlotLine& line);
+
+// The n-th of small panels, two side by side.
+PlotBox smallBox(std::size_t n);
+double belowSmall(std::size_t panels);  // where the legend of that many may begin
 
 // One bar per row, stacked by the median times of its passes. Marks the median of whole frames and their
 // range. Lengths are linear in time.

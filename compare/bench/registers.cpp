@@ -6,6 +6,7 @@
 #include "compare/render/prepared_view.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace diptych::bench {
 namespace {
@@ -68,6 +69,8 @@ void RegisterCounter::count(const Scene& scene, std::span<BenchRow> rows) {
         std::vector<PipelineRequest> requests = compiler_.takeRequests();
         std::erase_if(requests, [](const PipelineRequest& request) { return !shades(request); });
         row.registers = registersOf(requests);
+        for (const PassRegisters& pass : row.registers)
+            row.measured[Measure::registers] = std::fmax(row[Measure::registers], pass.most);
     }
 }
 

@@ -23,7 +23,8 @@ double mebibytes(std::uint64_t bytes) {
 }
 
 bool isOf(const SampleTable& table, const BenchRow& row) {
-    return table.size == row.settings.size && table.scene == row.scene && table.lights == row.counters.lights;
+    return table.size == row.settings.size && table.scene == row.scene &&
+           table.lights == row.whole(Measure::lights);
 }
 
 SampleTable::Line& lineOf(SampleTable& table, const Settings& settings) {
@@ -50,11 +51,11 @@ struct CellPart {
     std::string (*text)(const BenchRow&);
 };
 const CellPart cellParts[] = {
-    {"ms (min to max)", 26, [](const BenchRow& row) { return timeInWords(row.time); }},
+    {"ms (min to max)", 26, [](const BenchRow& row) { return timeInWords(row); }},
     {"lighting ms", 13, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
     {"MiB", 9,
-     [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.bytes.picture_images)); }},
-    {"B/pixel", 9, [](const BenchRow& row) { return fmt::format("{}", row.bytes.gbuffer_per_pixel); }},
+     [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.whole(Measure::picture_bytes))); }},
+    {"B/pixel", 9, [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); }},
     {"B/sample", 10, [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); }}};
 
 }  // namespace
@@ -71,7 +72,7 @@ std::vector<SampleTable> sampleTables(const Bench& bench) {
     for (const BenchRow& row : bench.rows) {
         const bool known =
             std::ranges::any_of(tables, [&](const SampleTable& table) { return isOf(table, row); });
-        if (!known) tables.push_back({row.settings.size, row.scene, row.counters.lights, {}, {}});
+        if (!known) tables.push_back({row.settings.size, row.scene, row.whole(Measure::lights), {}, {}});
     }
     for (SampleTable& table : tables) {
         for (const BenchRow& row : bench.rows)
@@ -97,7 +98,7 @@ double lightingMs(const BenchRow& row) {
 }
 
 std::uint64_t bytesPerSample(const BenchRow& row) {
-    return row.bytes.gbuffer_per_pixel / static_cast<std::uint64_t>(row.settings.msaa);
+    return row.whole(Measure::gbuffer_bytes) / static_cast<std::uint64_t>(row.settings.msaa);
 }
 
 std::vector<std::string> memoryInWords(const SampleTable& table) {
@@ -112,7 +113,8 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
             const auto count = static_cast<std::uint64_t>(row->settings.msaa);
             samples.push_back(fmt::format("{}", count));
             bytes.push_back(fmt::format("{}", bytesPerSample(*row)));
-            ours.push_back(fmt::format("{:.0f}", mebibytes(row->bytes.gbuffer_per_pixel * paperPixels)));
+            ours.push_back(
+                fmt::format("{:.0f}", mebibytes(row->whole(Measure::gbuffer_bytes) * paperPixels)));
             theirs.push_back(fmt::format("{:.0f}", mebibytes(paperBytes * count * paperPixels)));
         }
         const std::string paper =
@@ -178,14 +180,15 @@ nlohmann::ordered_json sampleTablesJson(const Bench& bench) {
             Json cells = Json::array();
             for (const BenchRow* const row : line.cells)
                 if (row)
-                    cells.push_back(
-                        {{"samples", row->settings.msaa},
-                         {"ms",
-                          {{"median", row->time.median}, {"min", row->time.min}, {"max", row->time.max}}},
-                         {"lighting_ms", lightingMs(*row)},
-                         {"image_mib", mebibytes(row->bytes.picture_images)},
-                         {"bytes_per_pixel", row->bytes.gbuffer_per_pixel},
-                         {"bytes_per_sample", bytesPerSample(*row)}});
+                    cells.push_back({{"samples", row->settings.msaa},
+                                     {"ms",
+                                      {{"median", (*row)[Measure::ms]},
+                                       {"min", (*row)[Measure::ms_min]},
+                                       {"max", (*row)[Measure::ms_max]}}},
+                                     {"lighting_ms", lightingMs(*row)},
+                                     {"image_mib", mebibytes(row->whole(Measure::picture_bytes))},
+                                     {"bytes_per_pixel", row->whole(Measure::gbuffer_bytes)},
+                                     {"bytes_per_sample", bytesPerSample(*row)}});
             lines.push_back({{"name", line.name()},
                              {"path", nameOf(line.path)},
                              {"transparency", nameOf(line.transparency)},

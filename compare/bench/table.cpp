@@ -23,7 +23,7 @@ namespace {
 // The row's notes that other rows lack.
 std::string ownNotes(const BenchRow& row, const std::vector<std::string>& common) {
     std::vector<std::string> own;
-    for (const std::string& note : row.notes)
+    for (const std::string& note : row.warnings)
         if (std::ranges::count(common, note) == 0) own.push_back(note);
     return fmt::format("{}", fmt::join(own, "; "));
 }
@@ -60,13 +60,14 @@ output::Table modeTable(const Bench& bench) {
     for (const BenchRow& row : bench.rows) {
         const double share = 100 * assignShare(row);
         table.rows.push_back(
-            {{fmt::format("{}", row.counters.lights),
+            {{fmt::format("{}", row.whole(Measure::lights)),
               fmt::format("{}x{}", row.settings.size.width, row.settings.size.height),
               std::string(nameOf(row.settings.path)) + pointOf(row),
-              assignLabel(row.settings.assign, row.parts), msText(row.time.median), msText(row.time.min),
-              msText(row.time.max), fmt::format("{:.3g}", assignMs(row)),
+              assignLabel(row.settings.assign, row.parts), msText(row[Measure::ms]),
+              msText(row[Measure::ms_min]), msText(row[Measure::ms_max]),
+              fmt::format("{:.3g}", assignMs(row)),
               output::either(fmt::format("{:.1f}%", share), fmt::format("{:.1f} %", share)),
-              page::bytes(row.bytes.images + row.bytes.buffers), passesInWords(row), ownNotes(row, common)}});
+              page::bytes(row.whole(Measure::memory)), passesInWords(row), ownNotes(row, common)}});
     }
     return table;
 }
@@ -77,20 +78,19 @@ std::string benchTable(const Bench& bench, std::size_t first) {
 
 std::string benchEnd(const Bench& bench) {
     std::string out;
-    for (const BenchSkip& skip : bench.skips)
-        out += fmt::format("not timed: {}: {}\n", skipName(skip), skip.reason);
+    for (const BenchRow& skip : bench.skips)
+        out += fmt::format("not timed: {}: {}\n", skipName(skip), skip.failed);
     for (const BenchRow& row : bench.rows)
-        if (row.counters.nonfinite_pixels > 0)
-            out += fmt::format(
-                "{}, {}: {} not finite\n", modeName(row.settings.path, row.settings.assign, row.parts),
-                counted(row.counters.lights, "light"), counted(row.counters.nonfinite_pixels, "pixel"));
+        if (row.whole(Measure::nonfinite_pixels) > 0)
+            out += fmt::format("{}, {}: {} not finite\n", row.name(),
+                               counted(row.whole(Measure::lights), "light"),
+                               counted(row.whole(Measure::nonfinite_pixels), "pixel"));
     for (const BenchRow& row : bench.rows)
-        if (row.counters.unsorted.fragments > 0)
-            out += fmt::format("{}, {}: {} in {} overflowed the fragment list\n",
-                               modeName(row.settings.path, row.settings.assign, row.parts),
-                               counted(row.counters.lights, "light"),
-                               counted(row.counters.unsorted.fragments, "blended fragment"),
-                               counted(row.counters.unsorted.pixels, "pixel"));
+        if (row.whole(Measure::unsorted_fragments) > 0)
+            out += fmt::format("{}, {}: {} in {} overflowed the fragment list\n", row.name(),
+                               counted(row.whole(Measure::lights), "light"),
+                               counted(row.whole(Measure::unsorted_fragments), "blended fragment"),
+                               counted(row.whole(Measure::unsorted_pixels), "pixel"));
     for (const std::string& note : commonNotes(bench)) out += note + "\n";
     if (hasAnotherPicture(bench)) out += std::string(starMeans) + "\n";
     if (bench.options.table == BenchTable::growth) return out + growthText(bench);

@@ -78,8 +78,8 @@ private:
                 paths.push_back(candidate.settings.path);
                 tiers[0].push_back(i);
             }
-            if (!candidate.judged) continue;
-            if (!accurate || candidate.judged->error < choice.candidates[*accurate].judged->error)
+            if (!candidate.isJudged()) continue;
+            if (!accurate || candidate[budget_.figure] < choice.candidates[*accurate][budget_.figure])
                 accurate = i;
             if (candidate.isFit() && i != choice.chosen) others.emplace_back(candidate.ms(), i);
         }
@@ -119,7 +119,7 @@ private:
         for (std::size_t i = 0; i < taken; ++i)
             all().push_back({.settings = proposals[i].settings,
                              .proposed_by = proposals[i].scenes.size(),
-                             .scenes = std::vector<InScene>(own_.size())});
+                             .scenes = std::vector<experiment::Row>(own_.size())});
     }
 
     void judgeIn(std::size_t scene) {
@@ -127,21 +127,23 @@ private:
         for (CommonCandidate& candidate : all()) {
             const Candidate* known = nullptr;
             for (const Candidate& own : own_[scene]->candidates)
-                if (own.judged && withoutCamera(own.settings) == candidate.settings) known = &own;
-            InScene& in = candidate.scenes[scene];
+                if (own.isJudged() && withoutCamera(own.settings) == candidate.settings) known = &own;
+            experiment::Row& in = candidate.scenes[scene];
+            in.settings = candidate.settings;
             if (known) {
-                in = {*known->judged, known->ms()};
+                in.measured = known->measured;
                 continue;
             }
             if (!evaluator) evaluator = &evaluatorOf_(scene);
-            in.judged = evaluator->judge(candidate.settings);
+            in.measured = evaluator->judge(candidate.settings);
             ++found_.judged;
         }
     }
 
     double missIn(std::size_t i, std::size_t scene, bool timed) const {
-        const InScene& in = found_.candidates[i].scenes[scene];
-        return missOf(in.judged, timed && in.ms > 0 ? std::optional(in.ms) : std::nullopt, budget_);
+        Measures measured = found_.candidates[i].scenes[scene].measured;
+        if (!timed) measured[Measure::ms] = std::numeric_limits<double>::quiet_NaN();
+        return missOf(measured, budget_);
     }
     double worstMiss(std::size_t i, bool timed) const {
         double worst = 0;
@@ -151,12 +153,14 @@ private:
     }
     double worstError(std::size_t i) const {
         double worst = 0;
-        for (const InScene& in : found_.candidates[i].scenes) worst = std::max(worst, in.judged.error);
+        for (const experiment::Row& in : found_.candidates[i].scenes)
+            worst = std::max(worst, in[budget_.figure]);
         return worst;
     }
     double sumOfLogs(std::size_t i) const {
         double sum = 0;
-        for (const InScene& in : found_.candidates[i].scenes) sum += std::log(std::max(in.ms, 1e-9));
+        for (const experiment::Row& in : found_.candidates[i].scenes)
+            sum += std::log(std::fmax(in[Measure::ms], 1e-9));
         return sum;
     }
 
@@ -175,7 +179,7 @@ private:
             std::vector<std::vector<double>> of(which.size());
             for (std::size_t at = 0; at < order.size(); ++at) of[order[at]].push_back(times[at]);
             for (std::size_t k = 0; k < which.size(); ++k)
-                all()[which[k]].scenes[scene].ms = std::exp(logMean(of[k]));
+                all()[which[k]].scenes[scene].measured[Measure::ms] = std::exp(logMean(of[k]));
         });
         timed_ = true;
     }
@@ -244,23 +248,23 @@ private:
         std::optional<std::size_t> second;
         for (std::size_t k = 0; k < finalists.size(); ++k) {
             CommonCandidate& candidate = all()[finalists[k]];
-            candidate.race_time = result.finalists[k];
+            candidate.race = result.ratios[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
-                candidate.scenes[scene].ms = std::exp(experiment::meanOf(rounds[scene][k]));
+                candidate.scenes[scene].measured[Measure::ms] =
+                    std::exp(experiment::meanOf(rounds[scene][k]));
             if (k == result.winner) continue;
-            if (!candidate.race_time->isSlower()) found_.ties.push_back(finalists[k]);
-            if (!second || candidate.race_time->ratio < result.finalists[*second].ratio) second = k;
+            if (!candidate.race->isSlower()) found_.ties.push_back(finalists[k]);
+            if (!second || candidate.race->ratio < result.ratios[*second].ratio) second = k;
         }
         found_.runner_up = second ? std::optional(finalists[*second]) : std::nullopt;
         found_.slower.assign(own_.size(), std::nullopt);
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
             const std::size_t place = ownPlace(scene, finalists);
-            found_.slower[scene] = Slowdown{};
+            found_.slower[scene] = TimeRatio{};
             if (place == result.winner) continue;
-            const auto [log, half_width] =
-                experiment::meanDifference(rounds[scene][result.winner], rounds[scene][place], 0.05);
-            found_.slower[scene] = {std::exp(log), std::exp(log - half_width), std::exp(log + half_width)};
+            found_.slower[scene] =
+                experiment::meanRatio(rounds[scene][result.winner], rounds[scene][place], 0.05);
         }
     }
     // Index of the scene's own choice in `finalists`; their count if it is not there.

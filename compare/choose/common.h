@@ -28,23 +28,13 @@ struct CommonOptions {
     std::function<void(double, std::string_view)> progress = {};
 };
 
-// Results of one Settings in one scene.
-struct InScene {
-    Judged judged;
-    double ms = 0;  // geometric mean; from the scene's own choice until raced
-};
-
 struct CommonCandidate {
-    Settings settings;                        // without a camera
-    std::size_t proposed_by = 0;              // count of scenes
-    std::vector<InScene> scenes{};            // in order of the choices
-    bool fits = false;                        // within the budget in every scene
-    std::optional<FinalistTime> race_time{};  // race result; geometric means over all scenes
-};
-
-// Time of the joint choice over that of the scene's own choice, with a 95 % confidence interval.
-struct Slowdown {
-    double ratio = 1, low = 1, high = 1;
+    Settings settings;            // without a camera
+    std::size_t proposed_by = 0;  // count of scenes
+    // In order of the choices. Times are geometric means: from the scene's own choice until raced.
+    std::vector<experiment::Row> scenes{};
+    bool fits = false;                // within the budget in every scene
+    std::optional<TimeRatio> race{};  // over the winner; geometric means over all scenes
 };
 
 struct CommonChoice {
@@ -53,8 +43,8 @@ struct CommonChoice {
     std::optional<std::size_t> chosen, runner_up;
     std::vector<std::size_t> ties;  // not significantly slower than the chosen one
     bool significant = false;
-    // By scene; empty if the scene has no choice of its own.
-    std::vector<std::optional<Slowdown>> slower;
+    // By scene: its time over that of the scene's own choice, at 95 % confidence; empty if there is none.
+    std::vector<std::optional<TimeRatio>> slower;
     // If nothing fits: the nearest candidate, and the scene with its largest miss.
     std::optional<std::size_t> nearest;
     std::size_t nearest_scene = 0;

@@ -17,22 +17,21 @@ namespace {
 
 // Time, error and memory in one scene.
 std::string figuresIn(const CommonCandidate& candidate, std::size_t scene, const ChoiceReport& first) {
-    const InScene& in = candidate.scenes[scene];
-    return fmt::format("{}{} {:.4g}, {}", in.ms > 0 ? fmt::format("{:.4g} ms, ", in.ms) : "", first.figure,
-                       in.judged.error, page::bytes(in.judged.bytes));
+    const experiment::Row& in = candidate.scenes[scene];
+    return fmt::format("{}{} {:.4g}, {}",
+                       in.measured.has(Measure::ms) ? fmt::format("{:.4g} ms, ", in[Measure::ms]) : "",
+                       first.figure(), in[first.budget.figure], page::bytes(in.whole(Measure::memory)));
 }
 
-std::string slowdownInWords(const std::optional<Slowdown>& slower) {
+std::string slowdownInWords(const std::optional<TimeRatio>& slower) {
     if (!slower) return "; the scene has no choice of its own";
     if (slower->low == slower->high) return "; its own choice";
-    return fmt::format("; against its own choice: {}",
-                       longerInWords(slower->ratio, slower->low, slower->high));
+    return "; against its own choice: " + longerInWords(*slower);
 }
 
 std::string commonFinalist(const CommonReport& report, std::size_t i) {
-    const FinalistTime& race_time = *report.choice.candidates[i].race_time;
     return fmt::format("{}: over all scenes {}", report.words[i],
-                       longerInWords(race_time.ratio, race_time.low, race_time.high));
+                       longerInWords(*report.choice.candidates[i].race));
 }
 
 nlohmann::ordered_json commonJson(const CommonReport& report) {
@@ -43,15 +42,8 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
         const CommonCandidate& candidate = choice.candidates[i];
         Json scenes = Json::array();
         for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
-            const InScene& in = candidate.scenes[scene];
-            Json one{{"scene", report.scenes[scene]}};
-            one["error"] = std::isfinite(in.judged.error) ? Json(in.judged.error) : Json();
-            one["bytes"] = in.judged.bytes;
-            one["ms"] = in.ms > 0 ? Json(in.ms) : Json();
-            if (i == choice.chosen && choice.slower[scene])
-                one["to_its_own"] = {{"ratio", choice.slower[scene]->ratio},
-                                     {"low", choice.slower[scene]->low},
-                                     {"high", choice.slower[scene]->high}};
+            Json one = experiment::jsonOf(candidate.scenes[scene]);
+            if (i == choice.chosen && choice.slower[scene]) one["to_its_own"] = jsonOf(*choice.slower[scene]);
             scenes.push_back(std::move(one));
         }
         Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
@@ -59,12 +51,8 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
                   {"command", report.commands[i]},
                   {"fits", candidate.fits},
                   {"proposed_by", candidate.proposed_by},
-                  {"scenes", std::move(scenes)}};
-        if (candidate.race_time)
-            json["race"] = {{"ratio", candidate.race_time->ratio},
-                            {"low", candidate.race_time->low},
-                            {"high", candidate.race_time->high},
-                            {"rounds", candidate.race_time->rounds}};
+                  {"rows", std::move(scenes)}};
+        if (candidate.race) json["race"] = jsonOf(*candidate.race);
         candidates.push_back(std::move(json));
     }
     Json json{{"chosen", place(choice.chosen)},   {"runner_up", place(choice.runner_up)},
@@ -80,6 +68,17 @@ nlohmann::ordered_json commonJson(const CommonReport& report) {
 
 }  // namespace
 
+std::vector<const experiment::Row*> allRows(const Choices& choices) {
+    std::vector<const experiment::Row*> rows;
+    const auto add = [&](const auto& more) {
+        for (const experiment::Row& row : more) rows.push_back(&row);
+    };
+    for (const ChoiceReport& report : choices.scenes) add(report.choice.candidates);
+    if (choices.all)
+        for (const CommonCandidate& candidate : choices.all->choice.candidates) add(candidate.scenes);
+    return rows;
+}
+
 std::optional<Settings> chosenSettings(const Choices& choices) {
     if (choices.all) {
         const CommonChoice& choice = choices.all->choice;
@@ -94,8 +93,7 @@ std::vector<std::string> reasonsInWords(const CommonReport& report, const Choice
     std::vector<std::string> lines;
     if (choice.nearest) {
         const CommonCandidate& nearest = choice.candidates[*choice.nearest];
-        const InScene& in = nearest.scenes[choice.nearest_scene];
-        const double miss = missOf(in.judged, in.ms > 0 ? std::optional(in.ms) : std::nullopt, first.budget);
+        const double miss = missOf(nearest.scenes[choice.nearest_scene].measured, first.budget);
         lines.push_back(fmt::format("{}: {}, {:.1f} % over the budget", report.scenes[choice.nearest_scene],
                                     figuresIn(nearest, choice.nearest_scene, first), 100 * miss));
     }
@@ -144,7 +142,7 @@ nlohmann::ordered_json toJson(const Choices& choices) {
     Json scenes = Json::array();
     for (const ChoiceReport& report : choices.scenes) scenes.push_back(toJson(report));
     const std::optional<Settings> settings = chosenSettings(choices);
-    Json json{{"schema", 1}};
+    Json json{{"schema", 2}};
     json["settings"] = settings ? parseOrderedJson(toJson(*settings)) : Json();
     json["all"] = commonJson(*choices.all);
     json["scenes"] = std::move(scenes);

@@ -15,12 +15,9 @@
 
 namespace diptych::choose {
 
-using output::bytesCell;
-using output::Cell;
+using experiment::cellOf;
 using output::Column;
 using output::Heading;
-using output::millisecondsCell;
-using output::numberCell;
 using output::Paragraph;
 using output::sorted;
 using output::Span;
@@ -59,17 +56,17 @@ output::Box choiceBox(const ChoiceReport& report) {
 
 output::Row candidateRow(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
-    const Cell none = sorted(std::numeric_limits<double>::infinity(), "");
+    const auto cell = [&](Measure measure) {
+        return candidate.measured.has(measure) ? cellOf(candidate, measure)
+                                               : sorted(std::numeric_limits<double>::infinity(), "");
+    };
     const bool chosen = i == report.choice.chosen;
-    return {
-        {output::Text{swatchOf(candidate.settings), report.words[i]},
-         candidate.timings > 0 ? millisecondsCell(candidate.ms()) : none, counted(candidate.timings, "frame"),
-         candidate.judged ? numberCell(candidate.judged->error) : none,
-         candidate.judged ? bytesCell(candidate.judged->bytes) : none,
-         chosen                                          ? "chosen"
-         : std::ranges::count(report.choice.ties, i) > 0 ? "tied with the best"
-                                                         : statusInWords(candidate.status)},
-        chosen ? "chosen" : ""};
+    return {{output::Text{swatchOf(candidate.settings), report.words[i]}, cell(Measure::ms),
+             counted(candidate.timings, "frame"), cell(report.budget.figure), cell(Measure::memory),
+             chosen                                          ? "chosen"
+             : std::ranges::count(report.choice.ties, i) > 0 ? "tied with the best"
+                                                             : statusInWords(candidate.status)},
+            chosen ? "chosen" : ""};
 }
 
 // The chosen candidate first, then raced ones, then judged ones; each group by time.
@@ -78,13 +75,13 @@ output::Table candidateTable(const ChoiceReport& report) {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
         const Candidate& candidate = report.choice.candidates[i];
-        return std::tuple(i != report.choice.chosen, !candidate.race_time, !candidate.judged,
+        return std::tuple(i != report.choice.chosen, !candidate.race, !candidate.isJudged(),
                           candidate.log_ms);
     });
     output::Table table{{{"settings", Column::prose},
                          {"ms", Column::number},
                          {"timed"},
-                         {report.figure, Column::number},
+                         {report.figure(), Column::number},
                          {"memory", Column::number},
                          {"result"}},
                         {},
@@ -117,12 +114,12 @@ void addScene(std::vector<output::Block>& blocks, const ChoiceReport& report, bo
     blocks.emplace_back(candidateTable(report));
 }
 
-output::Row sceneRow(const CommonReport& all, std::size_t shown, std::size_t scene) {
-    const InScene& in = all.choice.candidates[shown].scenes[scene];
-    output::Row row{{Span(all.scenes[scene], Span::name), in.ms > 0 ? millisecondsCell(in.ms) : "",
-                     numberCell(in.judged.error), bytesCell(in.judged.bytes), "", ""}};
+output::Row sceneRow(const CommonReport& all, std::size_t shown, std::size_t scene, Measure figure) {
+    const experiment::Row& in = all.choice.candidates[shown].scenes[scene];
+    output::Row row{{Span(all.scenes[scene], Span::name), cellOf(in, Measure::ms), cellOf(in, figure),
+                     cellOf(in, Measure::memory), "", ""}};
     if (!all.choice.chosen || !all.choice.slower[scene]) return row;
-    const Slowdown& slower = *all.choice.slower[scene];
+    const TimeRatio& slower = *all.choice.slower[scene];
     const auto more = [](double ratio) { return 100 * (ratio - 1); };
     row.cells[4] = sorted(more(slower.ratio), fmt::format("{:.1f}", more(slower.ratio)));
     row.cells[5] = slower.low == slower.high
@@ -148,7 +145,7 @@ void addCommon(std::vector<output::Block>& blocks, const CommonReport& all, cons
                                         {swatchOf(choice.candidates[*shown].settings),
                                          choice.chosen ? "" : "nearest: ", all.words[*shown]}});
         for (std::size_t scene = 0; scene < all.scenes.size(); ++scene)
-            table.rows.push_back(sceneRow(all, *shown, scene));
+            table.rows.push_back(sceneRow(all, *shown, scene, first.budget.figure));
     }
     box.blocks.emplace_back(listOf(reasonsInWords(all, first)));
     if (choice.chosen)
@@ -176,6 +173,7 @@ std::string choiceHtml(const Choices& choices, const std::vector<std::string>& f
     else
         page.heading = {verdictOf(first.choice.chosen.has_value()), " ", title};
     for (const ChoiceReport& report : choices.scenes) addScene(page.blocks, report, choices.all.has_value());
+    page.blocks.push_back(experiment::rowsBox(allRows(choices)));
     return inHtml(page);
 }
 

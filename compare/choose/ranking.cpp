@@ -14,7 +14,6 @@ using experiment::meanOf;
 
 Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, int most) {
     Ranking result;
-    result.finalists.resize(finalists);
     std::vector<std::size_t> running(finalists);
     std::iota(running.begin(), running.end(), std::size_t{0});
     std::vector<std::vector<double>> rounds(finalists);  // log of the geometric mean of both draws
@@ -49,16 +48,12 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
     }
     result.significant = true;
     for (std::size_t i = 0; i < finalists; ++i) {
-        FinalistTime& race_time = result.finalists[i];
-        race_time.rounds = static_cast<int>(rounds[i].size());
-        race_time.ms = std::exp(meanOf(rounds[i]));
-        if (i == result.winner) continue;
-        const auto [mean, half_width] =
-            meanDifference(rounds[i], rounds[result.winner], 1 - rankingConfidence);
-        race_time.ratio = std::exp(mean);
-        race_time.low = std::exp(mean - half_width);
-        race_time.high = std::exp(mean + half_width);
-        result.significant = result.significant && race_time.isSlower();
+        result.ms.push_back(std::exp(meanOf(rounds[i])));
+        const bool won = i == result.winner;
+        result.ratios.push_back(
+            won ? TimeRatio{.confidence = rankingConfidence, .pairs = static_cast<int>(rounds[i].size())}
+                : experiment::meanRatio(rounds[i], rounds[result.winner], 1 - rankingConfidence));
+        result.significant = result.significant && (won || result.ratios.back().isSlower());
     }
     return result;
 }

@@ -2,6 +2,8 @@
 // Times a few finalists, interleaved, until the fastest is significantly faster or all count as equal.
 #pragma once
 
+#include "compare/experiment/intervals.h"
+
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -9,16 +11,10 @@
 
 namespace diptych::choose {
 
+using experiment::TimeRatio;
+
 // Renders finalists in the given order; returns one time per entry, ms.
 using DrawInOrder = std::function<std::vector<double>(std::span<const std::size_t>)>;
-
-struct FinalistTime {
-    double ms = 0;  // geometric mean
-    // Time over the winner's, with its confidence interval (rankingConfidence).
-    double ratio = 1, low = 1, high = 1;
-    int rounds = 0;
-    bool isSlower() const { return low > 1; }
-};
 
 // Per comparison. 99 % instead of 95 %, because the test repeats after every round.
 inline constexpr double rankingConfidence = 0.99;
@@ -26,7 +22,8 @@ inline constexpr double rankingConfidence = 0.99;
 inline constexpr double equalTimes = 1.02;
 
 struct Ranking {
-    std::vector<FinalistTime> finalists;  // by finalist
+    std::vector<double> ms;         // by finalist; geometric means
+    std::vector<TimeRatio> ratios;  // by finalist: time over the winner's
     std::size_t winner = 0;
     bool significant = false;  // all others are significantly slower
     std::size_t draws = 0;

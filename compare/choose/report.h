@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A choice as text, JSON and page.
+// A choice as text, JSON and page. Its JSON has schema 2.
 #pragma once
 
 #include "compare/choose/common.h"
@@ -36,7 +36,6 @@ struct ChoiceReport {
     std::vector<std::string> cameras;  // titles
     Settings given;
     Budget budget;
-    std::string figure, figure_name;  // "FLIP", "flip"
     ReportDevice device;
     Choice choice;
     // By candidate: description of its Settings, and the command that renders it.
@@ -45,6 +44,8 @@ struct ChoiceReport {
     std::vector<std::string> notes{};
     std::optional<SensitivityReport> sensitivities{};
     double seconds = 0;
+
+    std::string figure() const { return std::string(named(budget.figure).title); }  // "FLIP"
 };
 
 // The joint choice for several scenes.
@@ -61,6 +62,9 @@ struct Choices {
     std::optional<CommonReport> all;   // with several scenes
 };
 
+// Every candidate of every scene, then those of the joint choice.
+std::vector<const experiment::Row*> allRows(const Choices& choices);
+
 // The only scene's choice, or the joint one. Empty if nothing fits.
 std::optional<Settings> chosenSettings(const Choices& choices);
 
@@ -71,9 +75,11 @@ std::string inWords(const ChoiceReport& report);
 // `first`: report of any scene, for the budget.
 std::string inWords(const CommonReport& report, const ChoiceReport& first);
 // "takes 3.1 % longer (-0.5 % to +6.8 %)", "takes 0.5 % less time (-1.2 % to +0.3 %)".
-std::string longerInWords(double ratio, double low, double high);
+std::string longerInWords(const TimeRatio& of);
+nlohmann::ordered_json jsonOf(const TimeRatio& of);
 // Time, error and memory of one candidate.
 std::string figuresInWords(const ChoiceReport& report, std::size_t candidate);
+const char* nameOf(CandidateStatus status);  // "too slow"
 const char* statusInWords(CandidateStatus status);
 // Reasons, alternatives and significance, or how far the budget is missed. One line each, not indented.
 std::vector<std::string> reasonsInWords(const ChoiceReport& report);

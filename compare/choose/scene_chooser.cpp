@@ -93,10 +93,10 @@ std::vector<Change> singleChanges(const std::vector<Settings>& candidates) {
 
 }  // namespace
 
-std::size_t figureNamed(const std::string& name) {
+Measure figureNamed(const std::string& name) {
     std::vector<std::string_view> names;
     for (std::size_t i = 0; i < experiment::errorFigures.size(); ++i) {
-        if (experiment::errorFigures[i].name == name) return i;
+        if (experiment::errorFigures[i].name == name) return Measure::flip + i;
         names.push_back(experiment::errorFigures[i].name);
     }
     throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
@@ -126,7 +126,7 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
     loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, question_.settings, progress), device_,
                                             pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.figure,
+        loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.budget.figure,
                                    question_.drawing);
     return *loaded_;
 }
@@ -162,8 +162,6 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.notes = loaded.scene.notes;
     report.given = given;
     report.budget = question_.budget;
-    report.figure = experiment::errorFigures.at(question_.figure).title;
-    report.figure_name = experiment::errorFigures.at(question_.figure).name;
     report.device = reportDevice(device_);
 
     const Settings truth = experiment::referenceFor(given, candidates);
@@ -176,13 +174,15 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
     experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
-    loaded.evaluator.emplace(loaded.renderer, references, question_.figure, question_.drawing);
+    loaded.evaluator.emplace(loaded.renderer, references, question_.budget.figure, question_.drawing);
 
     report.choice = search(loaded, given, candidates, stage.part(0.2, 0.95));
 
     for (Candidate& candidate : report.choice.candidates) {
         report.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
         // Printed commands apply to all cameras, and maybe to other scenes.
+        candidate.scene = where;
+        candidate.judgement = nameOf(candidate.status);
         candidate.settings.camera = question_.settings.camera;
         report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
     }
@@ -208,8 +208,8 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
     const bool fits = other.has_value();
     for (std::size_t i = 0; i < choice.candidates.size() && !fits; ++i)
         if (const Candidate& candidate = choice.candidates[i];
-            candidate.judged && candidate.settings.path != chosen_path &&
-            (!other || candidate.judged->error < choice.candidates[*other].judged->error))
+            candidate.isJudged() && candidate.settings.path != chosen_path &&
+            (!other || candidate[report.budget.figure] < choice.candidates[*other][report.budget.figure]))
             other = i;
     if (!other) return {};  // --grid has candidates of one path only
     // Without blended pixels the candidates may differ in transparency settings. Equalize these, because
@@ -241,10 +241,10 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
     drawing.progress = {};
     const experiment::ReferenceFrames references =
         experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.picture, drawing, false);
-    experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.figure, drawing);
+    experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.figure, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
-    const double error = evaluator.judge(chosen.settings).error;
-    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen.judged->error;
+    const double error = evaluator.judge(chosen.settings)[question_.budget.figure];
+    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.figure];
     return {page::cameraTitle(references.frames.front()), error, error <= most};
 }
 
@@ -268,6 +268,10 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
     given.camera.clear();
     for (CommonCandidate& candidate : all.choice.candidates) {
         all.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
+        for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
+            candidate.scenes[scene].scene = all.scenes[scene];
+            candidate.scenes[scene].judgement = candidate.fits ? "fits all scenes" : "not for all scenes";
+        }
         candidate.settings.camera = question_.settings.camera;
         all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
     }

@@ -22,15 +22,14 @@ struct Question {
     Settings settings;
     std::vector<std::string> cameras;  // empty: all of the scene
     std::string grid;                  // a file or JSON; empty: defaultGrids()
-    std::size_t figure = 0;            // index in experiment::errorFigures
     Budget budget;
     bool explain = false;  // also report scene properties that decide between the paths
     RenderOptions drawing;
     PictureChoice picture;
 };
 
-// Index of an error figure. Throws std::runtime_error if --figure names none.
-std::size_t figureNamed(const std::string& name);
+// An error measure. Throws std::runtime_error if --figure names none.
+Measure figureNamed(const std::string& name);
 
 class SceneChooser {
 public:

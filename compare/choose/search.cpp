@@ -42,7 +42,7 @@ class Search {
 public:
     Search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options)
         : evaluator_(evaluator), options_(options), budget_(options.budget) {
-        for (const Settings& settings : table) all_.push_back({.settings = settings});
+        for (const Settings& settings : table) all_.push_back({{.settings = settings}});
         known_ = all_.size();
     }
 
@@ -53,12 +53,13 @@ public:
             for (const auto& [path, first] : firsts_) improve(path);
         }
         for (Candidate& each : all_)
-            each.status = !each.judged                            ? CandidateStatus::slower
-                          : missOf(*each.judged, {}, budget_) > 0 ? CandidateStatus::misses
-                          : missBy(each) > 0                      ? CandidateStatus::too_slow
-                                                                  : CandidateStatus::fits;
+            each.status = !each.isJudged()                     ? CandidateStatus::slower
+                          : missOf(each.measured, budget_) > 0 ? CandidateStatus::misses
+                          : missBy(each) > 0                   ? CandidateStatus::too_slow
+                                                               : CandidateStatus::fits;
         timeBestAgain();
         if (!found_.chosen) findNearest();
+        for (Candidate& each : all_) each.measured[Measure::ms] = each.ms();
         found_.candidates = std::move(all_);
         for (const auto& shown : {found_.chosen, bestOfOtherPath(found_, budget_)})
             if (shown) {
@@ -73,8 +74,8 @@ private:
         if (options_.progress) options_.progress(done, what);
     }
     void judge(std::size_t i) {
-        if (all_[i].judged) return;
-        all_[i].judged = evaluator_.judge(all_[i].settings);
+        if (all_[i].isJudged()) return;
+        all_[i].measured = evaluator_.judge(all_[i].settings);
         ++found_.judged;
     }
     // Times two frames per candidate, in an order and its reverse. A candidate with known time, if any,
@@ -127,16 +128,16 @@ private:
     double leastFitting() const {
         double least = std::numeric_limits<double>::infinity();
         for (const Candidate& each : all_)
-            if (each.judged && missOf(*each.judged, {}, budget_) <= 0) least = std::min(least, each.ms());
+            if (each.isJudged() && missOf(each.measured, budget_) <= 0) least = std::min(least, each.ms());
         return least;
     }
 
     Effect measured(std::size_t i) const {
         // A row that was not judged borrows its first candidate's error: it is too slow anyway.
         const Candidate& candidate = all_[i];
-        const Judged& judged =
-            candidate.judged ? *candidate.judged : *all_[firsts_.at(candidate.settings.path)].judged;
-        return {candidate.log_ms, judged.error, static_cast<double>(judged.bytes)};
+        const Candidate& judged =
+            candidate.isJudged() ? candidate : all_[firsts_.at(candidate.settings.path)];
+        return {candidate.log_ms, judged[budget_.figure], judged[Measure::memory]};
     }
     void learnChanges() {
         const auto add = [&](const Change& change, std::optional<Effect> effect) {
@@ -162,7 +163,7 @@ private:
     }
     // Derives an unknown effect from two candidates that differ in this change.
     void learnFrom(std::size_t from, std::size_t to) {
-        if (!all_[from].judged || !all_[to].judged || all_[to].timings == 0) return;
+        if (!all_[from].isJudged() || !all_[to].isJudged() || all_[to].timings == 0) return;
         for (auto& [change, effect] : effects_)
             if (!effect && change.path == all_[to].settings.path &&
                 all_[to].settings.valueOf(change.option) == change.value)
@@ -173,14 +174,16 @@ private:
     }
 
     double missBy(const Candidate& candidate) const {
-        return missOf(*candidate.judged, candidate.ms(), budget_);
+        Measures timed = candidate.measured;
+        timed[Measure::ms] = candidate.ms();
+        return missOf(timed, budget_);
     }
     // Less is better: the miss of the budget, then the objective.
     std::tuple<double, double, double> rank(std::size_t i) const {
         const Candidate& candidate = all_[i];
-        if (!candidate.judged) return {std::numeric_limits<double>::infinity(), 0, 0};
+        if (!candidate.isJudged()) return {std::numeric_limits<double>::infinity(), 0, 0};
         if (const double miss = missBy(candidate); miss > 0) return {miss, 0, 0};
-        const double error = candidate.judged->error;
+        const double error = candidate[budget_.figure];
         if (budget_.isForSpeed()) return {0, candidate.log_ms, error};
         return {0, std::round(std::log(std::max(error, 1e-9)) / std::log(alikeErrors)), candidate.log_ms};
     }
@@ -212,22 +215,24 @@ private:
         const auto consider = [&](const Effect& effect, std::vector<Change> changes) {
             const Effect sum = measured(from) + effect;
             const double ms = std::exp(sum.log_ms), error = std::max(sum.error, 0.0);
-            const double predicted = missOf(
-                {error / budgetSlack, static_cast<std::uint64_t>(std::max(sum.bytes, 0.0) / budgetSlack)},
-                ms / budgetSlack, budget_);
+            Measures expected;
+            expected[budget_.figure] = error / budgetSlack;
+            expected[Measure::memory] = sum.bytes / budgetSlack;
+            expected[Measure::ms] = ms / budgetSlack;
+            const double predicted = missOf(expected, budget_);
             if (miss > 0 ? predicted >= miss : predicted > 0) return;
             const auto count = static_cast<double>(changes.size());
             if (miss > 0)
                 trials.push_back({{predicted, ms, count}, std::move(changes)});
             else if (budget_.isForSpeed() && ms < timeSlack * best.ms())
                 trials.push_back({{0, ms, count}, std::move(changes)});
-            else if (!budget_.isForSpeed() && error < best.judged->error)
+            else if (!budget_.isForSpeed() && error < best[budget_.figure])
                 trials.push_back({{0, error, ms}, std::move(changes)});
         };
         for (std::size_t a = 0; a < singles.size(); ++a) {
             if (!singles[a].second) {
                 // Unknown effect: assume slightly better than the best, so that it is tried.
-                consider({0, -1e-3 * best.judged->error, 0}, {singles[a].first});
+                consider({0, -1e-3 * best[budget_.figure], 0}, {singles[a].first});
                 continue;
             }
             consider(*singles[a].second, {singles[a].first});
@@ -255,7 +260,7 @@ private:
                 const std::optional<Settings> made = options_.combine(all_[best].settings, trial.changes);
                 if (!made || std::ranges::find(all_, *made, &Candidate::settings) != all_.end()) continue;
                 tried.push_back(all_.size());
-                all_.push_back({.settings = *made});
+                all_.push_back({{.settings = *made}});
             }
             if (tried.empty()) return;
             say(0.7 + 0.2 * (1 - std::exp(-0.05 * static_cast<double>(all_.size() - known_))), "changes");
@@ -277,7 +282,7 @@ private:
         for (const std::size_t i : tried) {
             if (times_first && all_[i].ms() > worthJudging * all_[best].ms()) continue;
             judge(i);
-            const double error_miss = missOf(*all_[i].judged, {}, budget_);
+            const double error_miss = missOf(all_[i].measured, budget_);
             if (miss > 0 ? error_miss < miss : error_miss <= 0) left.push_back(i);
         }
         if (!times_first) time(left, best);
@@ -293,7 +298,7 @@ private:
             const Candidate& best = all_[fit.front()];
             std::erase_if(fit, [&](std::size_t i) {
                 return budget_.isForSpeed() ? all_[i].ms() > worthTimingAgain * best.ms()
-                                            : all_[i].judged->error > alikeErrors * best.judged->error;
+                                            : all_[i][budget_.figure] > alikeErrors * best[budget_.figure];
             });
             fit.resize(std::min(fit.size(), finalists));
             timeAgain(fit);
@@ -317,7 +322,7 @@ private:
         found_.timings += result.draws;
         found_.significant = result.significant;
         found_.chosen = which[result.winner];
-        found_.ms = result.finalists[result.winner].ms;
+        found_.ms = result.ms[result.winner];
         // Shift earlier times to the device's current speed.
         const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
         if (std::abs(shift) >= worthShifting)
@@ -325,17 +330,18 @@ private:
         for (std::size_t k = 0; k < which.size(); ++k) {
             const std::size_t i = which[k];
             all_[i].status = CandidateStatus::raced;
-            all_[i].race_time = result.finalists[k];
+            all_[i].measured[Measure::ms] = result.ms[k];
+            all_[i].race = result.ratios[k];
             if (k == result.winner) continue;
-            if (!all_[i].race_time->isSlower()) found_.ties.push_back(i);
-            if (!found_.runner_up || all_[i].race_time->ratio < all_[*found_.runner_up].race_time->ratio)
+            if (!all_[i].race->isSlower()) found_.ties.push_back(i);
+            if (!found_.runner_up || all_[i].race->ratio < all_[*found_.runner_up].race->ratio)
                 found_.runner_up = i;
         }
     }
 
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
-            if (all_[i].judged && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
+            if (all_[i].isJudged() && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
                 found_.nearest = i;
         if (found_.nearest) found_.ms = all_[*found_.nearest].ms();
     }
@@ -353,18 +359,18 @@ private:
 }  // namespace
 
 double Candidate::ms() const {
-    if (race_time) return race_time->ms;
+    if (measured.has(Measure::ms)) return (*this)[Measure::ms];
     return timings > 0 ? std::exp(log_ms) : std::numeric_limits<double>::quiet_NaN();
 }
 
-double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget) {
+double missOf(const Measures& measured, const Budget& budget) {
     double miss = 0;
     const auto add = [&](double value, double limit) {
         if (value > limit) miss = std::max(miss, value / std::max(limit, 1e-12) - 1);
     };
-    if (budget.error) add(judged.error, *budget.error);
-    if (budget.bytes) add(static_cast<double>(judged.bytes), static_cast<double>(*budget.bytes));
-    if (budget.ms && ms) add(*ms, *budget.ms);
+    if (budget.error) add(measured[budget.figure], *budget.error);
+    if (budget.bytes) add(measured[Measure::memory], static_cast<double>(*budget.bytes));
+    if (budget.ms) add(measured[Measure::ms], *budget.ms);
     return miss;
 }
 
@@ -376,7 +382,7 @@ std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& b
     if (!choice.chosen) return {};
     const auto value = [&](std::size_t i) {
         const Candidate& candidate = choice.candidates[i];
-        return budget.isForSpeed() ? candidate.ms() : candidate.judged->error;
+        return budget.isForSpeed() ? candidate.ms() : candidate[budget.figure];
     };
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i)

@@ -21,10 +21,12 @@
 namespace diptych::choose {
 
 using experiment::Evaluator;
-using experiment::Judged;
+using experiment::Measure;
+using experiment::Measures;
 
 struct Budget {
-    std::optional<double> error;         // in the chosen metric
+    Measure figure = Measure::flip;  // the error's
+    std::optional<double> error;
     std::optional<double> ms;            // per frame
     std::optional<std::uint64_t> bytes;  // images and buffers of a frame
     // Whether the fastest is wanted. Else the most accurate, and the fastest among equals.
@@ -55,20 +57,20 @@ enum class CandidateStatus {
     raced,  // fits, and was timed against the best
 };
 
-struct Candidate {
-    Settings settings;
+// Row::passes: of the chosen one and the other path's best.
+struct Candidate : experiment::Row {
     CandidateStatus status = CandidateStatus::slower;
-    std::optional<Judged> judged{};
-    double log_ms = 0;                        // mean of its log times, ms
-    std::size_t timings = 0;                  // 0: log_ms is not valid
-    std::vector<PassTime> passes{};           // of the chosen one and the other path's best
-    std::optional<FinalistTime> race_time{};  // if raced
-    double ms() const;                        // NaN without timings
+    double log_ms = 0;        // mean of its log times, ms
+    std::size_t timings = 0;  // 0: log_ms is not valid
+    // If raced: its time over the winner's.
+    std::optional<TimeRatio> race{};
+    double ms() const;  // NaN without timings
+    bool isJudged() const { return measured.has(Measure::memory); }
     bool isFit() const { return status == CandidateStatus::fits || status == CandidateStatus::raced; }
 };
 
-// Largest relative excess over the budget; 0: within it. `ms`: empty to ignore time.
-double missOf(const Judged& judged, std::optional<double> ms, const Budget& budget);
+// Largest relative excess over the budget; 0: within it, as far as it was measured.
+double missOf(const Measures& measured, const Budget& budget);
 
 struct Choice {
     std::vector<Candidate> candidates;

@@ -44,7 +44,7 @@ struct MadeScene {
           views(scene),
           renderer(of.device, views, of.pipelines),
           viewpoints(std::move(from)),
-          evaluator(renderer, viewpoints, 0, {}) {}
+          evaluator(renderer, viewpoints, Measure::flip, {}) {}
     Scene scene;
     SceneViews views;
     Renderer renderer;
@@ -131,7 +131,7 @@ private:
     std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
         return [this_of = of_, value, settings] {
             const auto evaluator = std::make_shared<experiment::SceneEvaluator>(
-                this_of.renderer, this_of.references, 0, RenderOptions());
+                this_of.renderer, this_of.references, Measure::flip, RenderOptions());
             return Variation{value, [evaluator, settings](std::span<const std::size_t> order) {
                                  return evaluator->time(settings, order);
                              }};
@@ -303,8 +303,8 @@ private:
 }  // namespace
 
 DrawInOrder drawAsIs(const VariedScene& of) {
-    const auto evaluator =
-        std::make_shared<experiment::SceneEvaluator>(of.renderer, of.references, 0, RenderOptions());
+    const auto evaluator = std::make_shared<experiment::SceneEvaluator>(of.renderer, of.references,
+                                                                        Measure::flip, RenderOptions());
     return [evaluator, settings = of.settings](std::span<const std::size_t> order) {
         return evaluator->time(settings, order);
     };

@@ -23,9 +23,7 @@ std::string percent(double ratio) {
 }
 
 std::string finalistWords(const ChoiceReport& report, std::size_t i) {
-    const FinalistTime& race_time = *report.choice.candidates[i].race_time;
-    return fmt::format("{}: {}", report.words[i],
-                       longerInWords(race_time.ratio, race_time.low, race_time.high));
+    return fmt::format("{}: {}", report.words[i], longerInWords(*report.choice.candidates[i].race));
 }
 
 std::vector<std::string> missesInWords(const ChoiceReport& report) {
@@ -40,11 +38,11 @@ std::vector<std::string> missesInWords(const ChoiceReport& report) {
                 fmt::format("{} over the {} budget of {}", percent(value / limit), what, limit_text));
     };
     if (budget.error)
-        gap(nearest.judged->error, *budget.error, "error", fmt::format("{:.4g}", *budget.error));
+        gap(nearest[budget.figure], *budget.error, "error", fmt::format("{:.4g}", *budget.error));
     if (budget.ms && nearest.timings > 0)
         gap(choice.ms, *budget.ms, "time", fmt::format("{:.4g} ms", *budget.ms));
     if (budget.bytes)
-        gap(static_cast<double>(nearest.judged->bytes), static_cast<double>(*budget.bytes), "memory",
+        gap(nearest[Measure::memory], static_cast<double>(*budget.bytes), "memory",
             page::bytes(*budget.bytes));
     return lines;
 }
@@ -53,9 +51,10 @@ void addHeldOut(const ChoiceReport& report, std::vector<std::string>& lines) {
     if (report.held_out.empty())
         lines.push_back(std::string("not checked from another camera: the scene has no other"));
     for (const HeldOutCamera& camera : report.held_out)
-        lines.push_back(fmt::format(
-            "checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera, report.figure,
-            camera.error, camera.holds ? "" : ", over the budget: name both cameras with --camera"));
+        lines.push_back(
+            fmt::format("checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera,
+                        report.figure(), camera.error,
+                        camera.holds ? "" : ", over the budget: name both cameras with --camera"));
 }
 
 // Compares the chosen Settings with the other path's best fitting ones, pass by pass.
@@ -80,8 +79,8 @@ std::string whyInWords(const ChoiceReport& report) {
     std::string line = fmt::format("the other path: the {} settings that fit are {}, {:.3g} ms",
                                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.ms());
     if (!forSpeed)
-        line += fmt::format(", {} {:.3g} against {:.3g}", report.figure, other.judged->error,
-                            chosen.judged->error);
+        line += fmt::format(", {} {:.3g} against {:.3g}", report.figure(), other[report.budget.figure],
+                            chosen[report.budget.figure]);
     for (std::size_t i = 0; i < parts.size(); ++i)
         line += (i == 0 ? "; passes, ms: " : ", ") + parts[i].second;
     return line;
@@ -99,6 +98,18 @@ std::string fatesInWords(const Choice& choice) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
+nlohmann::ordered_json candidateJson(const ChoiceReport& report, std::size_t i) {
+    const Candidate& candidate = report.choice.candidates[i];
+    Json json = experiment::jsonOf(candidate);
+    json["words"] = report.words[i];
+    json["command"] = report.commands[i];
+    json["frames_timed"] = candidate.timings;
+    if (candidate.race) json["race"] = jsonOf(*candidate.race);
+    return json;
+}
+
+}  // namespace
+
 const char* nameOf(CandidateStatus status) {
     switch (status) {
         case CandidateStatus::slower:
@@ -115,38 +126,21 @@ const char* nameOf(CandidateStatus status) {
     return "";
 }
 
-nlohmann::ordered_json jsonOf(const ChoiceReport& report, std::size_t i) {
-    const Candidate& candidate = report.choice.candidates[i];
-    Json json{{"settings", parseOrderedJson(toJson(candidate.settings))},
-              {"words", report.words[i]},
-              {"command", report.commands[i]},
-              {"fate", nameOf(candidate.status)},
-              {"frames_timed", candidate.timings}};
-    json["ms"] = candidate.timings > 0 ? Json(candidate.ms()) : Json();
-    json["error"] = candidate.judged ? Json(candidate.judged->error) : Json();
-    json["first_camera_error"] = Json();  // schema 1 key, unused
-    json["bytes"] = candidate.judged ? Json(candidate.judged->bytes) : Json();
-    if (candidate.race_time)
-        json["race"] = {{"ratio", candidate.race_time->ratio},
-                        {"low", candidate.race_time->low},
-                        {"high", candidate.race_time->high},
-                        {"rounds", candidate.race_time->rounds}};
-    return json;
+Json jsonOf(const TimeRatio& of) {
+    return {{"ratio", of.ratio}, {"low", of.low}, {"high", of.high}, {"pairs", of.pairs}};
 }
 
-}  // namespace
-
-std::string longerInWords(double ratio, double low, double high) {
-    return fmt::format("takes {:.1f} % {} ({:+.1f} % to {:+.1f} %)", 100 * std::abs(ratio - 1),
-                       ratio < 1 ? "less time" : "longer", 100 * (low - 1), 100 * (high - 1));
+std::string longerInWords(const TimeRatio& of) {
+    return fmt::format("takes {:.1f} % {} ({:+.1f} % to {:+.1f} %)", 100 * std::abs(of.ratio - 1),
+                       of.ratio < 1 ? "less time" : "longer", 100 * (of.low - 1), 100 * (of.high - 1));
 }
 
 std::string figuresInWords(const ChoiceReport& report, std::size_t i) {
     const Candidate& candidate = report.choice.candidates[i];
     std::string text = candidate.timings > 0 ? fmt::format("{:.4g} ms", candidate.ms()) : "not timed";
-    if (candidate.judged)
-        text += fmt::format(", {} {:.4g}, {}", report.figure, candidate.judged->error,
-                            page::bytes(candidate.judged->bytes));
+    if (candidate.isJudged())
+        text += fmt::format(", {} {:.4g}, {}", report.figure(), candidate[report.budget.figure],
+                            page::bytes(candidate.whole(Measure::memory)));
     return text;
 }
 
@@ -184,7 +178,7 @@ std::vector<std::string> reasonsInWords(const ChoiceReport& report) {
 std::string goalInWords(const ChoiceReport& report) {
     const Budget& budget = report.budget;
     std::vector<std::string> limits;
-    if (budget.error) limits.push_back(fmt::format("{} at most {:.4g}", report.figure, *budget.error));
+    if (budget.error) limits.push_back(fmt::format("{} at most {:.4g}", report.figure(), *budget.error));
     if (budget.ms) limits.push_back(fmt::format("at most {:.4g} ms", *budget.ms));
     if (budget.bytes) limits.push_back(fmt::format("at most {}", page::bytes(*budget.bytes)));
     return fmt::format("the {} with {}", budget.isForSpeed() ? "fastest" : "most accurate",
@@ -217,18 +211,18 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     const Choice& choice = report.choice;
     Json ties = Json::array(), candidates = Json::array(), held_out = Json::array();
     for (const std::size_t i : choice.ties) ties.push_back(i);
-    for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(jsonOf(report, i));
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) candidates.push_back(candidateJson(report, i));
     for (const HeldOutCamera& camera : report.held_out)
         held_out.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
     const auto place = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(); };
     const auto limit = [](const auto& value) { return value ? Json(*value) : Json(); };
     Json json{
-        {"schema", 1},
+        {"schema", 2},
         {"scene", report.scene},
         {"cameras", report.cameras},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"type", report.device.type}}},
-        {"figure", report.figure_name},
+        {"figure", named(report.budget.figure).name},
         {"budget",
          {{"error", limit(report.budget.error)},
           {"ms", limit(report.budget.ms)},
@@ -244,11 +238,10 @@ nlohmann::ordered_json toJson(const ChoiceReport& report) {
     if (report.sensitivities) json["deciders"] = toJson(*report.sensitivities);
     json["unseen_cameras"] = std::move(held_out);
     json["judged"] = choice.judged;
-    json["estimated"] = 0;  // schema 1 key, unused: every image is judged from all cameras
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
     json["notes"] = report.notes;
-    json["candidates"] = std::move(candidates);
+    json["rows"] = std::move(candidates);
     return json;
 }
 

@@ -2,6 +2,7 @@
 #include "compare/choose/html.h"
 #include "compare/choose/plot.h"
 #include "compare/files/listed_folder.h"
+#include "compare/output/writers.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
             folder.put(fmt::format("settings{}.json", number),
                        toJson(report.choice.candidates[*report.choice.chosen].settings) + "\n");
     }
+    folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(allRows(choices))));
     folder.put("index.html", choiceHtml(choices, folder.files()));
     folder.finish(toJson(choices));
 }

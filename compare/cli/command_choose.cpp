@@ -58,8 +58,7 @@ Question questionOf(const Options& options) {
     return {options.settings,
             options.camera_given ? options.cameras : std::vector<std::string>(),
             options.grid,
-            figureNamed(choose.figure),
-            {choose.max_error, choose.max_ms, choose.max_bytes},
+            {figureNamed(choose.figure), choose.max_error, choose.max_ms, choose.max_bytes},
             choose.explain,
             renderOptions(options),
             pictureChoice(options)};

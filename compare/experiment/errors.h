@@ -2,31 +2,17 @@
 // Judges an image by its errors against the reference.
 #pragma once
 
+#include "compare/experiment/measures.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
 #include "shared/frame/frame.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace diptych::experiment {
-
-// A metric: its key in JSON, its title in tables and its description.
-struct NamedMetric {
-    std::string_view name, title, means;
-};
-
-// Error metrics of lit over pixels with a surface in the reference: the same pixels for every row.
-inline constexpr std::array errorFigures{
-    NamedMetric{"flip", "FLIP", "mean HDR-FLIP, 0 to 1"},
-    NamedMetric{"relative_rmse", "relative RMSE", "root mean square of the relative error"},
-    NamedMetric{"relative_p99", "relative p99", "99th percentile of the relative error, nearest rank"},
-};
-using Errors = std::array<double, errorFigures.size()>;
 
 // The value; infinity if it is not finite.
 double knownOrInfinite(double value);

@@ -26,17 +26,19 @@ FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     key.addAll(lit.data);
     const std::pair picture(camera, key.value());
     if (const auto known = judged_.find(picture); known != judged_.end()) return known->second;
-    FrameErrors errors = references_.errors[camera]->forFigure(figure_, lit);
+    FrameErrors errors = references_.errors[camera]->forFigure(figureIndex(), lit);
     if (errors.pixels.empty()) judged_.emplace(picture, errors);
     return errors;
 }
 
-Judged SceneEvaluator::judge(const Settings& settings) {
+Measures SceneEvaluator::judge(const Settings& settings) {
     ErrorsOfCameras errors;
-    Judged judged;
+    Measures judged;
+    judged[Measure::memory] = 0;
     const auto add = [&](std::size_t camera, const Image& lit, const FrameBytes& bytes) {
         errors.add(errorsOf(camera, lit));
-        judged.bytes = std::max(judged.bytes, bytes.images + bytes.buffers);
+        judged[Measure::memory] =
+            std::max(judged[Measure::memory], static_cast<double>(bytes.images + bytes.buffers));
     };
     RenderOptions drawing = litOptions(options_, false);
     drawing.runs = 0;
@@ -53,7 +55,7 @@ Judged SceneEvaluator::judge(const Settings& settings) {
             add(camera, frame.channels.at(Channel::lit), frame.bytes);
         }
     }
-    judged.error = errors.errors().at(figure_);
+    judged[figure_] = errors.errors()[figureIndex()];
     return judged;
 }
 

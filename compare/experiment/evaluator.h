@@ -4,6 +4,7 @@
 
 #include "compare/experiment/prepared_pool.h"
 #include "compare/experiment/references.h"
+#include "compare/experiment/row.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +15,6 @@
 
 namespace diptych::experiment {
 
-// Deterministic results of Settings.
-struct Judged {
-    double error = 0;
-    std::uint64_t bytes = 0;
-};
-
 // Draws, judges and times Settings of a scene: on a device, or from recorded times.
 class Evaluator {
 public:
@@ -27,7 +22,8 @@ public:
     Evaluator(const Evaluator&) = delete;
     Evaluator& operator=(const Evaluator&) = delete;
     virtual ~Evaluator() = default;
-    virtual Judged judge(const Settings& settings) = 0;
+    // Error and bytes, which do not change from run to run.
+    virtual Measures judge(const Settings& settings) = 0;
     // Renders frames[order[i]] for each i; returns the times, ms.
     virtual std::vector<double> time(std::span<const Settings> frames,
                                      std::span<const std::size_t> order) = 0;
@@ -39,12 +35,12 @@ public:
 // are the mean, memory is the maximum; passes are of the first camera.
 class SceneEvaluator final : public Evaluator {
 public:
-    // `figure`: index in errorFigures. The renderer and the references must outlive the object.
-    SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, std::size_t figure,
+    // `figure`: the error that is wanted. The renderer and the references must outlive the object.
+    SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, Measure figure,
                    const RenderOptions& options)
         : renderer_(renderer), references_(references), figure_(figure), options_(options), pool_(renderer) {}
 
-    Judged judge(const Settings& settings) override;
+    Measures judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the prepared frames, which own images.
     void release() {
@@ -54,13 +50,14 @@ public:
     std::vector<PassTime> profile(const Settings& settings) override;
 
 private:
+    std::size_t figureIndex() const { return figure_ - Measure::flip; }
     std::size_t cameras() const { return references_.frames.size(); }
     // Errors of one camera's image. FLIP results are cached by the image's hash.
     FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
     Renderer& renderer_;
     const ReferenceFrames& references_;
-    std::size_t figure_;
+    Measure figure_;
     RenderOptions options_;
     PreparedPool pool_;
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.

@@ -12,7 +12,7 @@ namespace diptych::experiment {
 
 namespace {
 
-constexpr double wantedConfidence = 0.95;  // of PairedRatio
+constexpr double wantedConfidence = 0.95;  // of pairedRatio()
 
 // P(|T| <= t) of Student's t distribution.
 double within(double t, int freedom) {
@@ -68,15 +68,21 @@ MeanInterval meanDifference(std::span<const double> a, std::span<const double> b
     return meanInterval(differences, doubted);
 }
 
-PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster) {
+TimeRatio meanRatio(std::span<const double> logs, std::span<const double> base_logs, double doubted) {
+    const auto [mean, half_width] = meanDifference(logs, base_logs, doubted);
+    return {std::exp(mean), std::exp(mean - half_width), std::exp(mean + half_width), 1 - doubted,
+            static_cast<int>(std::min(logs.size(), base_logs.size()))};
+}
+
+TimeRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < std::min(slower.size(), faster.size()); ++i)
         if (faster[i] > 0) ratios.push_back(slower[i] / faster[i]);
-    PairedRatio result;
+    TimeRatio result;
     result.pairs = static_cast<int>(ratios.size());
     if (ratios.empty()) return result;
     std::ranges::sort(ratios);
-    result.median = 0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]);
+    result.ratio = 0.5 * (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]);
     int k = 1;
     while (2 * k < result.pairs && confidenceOf(result.pairs, k + 1) >= wantedConfidence) ++k;
     result.confidence = std::max(0.0, confidenceOf(result.pairs, k));

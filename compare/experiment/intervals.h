@@ -23,16 +23,20 @@ MeanInterval meanInterval(std::span<const double> values, double doubted);
 // The same for the differences a[i] - b[i]. Values that only one of them has are left out.
 MeanInterval meanDifference(std::span<const double> a, std::span<const double> b, double doubted);
 
-// Median of paired ratios with a distribution-free confidence interval: order statistics of a sign test
-// (Thompson 1936, "On Confidence Ranges for the Median and Other Expectation Distributions for Populations
-// of Unknown Distribution Form"; Conover 1999, "Practical Nonparametric Statistics", 3.2). 95 % needs at
-// least six pairs.
-struct PairedRatio {
-    double median = 1, low = 1, high = 1;
+// A time over another, with its confidence interval.
+struct TimeRatio {
+    double ratio = 1, low = 1, high = 1;
     double confidence = 0;  // 0 to 1
     int pairs = 0;
     bool isSure() const { return confidence > 0.9 && (low > 1 || high < 1); }
+    bool isSlower() const { return low > 1; }
 };
-PairedRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
+// Geometric mean of paired ratios; the arguments are logarithms of times.
+TimeRatio meanRatio(std::span<const double> logs, std::span<const double> base_logs, double doubted);
+// Median of paired ratios with a distribution-free interval: order statistics of a sign test (Thompson 1936,
+// "On Confidence Ranges for the Median and Other Expectation Distributions for Populations of Unknown
+// Distribution Form"; Conover 1999, "Practical Nonparametric Statistics", 3.2). 95 % needs at least six
+// pairs.
+TimeRatio pairedRatio(const std::vector<double>& slower, const std::vector<double>& faster);
 
 }  // namespace diptych::experiment

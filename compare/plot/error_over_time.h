@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Shared part of plots of error over frame time. Both axes are logarithmic; errors of 0 and infinite ones
-// have their own lanes at the bottom and the top.
+// Plots of error over frame time. Both axes are logarithmic; errors of 0 and infinite ones have their own
+// lanes at the bottom and the top.
 #pragma once
 
 #include "compare/plot/drawing.h"
 #include "shared/frame/settings.h"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,5 +37,28 @@ private:
 
 // A path's point: round or square, so that paths differ in more than colour. `r`: radius.
 std::string pathMark(Path path, double x, double y, double r);
+
+// One Settings. A bar spans the least to the greatest time or error, if they differ from the value.
+struct ErrorPoint {
+    Path path;
+    double ms, least_ms, most_ms;
+    double error, least_error, most_error;
+    std::size_t number;      // data-row
+    std::string words;       // tooltip
+    bool front = false;      // on the Pareto front
+    bool best = false;       // drawn larger, on top
+    std::string label = {};  // beside it
+};
+
+struct ErrorPlot {
+    std::string title, error_name;
+    std::vector<ErrorPoint> points{};
+    std::optional<double> most_ms{}, most_error{};  // limits
+    std::string bar{};                              // what it means; empty: not in the legend
+    bool legend = true;
+};
+
+// SVG. `role` of a point on a page: "button" or "img".
+std::string errorPlot(const ErrorPlot& plot, PlotPlace place, const char* role);
 
 }  // namespace diptych

@@ -18,7 +18,7 @@ std::string digits(double value) {
 std::vector<std::string> passNames(const Tradeoff& tradeoff) {
     std::vector<std::string> names;
     for (const TradeoffRow& row : tradeoff.rows)
-        for (const PassTime& pass : passesOf(row))
+        for (const PassTime& pass : row.passes)
             if (std::ranges::count(names, pass.name) == 0) names.push_back(pass.name);
     return names;
 }
@@ -45,37 +45,35 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
                 return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
                                                                           : "";
             });
-    using Part = std::pair<const char*, double Spread::*>;
-    const Part parts[] = {{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}};
-    for (const auto& [end, part] : parts)
-        add("ms", end, [&, of = part](const Row& row) { return digits(timeOf(row).*of); });
+    const auto addMeasure = [&](std::string_view before, std::string_view title, Measure measure) {
+        add(before, title,
+            [=](const Row& row) { return row.measured.has(measure) ? digits(row[measure]) : std::string(); });
+    };
+    addMeasure("", "ms", Measure::ms);
+    addMeasure("", "ms_min", Measure::ms_min);
+    addMeasure("", "ms_max", Measure::ms_max);
     add("", "runs", [&](const Row&) { return fmt::format("{}", tradeoff.runs); });
+    using Part = std::pair<const char*, double Spread::*>;
     for (std::size_t f = 0; f < errorFigures.size(); ++f)
-        for (const auto& [end, part] : parts)
+        for (const auto& [end, part] :
+             {Part{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}})
             add(errorFigures[f].name, end,
-                [f, of = part](const Row& row) { return digits(errorOf(row, f).*of); });
+                [f, of = part](const Row& row) { return digits(spreadOf(row, errorMeasure(f)).*of); });
     for (std::size_t f = 0; f < errorFigures.size(); ++f)
         add("front_", errorFigures[f].name, [&, front = frontOf(tradeoff, f)](const Row& row) {
             return std::ranges::count(front, placeOf(row)) > 0 ? "1" : "0";
         });
-    const auto addFigures = [&](const char* before, const auto& figures, const auto& valuesOf) {
-        for (std::size_t f = 0; f < figures.size(); ++f)
-            add(before, figures[f].name, [&](const Row& row) {
-                const auto values = valuesOf(row);
-                return values ? digits((*values)[f]) : "";
-            });
-    };
-    addFigures("shadow_", shadowFigures, shadowOf);
-    addFigures("samples_", sampleFigures, samplesOf);
-    for (const auto& [name, bytes] : {std::pair{"image_bytes", &FrameBytes::images},
-                                      {"buffer_bytes", &FrameBytes::buffers},
-                                      {"gbuffer_bytes_per_pixel", &FrameBytes::gbuffer_per_pixel}})
-        add("", name, [of = bytes](const Row& row) { return fmt::format("{}", bytesOf(row).*of); });
+    for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+        addMeasure("shadow_", shadowFigures[f].name, Measure::shadow_error + f);
+    for (std::size_t f = 0; f < sampleFigures.size(); ++f)
+        addMeasure("samples_", sampleFigures[f].name, Measure::shaded + f);
+    addMeasure("", "image_bytes", Measure::image_bytes);
+    addMeasure("", "buffer_bytes", Measure::buffer_bytes);
+    addMeasure("", "gbuffer_bytes_per_pixel", Measure::gbuffer_bytes);
     for (const std::string& pass : passNames(tradeoff))
         add("ms: ", pass, [&](const Row& row) {
-            const std::vector<PassTime> times = passesOf(row);
-            const auto found = std::ranges::find(times, pass, &PassTime::name);
-            return found == times.end() ? "" : digits(found->ms);
+            const auto found = std::ranges::find(row.passes, pass, &PassTime::name);
+            return found == row.passes.end() ? "" : digits(found->ms);
         });
     add("", "warnings", [](const Row& row) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
     add("", "picture", [](const Row& row) { return row.picture; });

@@ -7,17 +7,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace diptych::tradeoff {
 
-using output::bytesCell;
+using experiment::cellOf;
+using experiment::columnOf;
 using output::Cell;
 using output::Column;
-using output::millisecondsCell;
-using output::numberCell;
 using output::Span;
 
 namespace {
+
+// Columns of every row, and their widths in a terminal.
+constexpr std::pair<Measure, std::size_t> sweepMeasures[] = {
+    {Measure::ms, 8},     {Measure::ms_min, 8},         {Measure::ms_max, 8},
+    {Measure::flip, 8},   {Measure::relative_rmse, 13}, {Measure::relative_p99, 12},
+    {Measure::memory, 10}};
 
 Cell settingsCell(const TradeoffRow& row, const std::string& words) {
     return output::Text{Span("", Span::swatch, nameOf(row.settings.path)), words};
@@ -34,16 +40,9 @@ std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, 
 }  // namespace
 
 output::Table sweepHead() {
-    output::Table table{{{"row", Column::number, 4},
-                         {"settings", Column::prose},
-                         {"ms", Column::number, 8},
-                         {"min", Column::number, 8},
-                         {"max", Column::number, 8}}};
-    for (const auto& [figure, width] : {std::pair{0, 8}, {1, 13}, {2, 12}})
-        table.columns.push_back({std::string(errorFigures.at(static_cast<std::size_t>(figure)).title),
-                                 Column::number, static_cast<std::size_t>(width)});
-    table.columns.insert(table.columns.end(), {{"memory", Column::number, 10},
-                                               {"front", Column::words, 0, Column::page},
+    output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
+    for (const auto& [measure, width] : sweepMeasures) table.columns.push_back(columnOf(measure, width));
+    table.columns.insert(table.columns.end(), {{"front", Column::words, 0, Column::page},
                                                {"command", Column::prose, 0, Column::page}});
     table.sortable = true;
     return table;
@@ -51,18 +50,14 @@ output::Table sweepHead() {
 
 output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
     const TradeoffRow& row = tradeoff.rows[index];
-    const Spread time = timeOf(row);
-    output::Row cells{{fmt::format("{}", index + 1), settingsCell(row, inWords(row, tradeoff.given)),
-                       millisecondsCell(time.value), millisecondsCell(time.low), millisecondsCell(time.high)},
-                      "",
-                      index + 1};
+    output::Row cells{
+        {fmt::format("{}", index + 1), settingsCell(row, inWords(row, tradeoff.given))}, "", index + 1};
+    for (const auto& [measure, width] : sweepMeasures) cells.cells.push_back(cellOf(row, measure));
     std::vector<std::string_view> on;
-    for (std::size_t f = 0; f < errorFigures.size(); ++f) {
-        cells.cells.push_back(numberCell(row.errors[f]));
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
         if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
-    }
-    cells.cells.insert(cells.cells.end(), {bytesCell(memoryOf(row)), fmt::format("{}", fmt::join(on, ", ")),
-                                           Span(measuringCommand(tradeoff, row), Span::command)});
+    cells.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
+    cells.cells.emplace_back(Span(measuringCommand(tradeoff, row), Span::command));
     return cells;
 }
 
@@ -75,29 +70,27 @@ output::Table sweepTable(const Tradeoff& tradeoff) {
     return table;
 }
 
-output::Table figureHead() {
-    return {
-        .columns = {{"row", Column::number, 4},
-                    {"settings", Column::prose},
-                    {"ms", Column::number, 8, Column::everywhere, "", "median time of a whole frame"},
-                    {"memory", Column::number, 10, Column::everywhere, "", "images and buffers of a frame"}},
-        .sortable = true};
+output::Table figureHead(Measure first, Measure last) {
+    output::Table table{{{"row", Column::number, 4},
+                         {"settings", Column::prose},
+                         columnOf(Measure::ms, 8),
+                         columnOf(Measure::memory, 10)}};
+    table.sortable = true;
+    for (Measure measure = first; measure <= last; measure = measure + 1)
+        table.columns.push_back(columnOf(measure, 10));
+    return table;
 }
 
-void addFigure(FigureTable& table, std::string_view title, std::string_view means) {
-    table.table.columns.push_back(
-        {std::string(title), Column::number, 10, Column::everywhere, "", std::string(means)});
-}
-
-output::Row figureRow(const Tradeoff& tradeoff, std::size_t index, std::string_view option,
-                      std::span<const double> figures) {
+output::Row figureRow(const Tradeoff& tradeoff, std::size_t index, std::string_view option, Measure first,
+                      Measure last) {
     const TradeoffRow& row = tradeoff.rows[index];
     output::Row cells{
         {fmt::format("{}", index + 1), settingsCell(row, settingsInWords(tradeoff, row.settings, option)),
-         millisecondsCell(timeOf(row).value), bytesCell(memoryOf(row))},
+         cellOf(row, Measure::ms), cellOf(row, Measure::memory)},
         "",
         index + 1};
-    for (const double value : figures) cells.cells.push_back(numberCell(value));
+    for (Measure measure = first; measure <= last; measure = measure + 1)
+        cells.cells.push_back(cellOf(row, measure));
     return cells;
 }
 

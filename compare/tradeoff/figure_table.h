@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,12 +26,11 @@ struct FigureTable {
     output::Table table;
 };
 
-// Row, settings, time and memory; followed by addFigure() and the caller's columns.
-output::Table figureHead();
-void addFigure(FigureTable& table, std::string_view title, std::string_view means);
-// Its first cells. The row's Settings include `option`, even at its given value.
-output::Row figureRow(const Tradeoff& tradeoff, std::size_t row, std::string_view option,
-                      std::span<const double> figures);
+// Row, settings, time, memory and the measures from `first` to `last`; the caller may add columns.
+output::Table figureHead(Measure first, Measure last);
+// Its cells. The row's Settings include `option`, even at its given value.
+output::Row figureRow(const Tradeoff& tradeoff, std::size_t row, std::string_view option, Measure first,
+                      Measure last);
 
 // Empty without rows.
 std::string inText(const FigureTable& table);

@@ -19,7 +19,6 @@ namespace diptych::tradeoff {
 
 using output::Heading;
 using output::Span;
-using page::bytes;
 using page::markup;
 using page::number;
 
@@ -74,18 +73,18 @@ std::string pictures(const Tradeoff& tradeoff, const TradeoffRow& row) {
 
 std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     const TradeoffRow& row = tradeoff.rows[index];
-    const Spread time = timeOf(row);
     std::string out = fmt::format(
         "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row "
         "{0}</p>{3}<dl><dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
         index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), pictures(tradeoff, row),
-        time.value, time.low, time.high);
+        row[Measure::ms], row[Measure::ms_min], row[Measure::ms_max]);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
-                           spreadText(errorOf(row, figure)));
-    out += fmt::format("<dt>memory</dt><dd>{}</dd><dt>per pixel</dt><dd>{}</dd>", bytes(memoryOf(row)),
-                       bytes(bytesOf(row).gbuffer_per_pixel));
-    for (const PassTime& pass : passesOf(row))
+                           spreadText(spreadOf(row, errorMeasure(figure))));
+    out += fmt::format("<dt>memory</dt><dd>{}</dd><dt>per pixel</dt><dd>{}</dd>",
+                       inHtml(cellOf(row, Measure::memory).text),
+                       inHtml(cellOf(row, Measure::gbuffer_bytes).text));
+    for (const PassTime& pass : row.passes)
         out += fmt::format("<dt>{}</dt><dd>{:.3g} ms</dd>", markup(pass.name), pass.ms);
     out += "</dl>";
     for (const std::string& warning : row.warnings)
@@ -120,8 +119,8 @@ output::List how(const Tradeoff& tradeoff) {
     const char* const blocks =
         tradeoff.runs > 1
             ? "Each row is timed in several blocks: one when it is drawn, more in later rounds over all rows "
-              "in random order, six rows interleaved. A temporary disturbance of the device thus affects all "
-              "rows alike. A row's time is the mean of its blocks' medians"
+              "in random order, interleaved as far as their images fit into memory. A temporary disturbance "
+              "of the device thus affects all rows alike. A row's time is the mean of its blocks' medians"
             : "Each row has one timed frame";
     output::List list{
         {fmt::format("Time is that of a whole frame, not split into passes, from culling to linear lit, with "
@@ -152,7 +151,7 @@ void checkTradeoffHtml(std::string_view page) {
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
     const Size& size = tradeoff.given.size;
     std::vector<std::string> cameras;
-    for (const CameraRow& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
+    for (const experiment::Row& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
     output::Document page{
         .title = "time against error, " + tradeoff.scene,
         .heading = {"Time against error: ", Span(tradeoff.scene, Span::foreign)},
@@ -163,13 +162,14 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
                   "; errors of lit against the reference"},
         .blocks = {output::Drawing{switches() + plots(tradeoff)},
                    output::Box{"", {Heading{2, "Every row"}, sweepTable(tradeoff)}, "rows"}},
-        .files = {"tradeoff.json", "tradeoff.csv"},
+        .files = {"tradeoff.json", "tradeoff.csv", experiment::rowsFile},
         .style = pageStyle(),
         .script = tradeoffScript,
         .skip = "rows"};
     for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));
     for (const FigureTable& table : {shadowTable(tradeoff), sampleTable(tradeoff)})
         for (output::Block& block : blocksOf(table)) page.blocks.push_back(std::move(block));
+    page.blocks.push_back(experiment::rowsBox(experiment::pointersTo(tradeoff.rows)));
     if (!tradeoff.skips.empty())
         page.blocks.insert(page.blocks.end(), {Heading{2, "Not drawn, and why"}, skips(tradeoff)});
     page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, how(tradeoff)});

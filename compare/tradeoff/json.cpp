@@ -39,9 +39,9 @@ Json frontsOf(const Tradeoff& tradeoff) {
     return fronts;
 }
 
-Json metricsJson(std::span<const NamedMetric> metrics) {
+Json metricsJson(std::span<const experiment::NamedMeasure> metrics) {
     Json list = Json::array();
-    for (const NamedMetric& metric : metrics)
+    for (const experiment::NamedMeasure& metric : metrics)
         list.push_back({{"name", metric.name}, {"title", metric.title}, {"means", metric.means}});
     return list;
 }

@@ -6,6 +6,7 @@
 #include "compare/page/text.h"
 #include "compare/render/timing.h"
 #include "compare/tradeoff/sample_figures.h"
+#include "compare/tradeoff/shadow_errors.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
@@ -31,22 +32,23 @@ double msSince(Clock::time_point start) {
 }
 
 // The first timing block from one camera.
-CameraRow timed(experiment::PreparedPool& pool, const Settings& seen, int runs) {
-    CameraRow camera;
+experiment::Row timed(experiment::PreparedPool& pool, const Settings& seen, int runs) {
+    experiment::Row camera;
     std::vector<std::vector<PassTime>> passes;
     const std::vector<std::size_t> order(static_cast<std::size_t>(runs), 0);
     camera.blocks = {diptych::timeOf(pool.time(std::span(&seen, 1), order))};
     PreparedFrames& frames = pool.frame(seen);
     for (int i = 0; i < profiledOf(runs); ++i) passes.push_back(frames.profile(0));
     camera.passes = mediansOf(passes);
-    camera.bytes = frames.described(0).bytes;
+    camera.measured.set(frames.described(0).bytes);
+    joinBlocks(camera);
     return camera;
 }
 
 // Adds what a capture shows: errors of shadows and of the choice of samples, compared with --msaa-edges
 // exact; and the material of each pixel, which an image of another size is enlarged by.
 void addCaptured(Renderer& renderer, const Frame& reference, const RenderOptions& options, Frame& frame,
-                 CameraRow& camera) {
+                 experiment::Row& camera) {
     const bool shadows = !reference.shadow_edge.empty();
     const std::optional<Settings> exact = exactEdges(frame.settings);
     if (!shadows && !exact && frame.settings.size == reference.settings.size) {
@@ -58,11 +60,14 @@ void addCaptured(Renderer& renderer, const Frame& reference, const RenderOptions
     if (exact) drawing.channels.push_back(Channel::shaded_samples);
     drawing.requested = drawing.channels;
     frame = renderer.draw(frame.settings, drawing);
-    camera.shadow = shadowErrorsOf(reference, frame);
+    if (const auto errors = shadowErrorsOf(reference, frame))
+        camera.measured.set(Measure::shadow_error, *errors);
     if (!exact) return;
     drawing.on_step = {};
     drawing.progress = {};
-    camera.samples = sampleSharesOf(*exact == frame.settings ? frame : renderer.draw(*exact, drawing), frame);
+    if (const auto shares =
+            sampleSharesOf(*exact == frame.settings ? frame : renderer.draw(*exact, drawing), frame))
+        camera.measured.set(Measure::shaded, *shares);
 }
 
 Image8 small(Image8 image) {
@@ -83,15 +88,18 @@ void warn(TradeoffRow& row, const Frame& frame) {
 
 // Adds a camera with the errors of `frame`, which has the reference's size. The first one's pictures show
 // the row; after the last one, the row's errors are those of `all`.
-void addCamera(MeasuredRow& measured, CameraRow camera, const Frame& frame,
+void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame,
                const experiment::ReferenceFrames& references, experiment::ErrorsOfCameras& all) {
     const std::size_t i = measured.row.cameras.size();
     const experiment::FrameErrors errors = (*references.errors[i])(frame.channels.at(Channel::lit));
-    camera.errors = errors.errors;
-    camera.pixels = errors.pixels.size();
+    camera.measured.set(Measure::flip, errors.errors);
+    camera.measured[Measure::compared_pixels] = static_cast<double>(errors.pixels.size());
     measured.row.cameras.push_back(std::move(camera));
     all.add(errors);
-    if (i + 1 == references.frames.size()) measured.row.errors = i == 0 ? errors.errors : all.errors();
+    if (i + 1 == references.frames.size()) {
+        joinCameras(measured.row);
+        measured.row.measured.set(Measure::flip, i == 0 ? errors.errors : all.errors());
+    }
     if (i > 0) return;
     measured.picture = thumbnail(frame, references.exposure);
     measured.errors = small(errorPicture(errors.flip, 1));
@@ -117,7 +125,9 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFr
         showOurBackground(frame, references.frames[i]);
         const double ms = frame.made_in_ms;
         row.drawing_ms += ms;
-        addCamera(measured, {cameraTitle(frame), {{ms, ms, ms, 1}}, {}, {}}, frame, references, all);
+        experiment::Row camera{.camera = cameraTitle(frame), .blocks = {{ms, ms, ms, 1}}};
+        joinBlocks(camera);
+        addCamera(measured, std::move(camera), frame, references, all);
     }
     row.warnings.push_back(
         "its time is its whole command's, from start to end: it is left out of the fronts");
@@ -138,15 +148,16 @@ MeasuredRow measureRow(Renderer& renderer, experiment::PreparedPool& pool, const
         const auto start = Clock::now();
         progress.at(0, fmt::format("{}: time", nameOf(seen.path)));
         if (options.on_step) options.on_step(fmt::format("{}: time", nameOf(seen.path)));
-        CameraRow camera = timed(pool, seen, options.runs);
+        experiment::Row camera = timed(pool, seen, options.runs);
         Frame frame = pool.frame(seen).frame(0);
         camera.camera = cameraTitle(frame);
+        camera.measured.set(frame.counters);
         warn(row, frame);
         RenderOptions captured = options;
         captured.progress = progress.part(0.5, 1);
         addCaptured(renderer, reference, captured, frame, camera);
         row.drawing_ms += msSince(start);
-        if (camera.samples && camera.samples->back() > 0)
+        if (camera[Measure::elsewhere] > 0)
             row.warnings.push_back(
                 cameraTitle(frame) +
                 ": pixels differ from --msaa-edges exact although as many samples are shaded");
@@ -174,9 +185,12 @@ void timeAgain(experiment::PreparedPool& pool, std::span<TradeoffRow* const> row
             std::vector<double> ms;
             for (std::size_t at = i; at < times.size(); at += rows.size()) ms.push_back(times[at]);
             rows[i]->drawing_ms += took;
-            rows[i]->cameras[camera].blocks.push_back(diptych::timeOf(std::move(ms)));
+            experiment::Row& of = rows[i]->cameras[camera];
+            of.blocks.push_back(diptych::timeOf(std::move(ms)));
+            joinBlocks(of);
         }
     }
+    for (TradeoffRow* row : rows) joinCameras(*row);
 }
 
 }  // namespace diptych::tradeoff

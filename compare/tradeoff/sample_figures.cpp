@@ -43,11 +43,11 @@ FigureTable sampleTable(const Tradeoff& tradeoff) {
                       "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
                       "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
                       "is that of all samples. The other modes are compared with exact.",
-                      figureHead()};
-    for (const NamedMetric& figure : sampleFigures) addFigure(table, figure.title, figure.means);
+                      figureHead(Measure::shaded, Measure::elsewhere)};
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
-        if (const std::optional<SampleShares> shares = samplesOf(tradeoff.rows[i]))
-            table.table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", *shares));
+        if (tradeoff.rows[i].measured.has(Measure::shaded))
+            table.table.rows.push_back(
+                figureRow(tradeoff, i, "msaa-edges", Measure::shaded, Measure::elsewhere));
     return table;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/shadow_rows.h"
 
-#include "compare/tradeoff/pareto.h"
+#include "compare/experiment/pareto.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,10 +13,11 @@ namespace diptych::tradeoff {
 namespace {
 
 // Marks rows that are not on the Pareto front of error and cost.
-template <class Cost>
-void markBeaten(std::vector<ShadowRow>& rows, const Cost& cost, bool ShadowRow::*beaten) {
-    std::vector<TimeError> points;
-    for (const ShadowRow& row : rows) points.push_back({cost(row), row.errors.front()});
+void markBeaten(const Tradeoff& tradeoff, std::vector<ShadowRow>& rows, Measure cost,
+                bool ShadowRow::*beaten) {
+    std::vector<experiment::TimeError> points;
+    for (const ShadowRow& row : rows)
+        points.push_back({tradeoff.rows[row.row][cost], tradeoff.rows[row.row][Measure::shadow_error]});
     for (ShadowRow& row : rows) row.*beaten = true;
     for (const std::size_t i : paretoFront(points)) rows[i].*beaten = false;
 }
@@ -32,19 +33,20 @@ std::string beatenIn(const ShadowRow& row) {
 
 std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
     std::vector<ShadowRow> rows;
-    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
-        const TradeoffRow& row = tradeoff.rows[i];
-        if (const std::optional<ShadowErrors> errors = shadowOf(row))
-            rows.push_back({i, *errors, timeOf(row).value, memoryOf(row)});
-    }
-    const auto differs = [&](const ShadowRow& row) { return row.errors != rows.front().errors; };
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        if (tradeoff.rows[i].measured.has(Measure::shadow_error)) rows.push_back({i});
+    const auto differs = [&](const ShadowRow& row) {
+        for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+            if (tradeoff.rows[row.row][Measure::shadow_error + f] !=
+                tradeoff.rows[rows.front().row][Measure::shadow_error + f])
+                return true;
+        return false;
+    };
     if (std::ranges::none_of(rows, differs)) return {};
-    std::ranges::stable_sort(rows, {}, [](const ShadowRow& row) { return row.errors.front(); });
-    markBeaten(
-        rows, [](const ShadowRow& row) { return row.ms; }, &ShadowRow::dominated_in_time);
-    markBeaten(
-        rows, [](const ShadowRow& row) { return static_cast<double>(row.bytes); },
-        &ShadowRow::dominated_in_memory);
+    std::ranges::stable_sort(
+        rows, {}, [&](const ShadowRow& row) { return tradeoff.rows[row.row][Measure::shadow_error]; });
+    markBeaten(tradeoff, rows, Measure::ms, &ShadowRow::dominated_in_time);
+    markBeaten(tradeoff, rows, Measure::memory, &ShadowRow::dominated_in_memory);
     return rows;
 }
 
@@ -54,14 +56,12 @@ FigureTable shadowTable(const Tradeoff& tradeoff) {
         "V: fraction of the sun a pixel sees; R: the same in the reference; E: irradiance of the unshadowed "
         "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
         "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
-        figureHead()};
-    for (const NamedMetric& figure : shadowFigures) addFigure(table, figure.title, figure.means);
+        figureHead(Measure::shadow_error, Measure::gap)};
     table.table.columns.push_back({"dominated in", output::Column::words, 12});
-    for (const ShadowRow& row : shadowRowsOf(tradeoff)) {
-        output::Row& cells =
-            table.table.rows.emplace_back(figureRow(tradeoff, row.row, "shadows", row.errors));
-        cells.cells.emplace_back(beatenIn(row));
-    }
+    for (const ShadowRow& row : shadowRowsOf(tradeoff))
+        table.table.rows
+            .emplace_back(figureRow(tradeoff, row.row, "shadows", Measure::shadow_error, Measure::gap))
+            .cells.emplace_back(beatenIn(row));
     return table;
 }
 

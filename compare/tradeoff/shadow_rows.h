@@ -8,9 +8,6 @@ namespace diptych::tradeoff {
 
 struct ShadowRow {
     std::size_t row = 0;  // index
-    ShadowErrors errors{};
-    double ms = 0;            // per frame
-    std::uint64_t bytes = 0;  // images and buffers of a frame
     // Dominated: another row has no more error and no more time (or memory), and less of one of them.
     bool dominated_in_time = false, dominated_in_memory = false;
 };

@@ -143,6 +143,7 @@ void Sweep::drawRows(const Stage& stage, const std::function<void(std::size_t)>&
             render.runs = blocks.front();
             render.progress = stage.part(from, done / all);
             MeasuredRow measured = measureRow(renderer_, pool_, settings, references_, render);
+            measured.row.scene = tradeoff_.scene;
             tradeoff_.cost.drawing += measured.row.drawing_ms;
             state_.keep(measured);
             tradeoff_.rows.push_back(std::move(measured.row));
@@ -171,7 +172,7 @@ void Sweep::timeAgain(const Stage& stage) {
             double before = 0;
             for (count = 0; at + count < round.size(); ++count) {
                 const TradeoffRow& row = *round[at + count];
-                bytes += memoryOf(row);
+                bytes += static_cast<std::uint64_t>(row[Measure::memory]);
                 if (count > 0 && bytes > experiment::PreparedPool::mostBytes) break;
                 done += weightOf(row.settings);
                 before += row.drawing_ms;
@@ -212,6 +213,7 @@ std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer
             continue;
         }
         MeasuredRow measured = measuredRow(std::move(frames), references_);
+        measured.row.scene = tradeoff_.scene;
         state_.keep(measured);
         tradeoff_.rows.push_back(std::move(measured.row));
         shown(tradeoff_.rows.size() - 1);

@@ -41,7 +41,7 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
                                             std::size_t blocks) const {
     return experiment::findKept(kept_, nameOf(settings), [&](const Json& json) {
         TradeoffRow row = tradeoffRowFrom(json);
-        const auto isVisited = [&](const CameraRow& camera) {
+        const auto isVisited = [&](const experiment::Row& camera) {
             const std::size_t times = camera.blocks.size();
             return times > 0 && times <= blocks && times == row.cameras.front().blocks.size();
         };

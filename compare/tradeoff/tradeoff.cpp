@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/tradeoff.h"
 
+#include "compare/experiment/pareto.h"
 #include "compare/run/command_text.h"
-#include "compare/tradeoff/pareto.h"
 
 #include <fmt/format.h>
 
@@ -64,12 +64,13 @@ std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> pa
 
 std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path) {
     const std::vector<std::size_t> rows = rowsOf(tradeoff, path);
-    std::vector<TimeError> points;
+    std::vector<experiment::TimeError> points;
     for (const std::size_t i : rows) {
-        const Spread time = timeOf(tradeoff.rows[i]);
+        const TradeoffRow& row = tradeoff.rows[i];
         // Disturbances only slow frames down. Median minus least estimates the noise without depending on
         // one outlier, as the greatest time would.
-        points.push_back({time.value, tradeoff.rows[i].errors[figure], time.value - time.low});
+        points.push_back(
+            {row[Measure::ms], row[errorMeasure(figure)], row[Measure::ms] - row[Measure::ms_min]});
     }
     std::vector<std::size_t> front;
     for (const std::size_t i : paretoFront(points)) front.push_back(rows[i]);
@@ -81,7 +82,7 @@ std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
     for (const TradeoffRow& row : tradeoff.rows) {
         if (!row.renderer.empty()) continue;
         double first = 0, second = 0;
-        for (const CameraRow& camera : row.cameras) {
+        for (const experiment::Row& camera : row.cameras) {
             if (camera.blocks.size() < 2) return {};
             first += camera.blocks[0].median;
             second += camera.blocks[1].median;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/listed_folder.h"
 #include "compare/files/output.h"
+#include "compare/output/writers.h"
 #include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -33,6 +34,7 @@ std::string writeTradeoff(const Tradeoff& measured, const fs::path& path, const 
             folder.put(plotName(figure, one), tradeoffPlot(tradeoff, figure, one, PlotPlace::file));
     }
     folder.put("tradeoff.csv", tradeoffCsv(tradeoff));
+    folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(experiment::pointersTo(tradeoff.rows))));
     folder.put("index.html", tradeoffHtml(tradeoff));
     std::string json = tradeoffJson(tradeoff, folder.files());
     folder.finish(json);

@@ -25,9 +25,9 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     for (const auto& entry : fs::directory_iterator(folder / "b")) there.insert(entry.path().filename());
     EXPECT_EQ(listed, there);
     EXPECT_EQ(there, (std::set<std::string>{"bench.json", "bench.svg", "index.html"}));
-    ASSERT_EQ(bench["frames"].size(), 12u) << "2 paths, 2 sizes, 3 counts";
+    ASSERT_EQ(bench["rows"].size(), 12u) << "2 paths, 2 sizes, 3 counts";
     std::set<int> lights;
-    for (const Json& row : bench["frames"]) {
+    for (const Json& row : bench["rows"]) {
         EXPECT_EQ(row["ms"]["runs"], 2);
         EXPECT_GT(row["ms"]["min"], 0);
         EXPECT_LE(row["ms"]["min"], row["ms"]["median"]);
@@ -64,7 +64,7 @@ TEST(Bench, GrowthIsDrawnUntilItIsTooMuch) {
     // Above the limit, larger configurations are neither tried nor loaded.
     ASSERT_EQ(runTool(folder, growth + "--axes instances,triangles --max-ms 1e-6").code, 0);
     const Json slow = readJson(folder / "b/bench.json");
-    EXPECT_TRUE(slow["frames"].empty());
+    EXPECT_TRUE(slow["rows"].empty());
     EXPECT_EQ(slow["skipped"].size(), 4u) << slow["skipped"];
     EXPECT_TRUE(runTool(folder, growth + "--axes time").failedOver("--axes time: takes triangles, draws"));
     EXPECT_TRUE(runTool(folder, growth + "--sizes 8x8").failedOver("--table growth: takes no"));
@@ -78,7 +78,7 @@ TEST(Bench, SkipsWithAReasonWhatIsNotDrawnOrTooSlow) {
                             "--assign every,per_object --light-counts 1,2 --max-ms 1e-6 -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json bench = readJson(folder / "b/bench.json");
-    EXPECT_TRUE(bench["frames"].empty());
+    EXPECT_TRUE(bench["rows"].empty());
     ASSERT_EQ(bench["skipped"].size(), 3u) << bench["skipped"];
     EXPECT_EQ(bench["skipped"][0]["assign"], "per_object");
     EXPECT_NE(bench["skipped"][1]["reason"].get<std::string>().find("its first frame took"),
@@ -144,8 +144,8 @@ TEST(Bench, LayersByWhatTheyCover) {
                             "--max-ms 1e6 -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json bench = readJson(folder / "b/bench.json");
-    EXPECT_EQ(bench["frames"].size(), 39u);
-    for (const Json& row : bench["frames"]) EXPECT_EQ(row["counters"]["nonfinite_pixels"], 0);
+    EXPECT_EQ(bench["rows"].size(), 39u);
+    for (const Json& row : bench["rows"]) EXPECT_EQ(row["counters"]["nonfinite_pixels"], 0);
     const Json rows = bench["layers"]["rows"];
     ASSERT_EQ(rows.size(), 13u) << "4 kinds by 3 shares, and none";
     ASSERT_EQ(rows[0]["percent"], 0);

@@ -37,13 +37,13 @@ TEST(ChooseTool, TheChosenSettingsAreWithinTheErrorAndDrawn) {
                                     grid));
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json json = Json::parse(ran.out);
-    const Json& chosen = json["candidates"][json["chosen"].get<std::size_t>()];
-    EXPECT_LE(chosen["error"].get<double>(), 0.02);
+    const Json& chosen = json["rows"][json["chosen"].get<std::size_t>()];
+    EXPECT_LE(chosen["errors"]["flip"].get<double>(), 0.02);
     EXPECT_EQ(json["settings"]["size"], Json({64, 36})) << "half the size is off by more";
-    EXPECT_EQ(json["candidates"].size(), 8u);
-    for (const Json& candidate : json["candidates"])
-        if (candidate["fate"] == "raced") {
-            EXPECT_LE(candidate["error"].get<double>(), 0.02);
+    EXPECT_EQ(json["rows"].size(), 8u);
+    for (const Json& candidate : json["rows"])
+        if (candidate["judgement"] == "raced") {
+            EXPECT_LE(candidate["errors"]["flip"].get<double>(), 0.02);
         }
     EXPECT_EQ(json["unseen_cameras"].size(), 0u);
     EXPECT_EQ(Json::parse(std::ifstream(folder / "chosen.json"))["size"], Json({64, 36}));
@@ -70,10 +70,10 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
         runTool(folder, fmt::format("choose builtin:spots --size 64x36 --max-ms 100000 {} --json", grid));
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json json = Json::parse(ran.out);
-    const double error = json["candidates"][json["chosen"].get<std::size_t>()]["error"];
-    for (const Json& candidate : json["candidates"])
-        if (!candidate["error"].is_null()) {
-            EXPECT_LE(error, 1.01 * candidate["error"].get<double>());
+    const double error = json["rows"][json["chosen"].get<std::size_t>()]["errors"]["flip"];
+    for (const Json& candidate : json["rows"])
+        if (!candidate["errors"].is_null()) {
+            EXPECT_LE(error, 1.01 * candidate["errors"]["flip"].get<double>());
         }
 }
 
@@ -98,11 +98,11 @@ TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
         errors[wordsOf(row["settings"])] = row["errors"]["flip"].get<double>();
     const Json choice = Json::parse(chosen.out);
     std::size_t compared = 0;
-    for (const Json& candidate : choice["candidates"]) {
+    for (const Json& candidate : choice["rows"]) {
         const auto row = errors.find(wordsOf(candidate["settings"]));
         ASSERT_NE(row, errors.end()) << candidate["words"];
-        if (candidate["error"].is_null()) continue;
-        EXPECT_EQ(candidate["error"].get<double>(), row->second) << candidate["words"];
+        if (candidate["errors"].is_null()) continue;
+        EXPECT_EQ(candidate["errors"]["flip"].get<double>(), row->second) << candidate["words"];
         ++compared;
     }
     EXPECT_GE(compared, 4u);
@@ -124,10 +124,10 @@ TEST(ChooseTool, OneForAllScenesOfAFolderIsWithinTheErrorInEach) {
     EXPECT_EQ(json["scenes"][1]["scene"], "scenes/two.gltf");
     const Json& all = json["all"];
     const Json& chosen = all["candidates"][all["chosen"].get<std::size_t>()];
-    ASSERT_EQ(chosen["scenes"].size(), 3u);
-    for (const Json& in : chosen["scenes"]) {
-        EXPECT_LE(in["error"].get<double>(), 0.02);
-        EXPECT_GT(in["ms"].get<double>(), 0);
+    ASSERT_EQ(chosen["rows"].size(), 3u);
+    for (const Json& in : chosen["rows"]) {
+        EXPECT_LE(in["errors"]["flip"].get<double>(), 0.02);
+        EXPECT_GT(in["ms"]["median"].get<double>(), 0);
         EXPECT_LE(in["to_its_own"]["low"].get<double>(), in["to_its_own"]["high"].get<double>());
     }
     EXPECT_EQ(json["settings"], chosen["settings"]);
@@ -150,7 +150,7 @@ TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {
     EXPECT_EQ(emptyIn(json), std::set<std::string>());
     const std::string page = contentsOf(folder / "choice/index.html");
     EXPECT_EQ(page.find("http"), page.find("http://www.w3.org")) << "nothing from elsewhere";
-    for (const Json& candidate : json["candidates"])
+    for (const Json& candidate : json["rows"])
         EXPECT_NE(page.find(candidate["words"].get<std::string>()), page.npos);
     EXPECT_EQ(runTool(folder, command).code, 0) << "our own folder is replaced";
 }

@@ -46,6 +46,7 @@ const std::vector<Example> examples = {
     {"a setting", {"pixel_lights", "pixel-lights"}},
     {"a setting whose values have names", {"LightKernel", "settings.light_kernel", "light-kernel"}},
     {"a report format", {"reportJunit", "junit.xml"}},
+    {"a column of results", {"X(registers", "Measure::registers"}},
     {"a figure", {"mae"}},
 };
 

@@ -107,7 +107,7 @@ TEST(BenchCases, WhatCannotBeDrawnIsSkippedOnceWithItsReason) {
     ASSERT_TRUE(perObject.problem());
     const BenchCases cases = makeBenchCases("builtin:spheres", Settings(), options);
     ASSERT_EQ(cases.skips.size(), 1u);
-    EXPECT_EQ(cases.skips[0].reason, *perObject.problem());
+    EXPECT_EQ(cases.skips[0].failed, *perObject.problem());
     EXPECT_EQ(skipName(cases.skips[0]), "deferred, per_object");
     EXPECT_EQ(cases.groups.size(), 3u);
     options.assign = {Assignment::per_object};
@@ -157,8 +157,8 @@ BenchRow row(const char* path, const char* assign, const char* size, std::uint32
     made.settings.set("size", size);
     made.scene = "builtin:spheres";
     made.requested_lights = lights;
-    made.counters.lights = lights + 1;
-    made.time = {ms, 0.5 * ms, 2 * ms, 3};
+    made.measured[Measure::lights] = lights + 1;
+    made.measured.set(FrameTime{ms, 0.5 * ms, 2 * ms, 3});
     made.ms = {ms, 0.5 * ms, 2 * ms};
     made.passes = std::move(passes);
     return made;
@@ -175,9 +175,10 @@ Bench several() {
                       {{"assign froxels", 0.5}, {"assign lights", 0.5}, {"shade", 7}}),
                   row("forward_plus", "clustered", "64x48", 1024, 40, {{"assign lights", 10}, {"shade", 30}}),
                   row("deferred", "every", "32x24", 16, 3, {{"shade", 3}})};
-    bench.skips = {{Path::deferred, Assignment::every, Size{64, 48}, 4096, {}, "would take <long>"}};
-    for (BenchRow& made : bench.rows) made.notes = {"one note"};
-    bench.rows[3].notes.push_back("its own note");
+    bench.skips = {row("deferred", "every", "64x48", 4096, 0, {})};
+    bench.skips[0].failed = "would take <long>";
+    for (BenchRow& made : bench.rows) made.warnings = {"one note"};
+    bench.rows[3].warnings.push_back("its own note");
     return bench;
 }
 
@@ -234,17 +235,17 @@ TEST(BenchOutput, EveryNumberOfATableStandsUnderItsHead) {
 TEST(BenchOutput, PixelsThatAreNotFiniteAreSaid) {
     Bench bench = several();
     EXPECT_EQ(benchEnd(bench).find("not finite"), std::string::npos);
-    bench.rows[1].counters.nonfinite_pixels = 7;
+    bench.rows[1].measured[Measure::nonfinite_pixels] = 7;
     EXPECT_NE(benchEnd(bench).find("deferred, every, 1025 lights: 7 pixels not finite\n"), std::string::npos);
 }
 
 TEST(BenchOutput, JsonReadsBack) {
     const Bench bench = several();
     const Json json = Json::parse(benchJson(bench, {"bench.json"}));
-    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["schema"], 2);
     EXPECT_EQ(json["software"], "diptych");
-    ASSERT_EQ(json["frames"].size(), 5u);
-    const Json& row = json["frames"][3];
+    ASSERT_EQ(json["rows"].size(), 5u);
+    const Json& row = json["rows"][3];
     EXPECT_EQ(row["name"], "forward_plus, clustered");
     EXPECT_EQ(row["light_count"], 1024);
     EXPECT_EQ(row["counters"]["lights"], 1025);
@@ -254,13 +255,13 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_EQ(row["assign_share"], 0.25);
     EXPECT_EQ(row["size"], (Json{64, 48}));
     EXPECT_EQ(row["settings"]["assign"], "clustered");
-    EXPECT_EQ(row["notes"], (Json{"one note", "its own note"}));
+    EXPECT_EQ(row["warnings"], (Json{"one note", "its own note"}));
     EXPECT_EQ(json["skipped"][0]["reason"], "would take <long>");
     EXPECT_EQ(json["skipped"][0]["light_count"], 4096);
     Bench plain = bench;
     plain.rows[0].requested_lights.reset();
     const Json without = Json::parse(benchJson(plain, {}));
-    EXPECT_TRUE(without["frames"][0]["light_count"].is_null());
+    EXPECT_TRUE(without["rows"][0]["light_count"].is_null());
 }
 
 // Positions in the plot of a mode's points, in order.

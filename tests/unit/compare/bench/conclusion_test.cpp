@@ -22,10 +22,11 @@ BenchRow timed(const char* path, const char* assign, Times ms, std::vector<PassT
     made.settings.set("path", path);
     made.settings.set("assign", assign);
     made.settings.set("size", size);
-    made.counters.lights = lights;
+    made.measured[Measure::lights] = lights;
     Times sorted = ms;
     std::ranges::sort(sorted);
-    made.time = {sorted[sorted.size() / 2], sorted.front(), sorted.back(), static_cast<int>(ms.size())};
+    made.measured.set(
+        FrameTime{sorted[sorted.size() / 2], sorted.front(), sorted.back(), static_cast<int>(ms.size())});
     made.ms = std::move(ms);
     made.passes = std::move(passes);
     return made;
@@ -100,8 +101,8 @@ TEST(BenchConclusion, AnotherPictureIsMarked) {
     EXPECT_NE(benchHtml(bench).find(starMeans), std::string::npos);
     EXPECT_NE(benchPlot(bench, PlotPlace::file).find("per_object *"), std::string::npos);
     const nlohmann::json json = nlohmann::json::parse(benchJson(bench, {}));
-    EXPECT_EQ(json["frames"][0]["same_picture"], true);
-    EXPECT_EQ(json["frames"][3]["same_picture"], false);
+    EXPECT_EQ(json["rows"][0]["same_picture"], true);
+    EXPECT_EQ(json["rows"][3]["same_picture"], false);
     Bench same = oneCount();
     same.rows.pop_back();
     EXPECT_EQ(benchEnd(same).find('*'), std::string::npos);

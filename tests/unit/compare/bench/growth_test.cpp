@@ -19,9 +19,8 @@ Bench grownBench(const std::vector<std::pair<double, double>>& msAt) {
         BenchRow row;
         row.settings.path = Path::deferred;
         row.growth = GrowthPoint{GrowthAxis::draws, value};
-        row.time.median = row.time.min = row.time.max = ms;
-        row.bytes.images = 3 << 20;
-        row.bytes.buffers = 1 << 20;
+        row.measured.set(FrameTime{ms, ms, ms, 1});
+        row.measured.set(FrameBytes{3 << 20, 1 << 20});
         row.passes = {{"G-buffer", ms - 2}, {"shade", 2}};
         bench.rows.push_back(row);
     }

@@ -79,7 +79,12 @@ TEST(BenchLayers, EveryGroupHasItsSceneAndAName) {
     }
     EXPECT_EQ(coverName({}), "no layers");
     EXPECT_EQ(coverName({"woven", 5}), "5 % woven");
-    const BenchSkip skip{Path::deferred, Assignment::tiled, {}, 64, {}, "why", {}, Cover{"glass", 25}};
+    BenchRow skip;
+    skip.requested_lights = 64;
+    skip.cover = Cover{"glass", 25};
+    skip.settings.path = Path::deferred;
+    skip.settings.assign = Assignment::tiled;
+    skip.settings.size = {0, 0};
     EXPECT_EQ(skipName(skip), "deferred, tiled, 64 lights, 25 % glass");
 }
 
@@ -103,15 +108,16 @@ void addWays(Bench& bench, const Cover& cover, std::uint32_t lights, const std::
         row.settings.path = layerWays.at(way).path();
         row.settings.layers = layerWays.at(way).layers;
         row.settings.size = {64, 36};
-        row.requested_lights = row.counters.lights = lights;
+        row.requested_lights = lights;
+        row.measured[Measure::lights] = lights;
         row.cover = cover;
         row.ms = ways[way];
         Milliseconds sorted = row.ms;
         std::ranges::sort(sorted);
-        row.time = {sorted[sorted.size() / 2], sorted.front(), sorted.back(),
-                    static_cast<int>(sorted.size())};
-        row.bytes.gbuffer_per_pixel = way == 0 ? 4u : way == 1 && !cover.kind.empty() ? 28u : 24u;
-        row.bytes.picture_images = (row.bytes.gbuffer_per_pixel + 16) * 64 * 36;
+        row.measured.set(FrameTime{sorted[sorted.size() / 2], sorted.front(), sorted.back(),
+                                   static_cast<int>(sorted.size())});
+        const std::uint64_t stored = way == 0 ? 4u : way == 1 && !cover.kind.empty() ? 28u : 24u;
+        row.measured.set(FrameBytes{.gbuffer_per_pixel = stored, .picture_images = (stored + 16) * 64 * 36});
         row.parts = partsOf(bench.options, row.settings);
         bench.rows.push_back(std::move(row));
     }

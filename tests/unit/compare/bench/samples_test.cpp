@@ -87,12 +87,11 @@ BenchRow sampledRow(Path path, Transparency transparency, int samples, double ms
     made.settings.msaa = samples;
     made.settings.size = {64, 48};
     made.scene = "builtin:glass";
-    made.counters.lights = 4;
-    made.time = {ms, ms - 1, ms + 2, 3};
+    made.measured[Measure::lights] = 4;
+    made.measured.set(FrameTime{ms, ms - 1, ms + 2, 3});
     made.ms = {ms, ms - 1, ms + 2};
     made.passes = {{"shade earlier lights", 1}, {"assign lights", 10}, {"shade", ms / 2}};
-    made.bytes.gbuffer_per_pixel = bytes;
-    made.bytes.picture_images = (bytes + 16) * 64 * 48;
+    made.measured.set(FrameBytes{.gbuffer_per_pixel = bytes, .picture_images = (bytes + 16) * 64 * 48});
     BenchOptions options;
     options.table = BenchTable::msaa;
     made.parts = partsOf(options, made.settings);
@@ -127,7 +126,7 @@ TEST(BenchSamples, LinesArePathsAndColumnsSamples) {
     ASSERT_EQ(table.lines.size(), 4u);
     EXPECT_EQ(table.lines[0].name(), "deferred, opaque only");
     EXPECT_EQ(table.lines[3].name(), "forward_plus, transparency sorted");
-    EXPECT_EQ(table.lines[1].cells[1]->time.median, 40);
+    EXPECT_EQ((*table.lines[1].cells[1])[Measure::ms], 40);
     EXPECT_EQ(table.lines[2].name(), "deferred, transparency sorted");
     EXPECT_EQ(table.lines[2].cells, (std::vector<const BenchRow*>{&bench.rows[2], nullptr}));
     EXPECT_EQ(lightingMs(*table.lines[1].cells[1]), 1 + 20.0);
@@ -173,7 +172,7 @@ TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
     EXPECT_EQ(cell["bytes_per_sample"], 4);
     EXPECT_DOUBLE_EQ(cell["image_mib"].get<double>(), 32.0 * 64 * 48 / (1 << 20));
     EXPECT_EQ(table["rows"][2]["cells"].size(), 1u);
-    EXPECT_EQ(json["frames"][3]["name"], "forward_plus, clustered, sorted, 1 sample");
+    EXPECT_EQ(json["rows"][3]["name"], "forward_plus, clustered, sorted, 1 sample");
 }
 
 // Frames with other sample counts show other images, so their times are not compared.

@@ -79,7 +79,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     // Compare the time limit with the device's speed in the middle of the race.
     double raced = 0;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.race_time) raced += 2 * candidate.race_time->rounds;
+        if (candidate.race) raced += 2 * candidate.race->pairs;
     if (budget.ms) *budget.ms /= evaluator.drift(0.5 * raced);
     Outcome outcome;
     outcome.timings =
@@ -185,9 +185,12 @@ public:
     std::map<std::pair<std::string, std::string>, std::pair<double, double>> law;
     std::size_t judged = 0;
 
-    Judged judge(const Settings& settings) override {
+    Measures judge(const Settings& settings) override {
         ++judged;
-        return {of(settings).second, 0};
+        Measures measured;
+        measured[Measure::flip] = of(settings).second;
+        measured[Measure::memory] = 0;
+        return measured;
     }
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
         std::vector<double> times;
@@ -295,10 +298,10 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
 
 TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
     ChoiceReport report;
-    report.figure = "FLIP";
     report.choice.candidates.resize(2);
     Candidate& judged = report.choice.candidates[0];
-    judged.judged = {.error = 0.0125, .bytes = 3u << 20};
+    judged.measured[Measure::flip] = 0.0125;
+    judged.measured[Measure::memory] = 3u << 20;
     judged.log_ms = std::log(4.5);
     judged.timings = 2;
     EXPECT_EQ(figuresInWords(report, 0), "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20));

@@ -34,9 +34,12 @@ class KnownEvaluator final : public Evaluator {
 public:
     explicit KnownEvaluator(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
         : of_(of), deviation_(deviation), random_(seed) {}
-    Judged judge(const Settings& settings) override {
+    Measures judge(const Settings& settings) override {
         ++judged;
-        return {find(settings).error, 1000};
+        Measures measured;
+        measured[Measure::flip] = find(settings).error;
+        measured[Measure::memory] = 1000;
+        return measured;
     }
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override {
         std::vector<double> times;
@@ -134,7 +137,7 @@ TEST(ChooseForAll, WhereNothingFitsAllTheNearestIsNamedWithItsScene) {
     const std::size_t scene = all.result.nearest_scene;
     EXPECT_EQ(nearest.settings, compactOne);
     EXPECT_EQ(scene, 1u);
-    EXPECT_EQ(nearest.scenes[scene].judged.error, 0.4);
+    EXPECT_EQ(nearest.scenes[scene][Measure::flip], 0.4);
 }
 
 // The most accurate candidate takes too long in one scene; the smallest worst error of the rest wins.
@@ -166,8 +169,12 @@ TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
 TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
     Choice own;
     for (const auto& [settings, error] :
-         {std::pair(compactOne, 0.5), std::pair(fullOne, 0.03), std::pair(standardOne, 0.03)})
-        own.candidates.push_back({.settings = settings, .judged = Judged{error, 1000}});
+         {std::pair(compactOne, 0.5), std::pair(fullOne, 0.03), std::pair(standardOne, 0.03)}) {
+        Candidate& candidate = own.candidates.emplace_back();
+        candidate.settings = settings;
+        candidate.measured[Measure::flip] = error;
+        candidate.measured[Measure::memory] = 1000;
+    }
     KnownEvaluator evaluator({});
     const Choice* const pointer = &own;
     CommonOptions options;
@@ -182,18 +189,19 @@ TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
 
 TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {
     const Budget budget{.error = 0.1, .ms = 10, .bytes = 100};
-    EXPECT_EQ(missOf({0.1, 100}, 10, budget), 0);
-    EXPECT_NEAR(missOf({0.11, 150}, 12, budget), 0.5, 1e-12);
-    EXPECT_NEAR(missOf({0.1, 100}, 12, budget), 0.2, 1e-12);
-    EXPECT_EQ(missOf({0.1, 100}, std::nullopt, budget), 0);
+    Measures measured;
+    measured[Measure::flip] = 0.1;
+    measured[Measure::memory] = 100;
+    EXPECT_EQ(missOf(measured, budget), 0) << "the time is not known";
+    measured[Measure::ms] = 10;
+    EXPECT_EQ(missOf(measured, budget), 0);
+    measured[Measure::ms] = 12;
+    EXPECT_NEAR(missOf(measured, budget), 0.2, 1e-12);
+    measured[Measure::flip] = 0.11;
+    measured[Measure::memory] = 150;
+    EXPECT_NEAR(missOf(measured, budget), 0.5, 1e-12);
 }
 
 }  // namespace
 
 }  // namespace diptych::choose
-
-namespace diptych {
-
-namespace {}  // namespace
-
-}  // namespace diptych

@@ -53,7 +53,7 @@ TEST(ChooseRanking, TwoCopiesAreATie) {
 // Drift alone makes no difference: each order is also drawn in reverse.
 TEST(ChooseRanking, ADriftIsNoDifference) {
     const Ranking result = raced({10, 10, 10}, 0, 0.02, 3);
-    for (const FinalistTime& race_time : result.finalists) EXPECT_NEAR(race_time.ratio, 1, 2e-3);
+    for (const TimeRatio& ratio : result.ratios) EXPECT_NEAR(ratio.ratio, 1, 2e-3);
 }
 
 TEST(ChooseRanking, EveryDrawIsCounted) {
@@ -72,8 +72,7 @@ TEST(ChooseRanking, TheFastestWinsAndIsSure) {
         const Ranking result = raced({12, 10, 13, 11.5, 20}, 0.05, 0.002, seed);
         right += result.winner == 1;
         significant += result.significant;
-        EXPECT_LE(result.finalists[4].rounds, result.finalists[1].rounds)
-            << "the slowest does not run to the end";
+        EXPECT_LE(result.ratios[4].pairs, result.ratios[1].pairs) << "the slowest does not run to the end";
     }
     EXPECT_GE(right, 196u);
     EXPECT_GE(significant, 180u);

@@ -54,9 +54,12 @@ std::vector<RecordedSweep> recordedSweeps() {
     return sweeps;
 }
 
-choose::Judged RecordedEvaluator::judge(const Settings& settings) {
+experiment::Measures RecordedEvaluator::judge(const Settings& settings) {
     const RecordedRow& row = sweep_.find(settings);
-    return {row.error, row.bytes};
+    experiment::Measures measured;
+    measured[experiment::Measure::flip] = row.error;
+    measured[experiment::Measure::memory] = static_cast<double>(row.bytes);
+    return measured;
 }
 
 double RecordedEvaluator::drift(double timings_ago) const {

@@ -100,7 +100,9 @@ tradeoff::MeasuredRow smallRow() {
     measured.row.cameras.resize(1);
     measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.cameras[0].passes = {{"shade", 1}};
-    measured.row.cameras[0].errors = measured.row.errors = {0.1, 0.2, 0.3};
+    measured.row.cameras[0].measured.set(tradeoff::Measure::flip, tradeoff::Errors{0.1, 0.2, 0.3});
+    joinBlocks(measured.row.cameras[0]);
+    measured.row.measured = measured.row.cameras[0].measured;
     measured.row.warnings = {"a warning"};
     measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
     return measured;

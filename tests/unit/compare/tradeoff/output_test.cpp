@@ -24,15 +24,14 @@ TradeoffRow row(const char* path, const char* option, const char* value, double 
     TradeoffRow made;
     made.settings.set("path", path);
     if (*option) made.settings.set(option, value);
-    CameraRow camera;
-    camera.camera = "a, \"b\" <c>";
-    camera.blocks = {{ms, 0.9 * ms, 1.5 * ms, 5}};
+    experiment::Row camera{.camera = "a, \"b\" <c>", .blocks = {{ms, 0.9 * ms, 1.5 * ms, 5}}};
     camera.passes = {{"shade", ms / 2}};
-    camera.bytes = {1000, 200, 24};
-    camera.errors = errors;
-    camera.pixels = 12;
+    camera.measured.set(FrameBytes{1000, 200, 24});
+    camera.measured.set(Measure::flip, errors);
+    joinBlocks(camera);
     made.cameras = {camera};
-    made.errors = errors;
+    made.measured.set(Measure::flip, errors);
+    joinCameras(made);
     made.picture = made.errors_map = "x.png";
     return made;
 }
@@ -143,7 +142,7 @@ TEST(TradeoffOutput, RowsSurviveTheirJson) {
         const TradeoffRow back = tradeoffRowFrom(nlohmann::ordered_json::parse(jsonOf(made).dump()));
         EXPECT_EQ(jsonOf(back), jsonOf(made));
         EXPECT_EQ(back.settings, made.settings);
-        EXPECT_EQ(back.errors, made.errors);
+        EXPECT_EQ(back[Measure::flip], made[Measure::flip]);
         EXPECT_EQ(back.cameras[0].blocks[0].median, 1.0 / 3);
     }
 }
@@ -207,16 +206,20 @@ TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
     TradeoffRow made = row("deferred", "", "", 2, {0.5, 0.5, 0.5});
     made.cameras.push_back(made.cameras[0]);
     made.cameras[1].blocks = {{4, 3, 10, 5}};
-    made.cameras[1].errors = {0.25, 1, 0.5};
-    made.cameras[1].bytes = {5000, 0, 24};
-    const Spread time = timeOf(made);
-    EXPECT_DOUBLE_EQ(time.value, 3);
-    EXPECT_DOUBLE_EQ(time.low, (1.8 + 3) / 2);
-    EXPECT_DOUBLE_EQ(time.high, (3.0 + 10) / 2);
-    EXPECT_EQ(errorOf(made, 0).low, 0.25);
-    EXPECT_EQ(errorOf(made, 1).high, 1);
-    EXPECT_EQ(memoryOf(made), 5000u);
-    EXPECT_DOUBLE_EQ(passesOf(made)[0].ms, 1);
+    made.cameras[1].measured.set(Measure::flip, Errors{0.25, 1, 0.5});
+    made.cameras[1].measured.set(FrameBytes{5000, 0, 24});
+    made.cameras[1].measured.set(Measure::shaded, SampleShares{});
+    joinBlocks(made.cameras[1]);
+    joinCameras(made);
+    EXPECT_DOUBLE_EQ(made[Measure::ms], 3);
+    EXPECT_DOUBLE_EQ(made[Measure::ms_min], (1.8 + 3) / 2);
+    EXPECT_DOUBLE_EQ(made[Measure::ms_max], (3.0 + 10) / 2);
+    EXPECT_EQ(made[Measure::frames], 10);
+    EXPECT_EQ(spreadOf(made, Measure::flip).low, 0.25);
+    EXPECT_EQ(spreadOf(made, Measure::relative_rmse).high, 1);
+    EXPECT_EQ(made[Measure::memory], 5000);
+    EXPECT_FALSE(made.measured.has(Measure::shaded)) << "one camera has none";
+    EXPECT_DOUBLE_EQ(made.passes[0].ms, 1);
 }
 
 TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
@@ -225,11 +228,12 @@ TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
     for (TradeoffRow& made : tradeoff.rows) made.cameras[0].blocks.push_back(made.cameras[0].blocks[0]);
     tradeoff.rows[0].cameras[0].blocks[1] = {16, 15, 17, 2};
     tradeoff.rows[2].cameras[0].blocks[1] = {0.5, 0.25, 0.5, 2};
-    const FrameTime time = timeOf(tradeoff.rows[0].cameras[0]);
-    EXPECT_DOUBLE_EQ(time.median, 12) << "8 of five frames and 16 of two";
-    EXPECT_DOUBLE_EQ(time.min, 7.2);
-    EXPECT_DOUBLE_EQ(time.max, 17);
-    EXPECT_EQ(time.runs, 7);
+    experiment::Row& twice = tradeoff.rows[0].cameras[0];
+    joinBlocks(twice);
+    EXPECT_DOUBLE_EQ(twice[Measure::ms], 12) << "8 of five frames and 16 of two";
+    EXPECT_DOUBLE_EQ(twice[Measure::ms_min], 7.2);
+    EXPECT_DOUBLE_EQ(twice[Measure::ms_max], 17);
+    EXPECT_EQ(twice[Measure::frames], 7);
     const std::optional<Spread> drift = driftOf(tradeoff);
     ASSERT_TRUE(drift);
     EXPECT_DOUBLE_EQ(drift->value, 1);

@@ -55,11 +55,8 @@ TEST(PlotLabels, StandsAboveOnTheRightUnlessAMarkIsThere) {
 TradeoffRow timed(const char* path, double ms, double error) {
     TradeoffRow made;
     made.settings.set("path", path);
-    CameraRow camera;
-    camera.blocks = {{ms, ms, ms, 5}};
-    camera.errors = {error, error, error};
-    made.cameras = {camera};
-    made.errors = camera.errors;
+    made.measured.set(FrameTime{ms, ms, ms, 5});
+    made.measured.set(Measure::flip, Errors{error, error, error});
     return made;
 }
 
@@ -105,7 +102,7 @@ TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
                                           std::pow(10.0, -1e-3 * (next() % 1000))));
         const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
         const std::regex mark(
-            R"re(data-row="(\d+)"[^>]*><path[^>]*><circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
+            R"re(data-row="(\d+)"[^>]*>(?:<path[^>]*>)?<circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
             label(R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" )re"
                   R"re(y="([\d.]+)">(\d+)</text>)re");
         std::map<int, std::array<double, 2>> marks;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Errors of the sun's shadow, and the dominated rows of a sweep.
 #include "compare/output/writers.h"
+#include "compare/tradeoff/shadow_errors.h"
 #include "compare/tradeoff/shadow_rows.h"
 #include "shared/contract/debug_mode.h"
 
@@ -88,11 +89,10 @@ TEST(TradeoffShadow, WhatCannotBeJudgedIsNot) {
 Tradeoff sweptRows(const std::vector<std::array<double, 3>>& rows) {
     Tradeoff sweep;
     for (const auto& [error, ms, bytes] : rows) {
-        CameraRow camera{"view", {FrameTime{ms, ms, ms, 1}}, {}, {}, {}, 1, ShadowErrors{error, 0, 0, 0, 0}};
-        camera.bytes.images = static_cast<std::uint64_t>(bytes);
-        TradeoffRow row;
-        row.cameras.push_back(std::move(camera));
-        sweep.rows.push_back(std::move(row));
+        TradeoffRow& row = sweep.rows.emplace_back();
+        row.measured.set(FrameTime{ms, ms, ms, 1});
+        row.measured.set(FrameBytes{static_cast<std::uint64_t>(bytes), 0});
+        row.measured.set(Measure::shadow_error, ShadowErrors{error, 0, 0, 0, 0});
     }
     return sweep;
 }
@@ -115,7 +115,7 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     const std::string text = inText(shadowTable(sweep)), page = inHtml(blocksOf(shadowTable(sweep)));
     EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
     EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
-    for (const NamedMetric& figure : shadowFigures)
+    for (const experiment::NamedMeasure& figure : shadowFigures)
         EXPECT_NE(page.find(figure.title), std::string::npos) << figure.title;
 }
 

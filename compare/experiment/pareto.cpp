@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/pareto.h"
+#include "compare/experiment/pareto.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 
 std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     std::vector<std::size_t> order;
@@ -29,4 +29,4 @@ std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points) {
     return front;
 }
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/pareto.h"
+#include "compare/experiment/pareto.h"
 #include "tests/support/nonfinite.h"
 
 #include <gtest/gtest.h>
@@ -9,9 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace diptych {
-
-using namespace tradeoff;
+namespace diptych::experiment {
 
 namespace {
 
@@ -85,4 +83,4 @@ TEST(TradeoffPareto, OneOfTwoCopiesStands) {
 }
 
 }  // namespace
-}  // namespace diptych
+}  // namespace diptych::experiment

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace diptych::tradeoff {
+namespace diptych::experiment {
 
 // A measured time, its noise, and a deterministic error.
 struct TimeError {
@@ -18,4 +18,4 @@ struct TimeError {
 // or infinity are ignored.
 std::vector<std::size_t> paretoFront(const std::vector<TimeError>& points);
 
-}  // namespace diptych::tradeoff
+}  // namespace diptych::experiment

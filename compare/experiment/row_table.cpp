@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Rows as tables.
+#include "compare/experiment/row.h"
+#include "compare/output/writers.h"
+#include "compare/page/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace diptych::experiment {
+namespace {
+
+std::string roundedText(const NamedMeasure& measure, double value) {
+    if (measure.unit == "bytes" && value >= 0) return page::bytes(static_cast<std::uint64_t>(value));
+    if (measure.isWhole()) return fmt::format("{:.0f}", value);
+    return measure.unit == "ms" ? fmt::format("{:.4g}", value) : page::number(value);
+}
+
+// All digits for a file, rounded on the page.
+output::Cell exactCell(const Row& row, Measure measure) {
+    if (!row.measured.has(measure)) return "";
+    output::Cell cell = cellOf(row, measure);
+    cell.page = cell.text;
+    cell.text =
+        named(measure).isWhole() ? fmt::format("{:.0f}", row[measure]) : fmt::format("{}", row[measure]);
+    return cell;
+}
+
+}  // namespace
+
+output::Cell cellOf(const Row& row, Measure measure) {
+    if (!row.measured.has(measure)) return "";
+    return output::sorted(row[measure], roundedText(named(measure), row[measure]));
+}
+
+output::Column columnOf(Measure measure, std::size_t width) {
+    const NamedMeasure& of = named(measure);
+    return {std::string(of.title), output::Column::number, width, output::Column::everywhere, "",
+            std::string(of.means)};
+}
+
+output::Table rowsTable(std::span<const Row* const> rows) {
+    output::Table table;
+    table.sortable = true;
+    const auto text = [&](std::string title, const auto& valueOf) {
+        addColumn(table, {std::move(title)}, rows, [&](const Row* row) { return valueOf(*row); });
+    };
+    const auto any = [&](const auto& has) {
+        return std::ranges::any_of(rows, [&](const Row* row) { return has(*row); });
+    };
+    std::size_t number = 0;
+    text("row", [&](const Row&) { return fmt::format("{}", ++number); });
+    text("scene", [](const Row& row) { return row.scene; });
+    if (any([](const Row& row) { return !row.varied.empty(); }))
+        text("varied", [](const Row& row) { return row.varied; });
+    text("camera", [](const Row& row) { return row.camera; });
+    text("path", [](const Row& row) {
+        return row.renderer.empty() ? std::string(nameOf(row.settings.path)) : row.renderer;
+    });
+    // Options that a sweep can vary. The path has its own column.
+    for (const Field& field : settingFields())
+        if (!field.sweep.empty() && field.option != "path")
+            text(std::string(field.option), [&](const Row& row) {
+                return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
+                                                                          : "";
+            });
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+        const auto measure = static_cast<Measure>(i);
+        const NamedMeasure& of = measures[i];
+        if (!any([&](const Row& row) { return row.measured.has(measure); })) continue;
+        const std::string unit = of.unit.empty() ? "" : fmt::format(" [{}]", of.unit);
+        addColumn(table,
+                  {fmt::format("{}.{}{}", of.group, of.name, unit), output::Column::number, 0,
+                   output::Column::everywhere, "", std::string(of.means)},
+                  rows, [&](const Row* row) { return exactCell(*row, measure); });
+    }
+    std::vector<std::string> passes;
+    for (const Row* row : rows)
+        for (const PassTime& pass : row->passes)
+            if (std::ranges::count(passes, pass.name) == 0) passes.push_back(pass.name);
+    for (const std::string& pass : passes)
+        text(fmt::format("pass {} [ms]", pass), [&](const Row& row) {
+            const auto found = std::ranges::find(row.passes, pass, &PassTime::name);
+            return found == row.passes.end() ? "" : fmt::format("{}", found->ms);
+        });
+    text("judgement", [](const Row& row) { return row.judgement; });
+    text("failed", [](const Row& row) { return row.failed; });
+    text("warnings", [](const Row& row) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
+    return table;
+}
+
+output::Block rowsBox(std::span<const Row* const> rows) {
+    return output::Box{"", {rowsTable(rows)}, "", "Every measurement"};
+}
+
+}  // namespace diptych::experiment

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// A measure's line in the table brings its column in rows.csv and on the page, and its key in JSON.
+#include "compare/experiment/row.h"
+
+#include "compare/output/writers.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace diptych::experiment {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Row measuredRow() {
+    Row row{.scene = "a, \"b\".glb", .camera = "c", .ms = {2, 1}, .warnings = {"one", "two"}};
+    for (std::size_t i = 0; i < measures.size(); ++i)
+        row.measured[static_cast<Measure>(i)] = 100 + static_cast<double>(i);
+    row.passes = {{"shade", 0.5}};
+    row.blocks = {{1.5, 1, 2, 2}};
+    return row;
+}
+
+std::vector<std::string> headsOf(const std::string& csv) {
+    std::vector<std::string> heads(1);
+    for (const char c : csv.substr(0, csv.find("\r\n")))
+        if (c == ',')
+            heads.emplace_back();
+        else
+            heads.back() += c;
+    return heads;
+}
+
+TEST(Rows, EveryMeasureIsAColumnAndAKey) {
+    const std::vector<Row> rows{measuredRow(), Row{.scene = "empty"}};
+    const std::string csv = inCsv(rowsTable(pointersTo(rows)));
+    const std::vector<std::string> heads = headsOf(csv);
+    const std::string page = inHtml(rowsBox(pointersTo(rows)));
+    const Json json = jsonOf(rows[0]), empty = jsonOf(rows[1]);
+    std::set<std::pair<std::string_view, std::string_view>> keys;
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+        const NamedMeasure& of = measures[i];
+        const std::string head =
+            fmt::format("{}.{}{}", of.group, of.name, of.unit.empty() ? "" : fmt::format(" [{}]", of.unit));
+        EXPECT_EQ(std::ranges::count(heads, head), 1) << head;
+        EXPECT_NE(csv.find(fmt::format(",{},", 100 + i)), csv.npos) << head;
+        EXPECT_NE(page.find(head), page.npos) << head;
+        EXPECT_EQ(json.at(std::string(of.group)).at(std::string(of.name)), 100 + i) << head;
+        EXPECT_TRUE(empty.at(std::string(of.group)).is_null()) << head << ": was not measured";
+        EXPECT_TRUE(keys.insert({of.group, of.name}).second) << head << ": has another's key";
+    }
+    EXPECT_NE(csv.find("pass shade [ms]"), csv.npos);
+    EXPECT_NE(csv.find("\"a, \"\"b\"\".glb\""), csv.npos);
+    EXPECT_NE(csv.find("one; two"), csv.npos);
+    EXPECT_EQ(headsOf(inCsv(rowsTable(pointersTo(std::vector{rows[1]})))).back(), "warnings");
+    EXPECT_EQ(inCsv(rowsTable(pointersTo(std::vector{rows[1]}))).find("flip"), std::string::npos);
+}
+
+TEST(Rows, AreReadBack) {
+    Row row = measuredRow();
+    row.measured[Measure::flip] = std::numeric_limits<double>::infinity();
+    row.measured[Measure::leak] = 1.0 / 3;
+    row.measured[Measure::shaded] = std::numeric_limits<double>::quiet_NaN();
+    row.cameras = {row};
+    const Json json = Json::parse(jsonOf(row).dump());
+    const Row back = rowFrom(JsonAt<Json>(json));
+    EXPECT_EQ(back[Measure::leak], 1.0 / 3);
+    EXPECT_EQ(back[Measure::flip], std::numeric_limits<double>::infinity());
+    EXPECT_FALSE(back.measured.has(Measure::shaded));
+    EXPECT_EQ(back.cameras.at(0).camera, "c");
+    EXPECT_EQ(jsonOf(back.cameras[0])["ms"], jsonOf(row.cameras[0])["ms"]);
+    Json wrong = json;
+    wrong["bytes"]["total"] = -1;
+    EXPECT_THROW(rowFrom(JsonAt<Json>(wrong)), std::runtime_error);
+}
+
+TEST(Rows, OverCamerasFollowTheirRule) {
+    Row row;
+    row.cameras = {measuredRow(), measuredRow()};
+    for (std::size_t i = 0; i < measures.size(); ++i) row.cameras[1].measured[static_cast<Measure>(i)] = 300;
+    row.cameras[1].measured[Measure::gap] = std::numeric_limits<double>::quiet_NaN();
+    joinCameras(row);
+    EXPECT_EQ(row[Measure::ms], (row.cameras[0][Measure::ms] + 300) / 2);
+    EXPECT_EQ(row[Measure::memory], 300);
+    EXPECT_EQ(row[Measure::frames], row.cameras[0][Measure::frames] + 300);
+    EXPECT_FALSE(row.measured.has(Measure::flip)) << "not a mean of cameras";
+    EXPECT_FALSE(row.measured.has(Measure::gap)) << "one camera has none";
+    EXPECT_DOUBLE_EQ(row.passes.at(0).ms, 0.5);
+    const Spread spread = spreadOf(row, Measure::memory);
+    EXPECT_EQ(spread.low, row.cameras[0][Measure::memory]);
+    EXPECT_EQ(spread.high, 300);
+}
+
+}  // namespace
+}  // namespace diptych::experiment
