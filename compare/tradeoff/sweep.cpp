@@ -24,7 +24,7 @@ namespace {
 
 using SweepClock = std::chrono::steady_clock;
 
-double msSince(SweepClock::time_point start) {
+double elapsedMs(SweepClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SweepClock::now() - start).count();
 }
 
@@ -94,14 +94,14 @@ double Sweep::referenced() const {
 }
 
 experiment::ReferenceFrames Sweep::drawReferences() {
-    tradeoff_.cost.reading = msSince(question_.start);
+    tradeoff_.cost.reading = elapsedMs(question_.start);
     const SweepClock::time_point uploaded = SweepClock::now();
     RenderOptions drawing = question_.drawing;
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
     drawing.keep = kept_references_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
         renderer_, tradeoff_.given, question_.cameras, question_.picture, drawing);
-    tradeoff_.cost.reference = msSince(uploaded);
+    tradeoff_.cost.reference = elapsedMs(uploaded);
     experiment::addNotes(tradeoff_.notes, references, rows(),
                          views_.at(viewRequest(question_.settings)).needs);
     return references;
@@ -223,7 +223,7 @@ std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer
 
 std::string Sweep::write(bool force) {
     stage_.at(0.98, "write");
-    tradeoff_.cost.whole = msSince(question_.start);
+    tradeoff_.cost.whole = elapsedMs(question_.start);
     std::string json = writeTradeoff(tradeoff_, question_.folder, state_ / "",
                                      thumbnail(references_.frames.front(), references_.exposure), force);
     kept_references_.remove();
