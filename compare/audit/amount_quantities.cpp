@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/groups.h"
+#include "compare/audit/quantities.h"
 #include "compare/audit/small_scene.h"
 
 #include <glm/geometric.hpp>
@@ -21,8 +21,7 @@ constexpr double mostLit = 1e8;
 Size sizeForLights(const Subject& subject) {
     const Size size = subject.given.settings.size;
     const double pixels = static_cast<double>(size.width) * size.height;
-    const auto local = std::ranges::count_if(
-        subject.given.scene.lights, [](const Light& light) { return light.kind != LightKind::directional; });
+    const auto local = std::ranges::count_if(subject.given.scene.lights, isLocal);
     const double part =
         std::sqrt(std::min(1.0, mostLit / (mostCopies * static_cast<double>(local) * pixels)));
     const auto side = [&](int whole) { return std::max(1, static_cast<int>(std::lround(whole * part))); };
@@ -35,12 +34,8 @@ void pushLights(Case& pushed, const Subject& subject, double copies) {
     pushed.settings.size = sizeForLights(subject);
     std::vector<Light> lights;
     for (Light light : pushed.scene.lights) {
-        if (light.kind == LightKind::directional) {
-            lights.push_back(std::move(light));
-            continue;
-        }
-        light.intensity = static_cast<float>(light.intensity / copies);
-        lights.insert(lights.end(), count, light);
+        if (isLocal(light)) light.intensity = static_cast<float>(light.intensity / copies);
+        lights.insert(lights.end(), isLocal(light) ? count : 1, light);
     }
     pushed.scene.lights = std::move(lights);
 }
@@ -50,47 +45,33 @@ void pushLights(Case& pushed, const Subject& subject, double copies) {
 Predicted predictLights(const Subject& subject, const Settings&, double error) {
     const auto reaching =
         static_cast<double>(std::ranges::count_if(subject.given.scene.lights, [&](const Light& light) {
-            return light.kind != LightKind::directional &&
-                   glm::distance(light.position, subject.point) < double{light.range};
+            return isLocal(light) && glm::distance(light.position, subject.point) < double{light.range};
         }));
     return {
         .up = error * 0x1p26 / std::max(reaching, 1.0),
         .because = "float32 sums one light after another: N equal terms have a relative error of N 2^-26"};
 }
 
-template <class Value>
-Value blended(const std::vector<Value>& of, const std::uint32_t* corners, const glm::vec3& weights) {
-    return of[corners[0]] * weights.x + of[corners[1]] * weights.y + of[corners[2]] * weights.z;
-}
-
 // Splits every triangle into n x n similar ones.
 Primitive divided(const Primitive& whole, int n) {
-    Primitive parts;
-    parts.material = whole.material;
-    parts.flat = whole.flat;
+    Primitive parts = withoutVertices(whole);
     for (std::size_t t = 0; t + 2 < whole.indices.size(); t += 3) {
-        const std::uint32_t* const corners = &whole.indices[t];
+        const std::uint32_t a = whole.indices[t], b = whole.indices[t + 1], c = whole.indices[t + 2];
         const auto first = static_cast<std::uint32_t>(parts.positions.size());
+        const auto at = [&](int row, int column) {
+            return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + column);
+        };
         for (int row = 0; row <= n; ++row)
             for (int column = 0; column <= row; ++column) {
                 const auto down = static_cast<float>(row) / static_cast<float>(n),
                            across = static_cast<float>(column) / static_cast<float>(n);
                 const glm::vec3 weights{1 - down, down - across, across};
-                parts.positions.push_back(blended(whole.positions, corners, weights));
-                parts.normals.push_back(glm::normalize(blended(whole.normals, corners, weights)));
-                glm::vec4 tangent = blended(whole.tangents, corners, weights);
-                tangent.w = whole.tangents[corners[0]].w;
-                parts.tangents.push_back(tangent);
-                for (std::size_t set = 0; set < 2; ++set)
-                    if (!whole.texcoords[set].empty())
-                        parts.texcoords[set].push_back(blended(whole.texcoords[set], corners, weights));
-                if (!whole.colors.empty()) parts.colors.push_back(blended(whole.colors, corners, weights));
-            }
-        const auto at = [&](int row, int column) {
-            return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + column);
-        };
-        for (int row = 0; row < n; ++row)
-            for (int column = 0; column <= row; ++column) {
+                eachAttribute(parts, whole, [&](auto& to, const auto& from) {
+                    to.push_back(from[a] * weights.x + from[b] * weights.y + from[c] * weights.z);
+                });
+                parts.normals.back() = glm::normalize(parts.normals.back());
+                parts.tangents.back().w = whole.tangents[a].w;
+                if (row == n) continue;
                 parts.indices.insert(parts.indices.end(),
                                      {at(row, column), at(row + 1, column), at(row + 1, column + 1)});
                 if (column < row)
@@ -101,10 +82,6 @@ Primitive divided(const Primitive& whole, int n) {
     return parts;
 }
 
-bool isDivisible(const Primitive& primitive) {
-    return primitive.joint_sets.empty() && primitive.targets.empty();
-}
-
 void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
     const double each =
         triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.given.scene), 1));
@@ -112,16 +89,12 @@ void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
     if (n < 2) return;
     for (Mesh& mesh : pushed.scene.meshes)
         for (Primitive& primitive : mesh.primitives)
-            if (isDivisible(primitive)) primitive = divided(primitive, n);
-}
-
-double originalTriangles(const Subject& subject) {
-    return static_cast<double>(triangleCount(subject.given.scene));
+            if (isRigid(primitive)) primitive = divided(primitive, n);
 }
 
 std::string lacksRigid(const Subject& subject) {
     for (const Mesh& mesh : subject.given.scene.meshes)
-        if (std::ranges::any_of(mesh.primitives, isDivisible)) return {};
+        if (std::ranges::any_of(mesh.primitives, isRigid)) return {};
     return "every mesh of the scene is skinned or morphed";
 }
 
@@ -131,79 +104,48 @@ void pushSize(Case& pushed, const Subject& subject, double height) {
     pushed.settings.size = {side(aspect * height), side(height)};
 }
 
-double originalSize(const Subject& subject) {
-    return static_cast<double>(subject.view.height);
-}
-
-void pushTime(Case& pushed, const Subject&, double seconds) {
-    pushed.settings.time = seconds;
-}
-
-double originalTime(const Subject& subject) {
-    return subject.given.settings.time;
-}
-
-std::string lacksMotion(const Subject& subject) {
-    return subject.moves ? "" : "nothing in the scene is animated";
-}
-
-Predicted predictTriangles(const Subject&, const Settings&, double) {
-    return {.because = "new corners are float32 as the old ones are, and indices have 32 bits"};
-}
-
-Predicted predictSize(const Subject&, const Settings&, double) {
-    return {.because =
-                "pixel coordinates are float32, exact up to 2^24; a picture's side has at most 2^14 pixels"};
-}
-
-Predicted predictTime(const Subject&, const Settings&, double) {
-    return {.because =
-                "time is double, which resolves 1e-10 s at 1e6 s, and nothing moves after the last key"};
-}
-
 }  // namespace
 
 std::vector<Quantity> amountQuantities() {
-    std::vector<double> sizes = {1, 2, 4, 9, 18, 45, 90, 180, 360, 720};
-    std::vector<double> times = ladder(1e-3, 1e6);
-    times.insert(times.begin(), 0);
-    return {{.name = "lights",
-             .unit = "",
-             .what = "number of copies of every local light, which share its intensity",
-             .magnitudes = {1, 10, 100, 1000, mostCopies},
-             .original = originalOne,
-             .lacks = lacksLocalLight,
-             .push = pushLights,
-             .variants = {{"assign", "tiled"}, {"assign", "every"}},
-             .same_picture = true,
-             .whole = true,
-             .predict = predictLights},
-            {.name = "triangles",
-             .unit = "",
-             .what = "number of triangles, by subdividing the scene's own",
-             .magnitudes = ladder(1e2, 1e6),
-             .original = originalTriangles,
-             .lacks = lacksRigid,
-             .push = pushTriangles,
-             .whole = true,
-             .predict = predictTriangles},
-            {.name = "size",
-             .unit = "pixels",
-             .what = "the picture's height at the same aspect ratio",
-             .magnitudes = sizes,
-             .original = originalSize,
-             .lacks = lacksNothing,
-             .push = pushSize,
-             .whole = true,
-             .predict = predictSize},
-            {.name = "time",
-             .unit = "s",
-             .what = "the animation time",
-             .magnitudes = times,
-             .original = originalTime,
-             .lacks = lacksMotion,
-             .push = pushTime,
-             .predict = predictTime}};
+    return {
+        {.name = "lights",
+         .what = "number of copies of every local light, which share its intensity",
+         .magnitudes = {1, 10, 100, 1000, mostCopies},
+         .lacks = {lacksLocalLight},
+         .push = pushLights,
+         .variants = {{"assign", "tiled"}, {"assign", "every"}},
+         .same_picture = true,
+         .whole = true,
+         .predict = predictLights},
+        {.name = "triangles",
+         .what = "number of triangles, by subdividing the scene's own",
+         .magnitudes = ladder(1e2, 1e6),
+         .original =
+             [](const Subject& subject) { return static_cast<double>(triangleCount(subject.given.scene)); },
+         .lacks = {lacksRigid},
+         .push = pushTriangles,
+         .whole = true,
+         .because = "new corners are float32 as the old ones are, and indices have 32 bits"},
+        {.name = "size",
+         .unit = "pixels",
+         .what = "the picture's height at the same aspect ratio",
+         .magnitudes = {1, 2, 4, 9, 18, 45, 90, 180, 360, 720},
+         .original = [](const Subject& subject) { return double(subject.view.height); },
+         .push = pushSize,
+         .whole = true,
+         .because = "pixel coordinates are float32, exact up to 2^24; a picture's side has at "
+                    "most 2^14 pixels"},
+        {.name = "time",
+         .unit = "s",
+         .what = "the animation time",
+         .magnitudes = ladder(1e-3, 1e6, 10, {0}),
+         .original = [](const Subject& subject) { return subject.given.settings.time; },
+         .lacks = {[](const Subject& subject) -> std::string {
+             return subject.moves ? "" : "nothing in the scene is animated";
+         }},
+         .push = [](Case& pushed, const Subject&, double seconds) { pushed.settings.time = seconds; },
+         .because = "time is double, which resolves 1e-10 s at 1e6 s, and nothing moves after the last key"},
+    };
 }
 
 }  // namespace diptych::audit

@@ -16,16 +16,6 @@ constexpr double resolved = 1.25;      // a breaking point is known to this fact
 constexpr std::size_t mostAdded = 16;  // refinement steps of a quantity
 constexpr double agreement = 2;
 
-double errorOf(const Outcome& outcome) {
-    return outcome.error();
-}
-double flipOf(const Outcome& outcome) {
-    return outcome.flip;
-}
-double nonfiniteOf(const Outcome& outcome) {
-    return static_cast<double>(outcome.nonfinite);
-}
-
 // The steps in order of distance from the default one.
 BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
                               std::size_t original, int way) {
@@ -53,7 +43,9 @@ Predicted predictedOf(const Quantity& quantity, const Subject& subject, const Se
                       double error) {
     Settings original = settings;
     if (quantity.predicts_formats) original.depth_format = DepthFormat::d32f;
-    return quantity.predict && isPrecise(original) ? quantity.predict(subject, settings, error) : Predicted{};
+    if (!isPrecise(original)) return {};
+    if (quantity.predict) return quantity.predict(subject, settings, error);
+    return {.up = quantity.fails_at, .because = std::string(quantity.because)};
 }
 
 // Geometric mean, because magnitudes are tried by ratios.
@@ -61,13 +53,29 @@ double between(double a, double b) {
     return std::sqrt(a * b);
 }
 
+// The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
+// Empty if all are known, or after the maximum number of refinement steps.
+std::optional<double> nextMagnitude(const QuantityAudit& audit) {
+    if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + mostAdded) return {};
+    for (const std::vector<ValidRange>& of : audit.valid_ranges)
+        for (const ValidRange& range : of)
+            for (const BreakingPoint* point : {&range.up, &range.down}) {
+                if (!range.at_original || !point->broken || point->last == 0 || point->first == 0) continue;
+                if (std::max(point->last / point->first, point->first / point->last) <= resolved) continue;
+                return rounded(between(point->last, point->first), *audit.quantity);
+            }
+    return {};
+}
+
 }  // namespace
 
-const std::array<Criterion, criterionCount> criteria{
-    {{"1e-3", "error below 1e-3", 1e-3, errorOf},
-     {"1e-2", "error below 1e-2", 1e-2, errorOf},
-     {"visible", "not visible (HDR-FLIP below 0.05)", 0.05, flipOf},
-     {"finite", "every pixel finite", 0.5, nonfiniteOf}}};
+const std::array<Criterion, criterionCount> criteria{{
+    {"1e-3", "error below 1e-3", 1e-3, [](const Outcome& outcome) { return outcome.error(); }},
+    {"1e-2", "error below 1e-2", 1e-2, [](const Outcome& outcome) { return outcome.error(); }},
+    {"visible", "not visible (HDR-FLIP below 0.05)", 0.05,
+     [](const Outcome& outcome) { return outcome.flip; }},
+    {"finite", "every pixel finite", 0.5, [](const Outcome& outcome) { return double(outcome.nonfinite); }},
+}};
 
 bool passes(const Criterion& criterion, const Outcome& outcome) {
     return criterion.figure(outcome) < criterion.limit;
@@ -97,24 +105,12 @@ std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vec
     return all;
 }
 
-std::optional<double> nextMagnitude(const QuantityAudit& audit) {
-    if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + mostAdded) return {};
-    for (const std::vector<ValidRange>& of : audit.valid_ranges)
-        for (const ValidRange& range : of)
-            for (const BreakingPoint* point : {&range.up, &range.down}) {
-                if (!range.at_original || !point->broken || point->last == 0 || point->first == 0) continue;
-                if (std::max(point->last / point->first, point->first / point->last) <= resolved) continue;
-                return rounded(between(point->last, point->first), *audit.quantity);
-            }
-    return {};
-}
-
 QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
                             const std::function<Step(std::span<const Series>, double magnitude)>& step,
                             std::span<const double> beside) {
     QuantityAudit audit;
     audit.quantity = &quantity;
-    audit.lacks = subject.bounds.empty() ? "the scene has nothing to draw" : quantity.lacks(subject);
+    audit.lacks = quantity.lacks(subject);
     if (!audit.lacks.empty()) return audit;
     audit.original = quantity.original(subject);
     ChosenSeries chosen = seriesOf(quantity, subject);
@@ -153,27 +149,22 @@ Requirement evaluate(const QuantityAudit& audit, double magnitude) {
         return requirement;
     }
     requirement.met = true;
+    const bool up = magnitude >= audit.original;
     for (const Path path : drawn_paths) {
         // The best series of the path: a G-buffer that rounds is a choice, not a limit.
-        bool met = false;
         std::optional<double> furthest;
         for (std::size_t s = 0; s < audit.series.size(); ++s) {
-            if (audit.series[s].path != path) continue;
             const ValidRange& range = audit.valid_ranges[requiredCriterion][s];
-            const BreakingPoint& point = magnitude >= audit.original ? range.up : range.down;
-            const bool far = magnitude >= audit.original ? point.last >= magnitude : point.last <= magnitude;
-            met = met || (range.at_original && far);
-            if (range.at_original &&
-                (!furthest || std::abs(point.last - audit.original) > std::abs(*furthest - audit.original)))
-                furthest = point.last;
+            if (audit.series[s].path != path || !range.at_original) continue;
+            const double last = (up ? range.up : range.down).last;
+            if (!furthest || (up ? last > *furthest : last < *furthest)) furthest = last;
         }
-        const std::string reached =
-            furthest ? fmt::format("the error stays below 1e-2 as far as {:.3g}", *furthest)
-                     : "the unchanged scene already has an error of 1e-2 or more";
-        requirement.met = requirement.met && met;
-        if (!met)
-            requirement.because +=
-                fmt::format("{}{}: {}", requirement.because.empty() ? "" : "; ", nameOf(path), reached);
+        if (furthest && (up ? *furthest >= magnitude : *furthest <= magnitude)) continue;
+        requirement.met = false;
+        requirement.because +=
+            fmt::format("{}{}: {}", requirement.because.empty() ? "" : "; ", nameOf(path),
+                        furthest ? fmt::format("the error stays below 1e-2 as far as {:.3g}", *furthest)
+                                 : "the unchanged scene already has an error of 1e-2 or more");
     }
     return requirement;
 }

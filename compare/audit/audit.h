@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/audit/measure.h"
-#include "compare/audit/quantity.h"
+#include "compare/audit/quantities.h"
 #include "shared/frame/frame.h"
 
 #include <array>
@@ -70,10 +70,6 @@ bool agrees(const BreakingPoint& point, double predicted, bool up, double tried)
 // Ranges in which measured steps meet the criteria.
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
                                                                   std::size_t series, double original);
-
-// The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
-// Empty if all are known, or after the maximum number of refinement steps.
-std::optional<double> nextMagnitude(const QuantityAudit& audit);
 
 // Measures a quantity. `step` measures at a magnitude, or returns an earlier measurement. `beside`:
 // additional magnitudes.

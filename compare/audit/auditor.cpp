@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/auditor.h"
 
-#include "compare/audit/failures.h"
 #include "compare/audit/quantities.h"
 #include "compare/audit/small_scene.h"
 #include "compare/audit/words.h"
-#include "compare/audit/write.h"
 #include "compare/experiment/kept.h"
-#include "shared/image/temporary.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <optional>
 #include <span>
-#include <system_error>
 
 namespace diptych::audit {
 
@@ -72,7 +67,7 @@ void Auditor::measure(const Quantity& quantity, const Stage& stage) {
         },
         required));
     stage.at(1, fmt::format("{}: reduce failures", quantity.name));
-    reduceFailures();
+    addFailures(audit_.quantities.back(), subject_, measurer_, question_, audit_.scenes);
 }
 
 Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, double magnitude) {
@@ -88,16 +83,6 @@ Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, d
     Step step = measurer_.measure(quantity, series, magnitude);
     kept_.keep(name, toJson(step));
     return step;
-}
-
-void Auditor::reduceFailures() {
-    const std::filesystem::path root = std::filesystem::absolute(std::filesystem::temp_directory_path());
-    Temporary folder(root, root / "diptych-audit");
-    if (!folder.createFolder(true)) throw std::system_error(errno, std::generic_category(), root);
-    const Trial trial{folder.path(), question_.words, [&](const std::vector<std::string>& words) {
-                          return question_.fails(words, folder.path());
-                      }};
-    addFailures(audit_.quantities.back(), subject_, measurer_, trial, question_.folder, audit_.scenes);
 }
 
 std::string Auditor::write() {

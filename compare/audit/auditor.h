@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,13 @@ struct AuditQuestion {
     // Whether that command, whose files and output are in `folder`, exits with 1.
     std::function<bool(const std::vector<std::string>& words, const std::filesystem::path& folder)> fails;
 };
+
+// Adds the reduced failure of a quantity's first precise series to its failures, and the files to
+// `scenes`. It takes the failure nearest to the default magnitude; adds nothing if no series fails. A
+// failure's command was tried with files in a temporary folder, and question.fails() returned true (it
+// exits with 1). Otherwise there is no command.
+void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, const AuditQuestion& question,
+                 std::map<std::string, std::string>& scenes);
 
 class Auditor {
 public:
@@ -42,7 +50,6 @@ private:
     nlohmann::ordered_json key();
     void measure(const Quantity& quantity, const Stage& stage);
     Step stepAt(const Quantity& quantity, std::span<const Series> series, double magnitude);
-    void reduceFailures();
 
     const AuditQuestion& question_;
     const Subject& subject_;

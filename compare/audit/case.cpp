@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace diptych::audit {
 
@@ -45,6 +46,13 @@ void findSurface(Subject& subject, const Scene& scene, const Pose& pose) {
 
 }  // namespace
 
+bool isLocal(const Light& light) {
+    return light.kind != LightKind::directional;
+}
+bool isPunctual(const Light& light) {
+    return light.kind == LightKind::point || light.kind == LightKind::spot;
+}
+
 Subject makeSubject(const Scene& scene, const Settings& settings) {
     SceneViews views(scene);
     const SceneView& view = views.at(viewRequest(settings));
@@ -73,6 +81,15 @@ Subject makeSubject(const Scene& scene, const Settings& settings) {
     return subject;
 }
 
+Node& carry(Scene& scene, std::size_t index, int mesh) {
+    Node carrier = scene.nodes[index];
+    carrier.parent = static_cast<int>(index);
+    carrier.parent_from_node = glm::dmat4(1);
+    carrier.transform = -1;
+    carrier.mesh = mesh;
+    return scene.nodes.emplace_back(std::move(carrier));
+}
+
 void moveAll(Case& pushed, const glm::dmat4& move) {
     Scene& scene = pushed.scene;
     const int root = static_cast<int>(scene.nodes.size());
@@ -92,7 +109,7 @@ void scaleLengths(Case& pushed, double factor) {
         for (float* length : {&light.range, &light.width, &light.height, &light.radius, &light.length})
             *length *= f;
         // Candela equal lux at one metre.
-        if (light.kind == LightKind::point || light.kind == LightKind::spot)
+        if (isPunctual(light))
             light.intensity = static_cast<float>(double{light.intensity} * factor * factor);
     }
     // Nodes scale a volume's thickness, but not the distance over which it absorbs.

@@ -9,8 +9,11 @@
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/scene_view.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -38,6 +41,12 @@ struct Subject {
     double nearest = 0;                    // m, from the eye to the nearest surface found
     Bounds bounds;                         // of the scene at its pose
     bool moves = false;                    // whether an animation moves it
+
+    double distance() const { return glm::distance(point, view.eye()); }  // of the visible surface, m
+    // From the eye to beyond the whole scene, m.
+    double reach() const { return glm::distance(bounds.centre(), view.eye()) + bounds.radius(); }
+    // Of the scene, above 0, m.
+    double radius() const { return std::max(bounds.radius(), 1e-6); }
 };
 
 // Subject of an audit, as its report states it.
@@ -48,8 +57,14 @@ struct Audited {
     std::vector<std::string> notes;
 };
 
+bool isLocal(const Light& light);     // has a position
+bool isPunctual(const Light& light);  // a point or spot light
+
 // Lights come from the Settings' rig, the scene, or the default directional light.
 Subject makeSubject(const Scene& scene, const Settings& settings);
+
+// Adds a node after all others that draws mesh `mesh` at the place of node `index`.
+Node& carry(Scene& scene, std::size_t index, int mesh);
 
 // Moves the whole scene, its lights and its camera: world' = move * world, a uniform scale and a
 // translation. Does not scale lights and camera planes; see scaleLengths().

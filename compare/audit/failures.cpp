@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/failures.h"
+#include "compare/audit/auditor.h"
 
 #include "compare/audit/reduce.h"
 #include "compare/audit/small_scene.h"
@@ -7,13 +7,15 @@
 #include "compare/page/text.h"
 #include "compare/run/command_text.h"
 #include "shared/image/atomic_file.h"
+#include "shared/image/temporary.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <span>
 #include <stdexcept>
-#include <utility>
+#include <system_error>
 
 namespace diptych::audit {
 
@@ -38,23 +40,10 @@ std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subjec
     return {};
 }
 
-// Command line of a comparison with the reference, for the scene and lights in a folder. Mode surface
-// compares light; only mode scene detects wrong surfaces.
-std::vector<std::string> comparisonWords(const Failure& failure, const std::string& lights, Settings asked,
-                                         ReferenceMode mode, const std::vector<std::string>& more,
-                                         const std::filesystem::path& folder) {
-    asked.lights = (folder / lights).string();
-    asked.path = Settings().path;
-    asked.reference_mode = mode;
-    return withWords(withOption(commandWords("compare", (folder / failure.scene).string(), asked),
-                                "--baseline", "reference"),
-                     more);
-}
-
 }  // namespace
 
-void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, const Trial& trial,
-                 const std::filesystem::path& folder, std::map<std::string, std::string>& scenes) {
+void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, const AuditQuestion& question,
+                 std::map<std::string, std::string>& scenes) {
     if (of.steps.empty()) return;
     const std::optional<Broken> broken = firstBroken(of, subject);
     if (!broken) return;
@@ -74,10 +63,9 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         fmt::format("{} breaks at {}{}{}", series.words(), magnitudeInWords(broken->magnitude),
                     of.quantity->unit.empty() ? "" : " ", of.quantity->unit);
     const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
-    Failure failure;
+    Failure& failure = of.failures.emplace_back();
     if (!reduced) {
         failure.words = at + "; it does not occur without the scene's textures, environment and animation";
-        of.failures.push_back(std::move(failure));
         return;
     }
     const std::string name(of.quantity->name);
@@ -87,21 +75,31 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     scenes[lights] = lightsFileOf(reduced->smallest);
     const Settings& small = reduced->smallest.settings;
     failure.words = fmt::format("{}; {}, {} and {}x{} pixels reproduce it: error {}", at,
-                                counted(reduced->triangles, "triangle"), counted(reduced->lights, "light"),
-                                small.size.width, small.size.height, page::number(reduced->shown.error));
-    const Settings asked = series.applied(small);
-    for (const std::string& file : {failure.scene, lights}) writeFile(trial.folder / file, scenes[file]);
+                                counted(triangleCount(reduced->smallest.scene), "triangle"),
+                                counted(reduced->smallest.scene.lights.size(), "light"), small.size.width,
+                                small.size.height, page::number(reduced->shown.error));
+    const std::filesystem::path root = std::filesystem::absolute(std::filesystem::temp_directory_path());
+    Temporary trial(root, root / "diptych-audit");
+    if (!trial.createFolder(true)) throw std::system_error(errno, std::generic_category(), root);
+    for (const std::string& file : {failure.scene, lights}) writeFile(trial.path() / file, scenes[file]);
+    // Command line of a comparison with the reference, for the scene and lights in a folder. Mode surface
+    // compares light; only mode scene detects wrong surfaces.
+    const auto wordsIn = [&](const std::filesystem::path& folder, ReferenceMode mode) {
+        Settings asked = series.applied(small);
+        asked.lights = (folder / lights).string();
+        asked.path = Settings().path;
+        asked.reference_mode = mode;
+        const auto compare = commandWords("compare", (folder / failure.scene).string(), asked);
+        return withWords(withOption(compare, "--baseline", "reference"), question.words);
+    };
     try {
         for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
-            if (failure.command.empty() &&
-                trial.fails(comparisonWords(failure, lights, asked, mode, trial.words, trial.folder)))
-                failure.command =
-                    shellLine(comparisonWords(failure, lights, asked, mode, trial.words, folder));
+            if (failure.command.empty() && question.fails(wordsIn(trial.path(), mode), trial.path()))
+                failure.command = shellLine(wordsIn(question.folder, mode));
         if (failure.command.empty()) failure.words += "; compare tolerates this error and passes";
     } catch (const std::runtime_error& error) {
         failure.words += fmt::format("; it was not reproduced: {}", error.what());
     }
-    of.failures.push_back(std::move(failure));
 }
 
 }  // namespace diptych::audit

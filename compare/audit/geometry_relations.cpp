@@ -12,13 +12,8 @@ namespace diptych::audit {
 
 namespace {
 
-// Whether no joint and no morph target moves its vertices.
-bool isRigid(const Primitive& primitive) {
-    return primitive.joint_sets.empty() && primitive.targets.empty();
-}
-bool isRigid(const Mesh& mesh) {
-    return std::ranges::all_of(mesh.primitives,
-                               [](const Primitive& primitive) { return isRigid(primitive); });
+bool hasRigidPrimitives(const Mesh& mesh) {
+    return std::ranges::all_of(mesh.primitives, isRigid);
 }
 bool isBlended(const Scene& scene, const Primitive& primitive) {
     return blends(scene.materials[static_cast<std::size_t>(primitive.material)]);
@@ -26,30 +21,19 @@ bool isBlended(const Scene& scene, const Primitive& primitive) {
 
 std::string lacksRigidMesh(const Subject& subject) {
     const bool any = std::ranges::any_of(subject.given.scene.meshes, [](const Mesh& mesh) {
-        return !mesh.primitives.empty() && isRigid(mesh);
+        return !mesh.primitives.empty() && hasRigidPrimitives(mesh);
     });
     return any ? "" : "every mesh of the scene is skinned or morphed";
 }
 
-// Adds a node after all others that draws mesh `mesh` at the place of node `index`.
-void carry(Scene& scene, std::size_t index, int mesh) {
-    Node carrier = scene.nodes[index];
-    carrier.parent = static_cast<int>(index);
-    carrier.parent_from_node = glm::dmat4(1);
-    carrier.transform = -1;
-    carrier.mesh = mesh;
-    scene.nodes.push_back(std::move(carrier));
-}
-
 std::string lacksOrder(const Subject& subject) {
-    if (subject.given.settings.transparency == Transparency::unsorted)
-        return "--transparency unsorted blends in file order";
-    return lacksRigidMesh(subject);
+    const bool unsorted = subject.given.settings.transparency == Transparency::unsorted;
+    return unsorted ? "--transparency unsorted blends in file order" : "";
 }
 
 // Blended surfaces at equal distance are blended in the order of the file.
 bool isReversible(const Scene& scene, const Mesh& mesh) {
-    return isRigid(mesh) && std::ranges::none_of(mesh.primitives, [&](const Primitive& primitive) {
+    return hasRigidPrimitives(mesh) && std::ranges::none_of(mesh.primitives, [&](const Primitive& primitive) {
                return isBlended(scene, primitive);
            });
 }
@@ -72,7 +56,7 @@ void splitMeshes(Related& related, const Subject&) {
     const std::size_t meshes = scene.meshes.size(), nodes = scene.nodes.size();
     std::vector<int> other(meshes, -1);
     for (std::size_t m = 0; m < meshes; ++m) {
-        if (!isRigid(scene.meshes[m])) continue;
+        if (!hasRigidPrimitives(scene.meshes[m])) continue;
         Mesh rest = scene.meshes[m];
         bool any = false;
         for (std::size_t p = 0; p < rest.primitives.size(); ++p) {
@@ -84,9 +68,8 @@ void splitMeshes(Related& related, const Subject&) {
             first.resize(3 * count);
             any = any || !last.empty();
         }
-        std::erase_if(rest.primitives, [](const Primitive& primitive) { return primitive.indices.empty(); });
-        std::erase_if(scene.meshes[m].primitives,
-                      [](const Primitive& primitive) { return primitive.indices.empty(); });
+        const auto isEmpty = [](const Primitive& primitive) { return primitive.indices.empty(); };
+        for (Mesh* half : {&rest, &scene.meshes[m]}) std::erase_if(half->primitives, isEmpty);
         if (!any) continue;
         other[m] = static_cast<int>(scene.meshes.size());
         scene.meshes.push_back(std::move(rest));
@@ -96,29 +79,11 @@ void splitMeshes(Related& related, const Subject&) {
             carry(scene, i, other[static_cast<std::size_t>(mesh)]);
 }
 
-// Appends a vertex with all its attributes.
-void addVertex(Primitive& to, const Primitive& from, std::uint32_t i) {
-    to.indices.push_back(static_cast<std::uint32_t>(to.positions.size()));
-    to.positions.push_back(from.positions[i]);
-    to.normals.push_back(from.normals[i]);
-    to.tangents.push_back(from.tangents[i]);
-    for (std::size_t set = 0; set < 2; ++set)
-        if (!from.texcoords[set].empty()) to.texcoords[set].push_back(from.texcoords[set][i]);
-    if (!from.colors.empty()) to.colors.push_back(from.colors[i]);
-}
-
-Primitive emptyLike(const Primitive& primitive) {
-    Primitive empty;
-    empty.material = primitive.material;
-    empty.flat = primitive.flat;
-    return empty;
-}
-
 void unindex(Related& related, const Subject&) {
     for (Mesh& mesh : related.changed.scene.meshes)
         for (Primitive& primitive : mesh.primitives) {
             if (!isRigid(primitive)) continue;
-            Primitive apart = emptyLike(primitive);
+            Primitive apart = withoutVertices(primitive);
             for (const std::uint32_t i : primitive.indices) addVertex(apart, primitive, i);
             primitive = std::move(apart);
         }
@@ -133,23 +98,14 @@ bool isFlat(const Primitive& primitive, const std::uint32_t* corners) {
     return same(primitive.normals) && same(primitive.tangents);
 }
 
-template <class Value>
-void addMiddle(std::vector<Value>& to, std::uint32_t a, std::uint32_t b) {
-    if (!to.empty()) to.push_back((to[a] + to[b]) * 0.5f);
-}
-
+// Adds the vertex between two of a flat triangle.
 std::uint32_t middleOf(Primitive& primitive, std::uint32_t a, std::uint32_t b) {
-    addMiddle(primitive.positions, a, b);
-    addMiddle(primitive.texcoords[0], a, b);
-    addMiddle(primitive.texcoords[1], a, b);
-    addMiddle(primitive.colors, a, b);
-    primitive.normals.push_back(primitive.normals[a]);
-    primitive.tangents.push_back(primitive.tangents[a]);
+    eachAttribute(primitive, primitive,
+                  [&](auto& to, const auto& from) { to.push_back((from[a] + from[b]) * 0.5f); });
     return static_cast<std::uint32_t>(primitive.positions.size() - 1);
 }
 
 std::string lacksFlat(const Subject& subject) {
-    if (const std::string lacks = lacksPerObject(subject); !lacks.empty()) return lacks;
     // Edge midpoints round to 2^-24 of their distance from the mesh's origin.
     if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
         return "the scene's farthest surface is over 1000 times as far as its nearest: rounded edge "
@@ -236,51 +192,53 @@ void throughGlb(Related& related, const Subject& subject) {
 }  // namespace
 
 std::vector<Relation> geometryRelations() {
-    return {{.name = "draws_reversed",
-             .changes = "draw calls are reversed: the last comes first",
-             .because = "the nearest surface is visible in any drawing order",
-             .lacks = lacksOrder,
-             .change = reverseDraws,
-             .reorders = true,
-             .same_pipelines = true},
-            {.name = "meshes_split",
-             .changes = "each mesh becomes two with half the triangles each",
-             .because = "a triangle is drawn the same way in any draw call",
-             .lacks = lacksRigidMesh,
-             .change = splitMeshes,
-             .reorders = true,
-             .same_pipelines = true},
-            {.name = "unindexed",
-             .changes = "no triangle shares a vertex with another",
-             .because = "the same vertices are read from other indices",
-             .lacks = lacksRigidMesh,
-             .change = unindex,
-             .same_pipelines = true},
-            {.name = "triangles_split",
-             .changes = "each flat triangle becomes four",
-             .equality = Equality::rounding,
-             .because = "edge midpoints are rounded to float32, and interpolation starts from them",
-             .lacks = lacksFlat,
-             .change = splitTriangles},
-            {.name = "materials_permuted",
-             .changes = "the order of the materials is reversed",
-             .because = "the same values are read from other indices",
-             .lacks = lacksMaterials,
-             .change = permuteMaterials,
-             .reorders = true,
-             .same_pipelines = true},
-            {.name = "through_gltf",
-             .changes = "the scene without textures and motion is written to a .gltf file and read again",
-             .equality = Equality::rounding,
-             .because = "the file keeps float32 exactly, but the reader normalizes normals again",
-             .lacks = lacksFile,
-             .change = throughGltf},
-            {.name = "through_glb",
-             .changes = "the same scene is read from a .glb file instead of a .gltf file",
-             .because = "a data URI and a binary chunk hold the same bytes",
-             .lacks = lacksFile,
-             .change = throughGlb,
-             .same_pipelines = true}};
+    return {
+        {.name = "draws_reversed",
+         .changes = "draw calls are reversed: the last comes first",
+         .because = "the nearest surface is visible in any drawing order",
+         .lacks = {lacksOrder, lacksRigidMesh},
+         .change = reverseDraws,
+         .reorders = true,
+         .same_pipelines = true},
+        {.name = "meshes_split",
+         .changes = "each mesh becomes two with half the triangles each",
+         .because = "a triangle is drawn the same way in any draw call",
+         .lacks = {lacksRigidMesh},
+         .change = splitMeshes,
+         .reorders = true,
+         .same_pipelines = true},
+        {.name = "unindexed",
+         .changes = "no triangle shares a vertex with another",
+         .because = "the same vertices are read from other indices",
+         .lacks = {lacksRigidMesh},
+         .change = unindex,
+         .same_pipelines = true},
+        {.name = "triangles_split",
+         .changes = "each flat triangle becomes four",
+         .equality = Equality::rounding,
+         .because = "edge midpoints are rounded to float32, and interpolation starts from them",
+         .lacks = {lacksPerObject, lacksFlat},
+         .change = splitTriangles},
+        {.name = "materials_permuted",
+         .changes = "the order of the materials is reversed",
+         .because = "the same values are read from other indices",
+         .lacks = {lacksMaterials},
+         .change = permuteMaterials,
+         .reorders = true,
+         .same_pipelines = true},
+        {.name = "through_gltf",
+         .changes = "the scene without textures and motion is written to a .gltf file and read again",
+         .equality = Equality::rounding,
+         .because = "the file keeps float32 exactly, but the reader normalizes normals again",
+         .lacks = {lacksFile},
+         .change = throughGltf},
+        {.name = "through_glb",
+         .changes = "the same scene is read from a .glb file instead of a .gltf file",
+         .because = "a data URI and a binary chunk hold the same bytes",
+         .lacks = {lacksFile},
+         .change = throughGlb,
+         .same_pipelines = true},
+    };
 }
 
 }  // namespace diptych::audit

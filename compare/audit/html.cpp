@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/page.h"
-#include "compare/audit/plot.h"
 #include "compare/audit/words.h"
-#include "compare/audit/write.h"
+#include "compare/files/listed_folder.h"
 #include "compare/output/writers.h"
 
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace diptych::audit {
 
@@ -21,20 +20,17 @@ using output::Span;
 
 namespace {
 
-output::Text seriesText(const Series& series, const std::string& after = "") {
-    return {Span("", Span::swatch, nameOf(series.path)), series.words() + after};
-}
-
 // The range that every series of every quantity meets.
 output::Table tableOf(const Audit& audit) {
     output::Table table{{{"quantity"}, {"settings"}}, {}, true};
     for (const Criterion& criterion : criteria) table.columns.push_back({std::string(criterion.title)});
     for (const char* title : {"predicted, 1e-3", "predicted, 1e-2", "agree"})
         table.columns.push_back({title});
-    for (const QuantityAudit& of : audit.quantities) {
-        for (std::size_t s = 0; of.lacks.empty() && s < of.series.size(); ++s) {
+    for (const QuantityAudit& of : audit.quantities)
+        for (std::size_t s = 0; s < of.series.size(); ++s) {
             const std::string_view name = of.quantity->name;
-            output::Row row{{Span(name, Span::link, fmt::format("#{}", name)), seriesText(of.series[s])}};
+            output::Row row{{Span(name, Span::link, fmt::format("#{}", name)),
+                             seriesText(of.series[s], of.series[s].words())}};
             for (std::size_t c = 0; c < criterionCount; ++c) {
                 const ValidRange& range = of.valid_ranges[c][s];
                 const bool whole = range.at_original && !range.up.broken && !range.down.broken;
@@ -49,7 +45,6 @@ output::Table tableOf(const Audit& audit) {
             row.cells.emplace_back(!agree ? "" : *agree ? "yes" : "no");
             table.rows.push_back(std::move(row));
         }
-    }
     return table;
 }
 
@@ -72,7 +67,8 @@ output::Table stepsOf(const QuantityAudit& of) {
             const Outcome& outcome = step.outcomes[s];
             table.rows.push_back(
                 {{output::sorted(step.magnitude, magnitudeInWords(step.magnitude)),
-                  seriesText(of.series[s], outcome.failed.empty() ? "" : ": " + outcome.failed),
+                  seriesText(of.series[s],
+                             of.series[s].words() + (outcome.failed.empty() ? "" : ": " + outcome.failed)),
                   numberCell(outcome.light), numberCell(outcome.depth), numberCell(outcome.flip),
                   countCell(outcome.misplaced), countCell(outcome.nonfinite)}});
         }
@@ -105,26 +101,29 @@ output::Box sectionOf(const QuantityAudit& of) {
 
 }  // namespace
 
-output::Document pageOf(const Audited& audited, const std::string& title, const std::string& about,
-                        const std::vector<std::string>& files, std::optional<bool> passes) {
+std::string pageOf(const Audited& audited, const std::string& title, const std::string& about,
+                   std::optional<bool> passes, std::vector<output::Block> blocks,
+                   const std::vector<std::string>& files) {
+    const std::vector<std::string>& notes = audited.notes;
+    if (!notes.empty())
+        blocks.insert(blocks.end(),
+                      {Heading{3, "Notes", "part"}, output::List{{notes.begin(), notes.end()}, "box says"}});
     output::Document page{
         .title = title + ", " + audited.scene,
         .heading = Span(audited.scene, Span::name),
         .about = {fmt::format("{}; {}x{} on {} ({}); ", about, audited.settings.size.width,
                               audited.settings.size.height, audited.device.name, audited.device.driver),
                   Span(audited.camera, Span::foreign)},
-        .blocks = {},
+        .blocks = std::move(blocks),
         .files = files,
         .style = plotStyle};
     const char* const verdict = passes.value_or(true) ? "pass" : "fail";
     if (passes) page.heading = {Span(verdict, Span::verdict, verdict), " ", Span(audited.scene, Span::name)};
-    return page;
+    return inHtml(page);
 }
 
-void addNotes(output::Document& page, const std::vector<std::string>& notes) {
-    if (notes.empty()) return;
-    page.blocks.insert(page.blocks.end(),
-                       {Heading{3, "Notes", "part"}, output::List{{notes.begin(), notes.end()}, "box says"}});
+output::Text seriesText(const Series& series, const std::string& words) {
+    return {Span("", Span::swatch, nameOf(series.path)), words};
 }
 
 std::string auditHtml(const Audit& audit, const std::vector<std::string>& files) {
@@ -134,31 +133,37 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
         passes = passes.value_or(true) && requirement.met;
         requirements.items.emplace_back(inWords(requirement));
     }
-    output::Document page =
-        pageOf(audit, "an audit", "where each path breaks, varying one quantity at a time", files, passes);
     output::Box sections{"audit", {}};
-    std::vector<std::string> notes = audit.notes;
+    Audited noted = audit;
     if (!audit.to_come.empty())
-        notes.push_back(fmt::format("still being measured: {}", fmt::join(audit.to_come, ", ")));
+        noted.notes.push_back(fmt::format("still being measured: {}", fmt::join(audit.to_come, ", ")));
     for (const QuantityAudit& of : audit.quantities)
         if (of.lacks.empty())
             sections.blocks.emplace_back(sectionOf(of));
         else
-            notes.push_back(fmt::format("{} was not varied: {}", of.quantity->name, of.lacks));
-    page.blocks = {
-        requirements,
-        Heading{2, "Range in which each path holds"},
-        tableOf(audit),
-        Paragraph{"The error is the larger of two 99th percentiles over the pixels that show a surface: of "
-                  "lit against a double-precision reference that shades the surfaces forward+ captures, and "
-                  "of view depth against rays traced in double precision. Predictions say how far float32 "
-                  "and double should hold if Settings add no other rounding. A prediction agrees with a "
-                  "measurement within a factor of 2.",
-                  "soft small"},
-        Heading{2, "Error by magnitude"},
-        sections};
-    addNotes(page, notes);
-    return inHtml(page);
+            noted.notes.push_back(fmt::format("{} was not varied: {}", of.quantity->name, of.lacks));
+    return pageOf(
+        noted, "an audit", "where each path breaks, varying one quantity at a time", passes,
+        {requirements, Heading{2, "Range in which each path holds"}, tableOf(audit),
+         Paragraph{"The error is the larger of two 99th percentiles over the pixels that show a surface: of "
+                   "lit against a double-precision reference that shades the surfaces forward+ captures, and "
+                   "of view depth against rays traced in double precision. Predictions say how far float32 "
+                   "and double should hold if Settings add no other rounding. A prediction agrees with a "
+                   "measurement within a factor of 2.",
+                   "soft small"},
+         Heading{2, "Error by magnitude"}, sections},
+        files);
+}
+
+std::string writeAudit(const Audit& audit, const std::filesystem::path& path, bool force) {
+    ListedFolder folder(path, auditManifest, force);
+    folder.put("audit.csv", toCsv(audit));
+    for (const QuantityAudit& quantity : audit.quantities)
+        if (!quantity.steps.empty())
+            folder.put(std::string(quantity.quantity->name) + ".svg", auditPlot(quantity, PlotPlace::file));
+    for (const auto& [name, text] : audit.scenes) folder.put(name, text);
+    folder.put("index.html", auditHtml(audit, folder.files()));
+    return folder.finish(toJson(audit));
 }
 
 }  // namespace diptych::audit

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/groups.h"
+#include "compare/audit/quantities.h"
 
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -13,10 +12,6 @@
 namespace diptych::audit {
 
 namespace {
-
-bool isLocal(const Light& light) {
-    return light.kind != LightKind::directional;
-}
 
 float times(float value, double factor) {
     return static_cast<float>(double{value} * factor);
@@ -52,11 +47,6 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
             .because = "light is float32 from its source to the picture: 1e-38 to 3e38"};
 }
 
-Predicted predictRange(const Subject&, const Settings&, double) {
-    return {.because =
-                "the range window uses the squared ratio of distance to range, which one step computes"};
-}
-
 // Whether anything but local lights shines on surfaces.
 bool hasOtherLight(const Subject& subject) {
     const Scene& scene = subject.given.scene;
@@ -74,19 +64,15 @@ Predicted predictDistance(const Subject& subject, const Settings&, double error)
         return {.because =
                     "a light near a surface only lights an area as wide as its height, less than 1 % of the "
                     "picture; other light outshines it elsewhere"};
-    return {.down = 0x1p-25 * glm::distance(subject.point, subject.view.eye()) / error,
+    return {.down = 0x1p-25 * subject.distance() / error,
             .because =
                 "a light's position is float32 relative to the camera: its height above a surface has an "
                 "error of 2^-25 of their distance from the camera"};
 }
 
-Predicted predictEye(const Subject&, const Settings&, double) {
-    return {.because =
-                "a light near the camera is near the origin of all coordinates, where float32 is finest"};
-}
-
-Predicted predictCone(const Subject&, const Settings&, double) {
-    return {.because = "a cone's soft edge is at least 0.001 wide in cosine, and float32 resolves 6e-8"};
+void pushRange(Case& pushed, const Subject&, double metres) {
+    for (Light& light : pushed.scene.lights)
+        if (isLocal(light)) light.range = static_cast<float>(metres);
 }
 
 double originalRange(const Subject& subject) {
@@ -96,66 +82,25 @@ double originalRange(const Subject& subject) {
     return longest > 0 ? longest : 2 * subject.bounds.radius();
 }
 
-void pushRange(Case& pushed, const Subject&, double metres) {
-    for (Light& light : pushed.scene.lights)
-        if (isLocal(light)) light.range = static_cast<float>(metres);
-}
-
-// Moves each local light towards a point, scaled to keep its brightness there.
-void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres) {
+// Moves each local light straight to a distance from a point. `as_bright`: scaled to keep its brightness
+// there, and without a range.
+void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres, bool as_bright) {
     for (Light& light : pushed.scene.lights) {
         if (!isLocal(light)) continue;
         const glm::dvec3 before = light.position - from;
-        const double distance = glm::length(before);
+        const double distance = glm::length(before), nearer = metres / distance;
         if (!(distance > 0)) continue;
-        light.position = from + before * (metres / distance);
+        light.position = from + before * nearer;
+        if (!as_bright) continue;
         light.range = std::numeric_limits<float>::infinity();
-        if (!isArea(light.kind) && metres > 0) {
-            const double nearer = metres / distance;
-            light.intensity = times(light.intensity, nearer * nearer);
-        }
+        if (!isArea(light.kind) && metres > 0) light.intensity = times(light.intensity, nearer * nearer);
     }
-}
-
-double localDistance(const Subject& subject, const glm::dvec3& from) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Light& light : subject.given.scene.lights)
-        if (isLocal(light)) nearest = std::min(nearest, glm::distance(light.position, from));
-    return nearest;
-}
-
-double originalDistance(const Subject& subject) {
-    return localDistance(subject, subject.point);
-}
-
-void pushDistance(Case& pushed, const Subject& subject, double metres) {
-    moveLocalLights(pushed, subject.point, metres);
-}
-
-double originalEye(const Subject& subject) {
-    return localDistance(subject, subject.view.eye());
-}
-
-// Intensities stay: a light beside the eye lights the visible surfaces, not the eye.
-void pushEye(Case& pushed, const Subject& subject, double metres) {
-    const glm::dvec3 eye = subject.view.eye();
-    for (Light& light : pushed.scene.lights) {
-        if (!isLocal(light)) continue;
-        const glm::dvec3 before = light.position - eye;
-        if (const double distance = glm::length(before); distance > 0)
-            light.position = eye + before * (metres / distance);
-    }
-}
-
-std::string lacksDistance(const Subject& subject) {
-    const std::string light = lacksLocalLight(subject);
-    return light.empty() ? lacksSurface(subject) : light;
 }
 
 // Point and spot lights become spot lights without a penumbra, aimed at the image's centre.
 void pushCone(Case& pushed, const Subject& subject, double degrees) {
     for (Light& light : pushed.scene.lights) {
-        if (light.kind != LightKind::point && light.kind != LightKind::spot) continue;
+        if (!isPunctual(light)) continue;
         light.kind = LightKind::spot;
         light.inner_cone = light.outer_cone = static_cast<float>(glm::radians(degrees / 2));
         const glm::dvec3 along = subject.point - light.position;
@@ -163,27 +108,29 @@ void pushCone(Case& pushed, const Subject& subject, double degrees) {
     }
 }
 
-double originalCone(const Subject&) {
-    return 90;
+std::string lacksPunctualLight(const Subject& subject) {
+    const bool any = std::ranges::any_of(subject.given.scene.lights, isPunctual);
+    return any ? "" : "the scene has no point or spot light";
 }
 
-std::string lacksCone(const Subject& subject) {
-    const bool any = std::ranges::any_of(subject.given.scene.lights, [](const Light& light) {
-        return light.kind == LightKind::point || light.kind == LightKind::spot;
-    });
-    return any ? lacksSurface(subject) : "the scene has no point or spot light";
+std::string lacksEnvironment(const Subject& subject) {
+    return subject.given.scene.environment ? "" : "the scene has no environment: add one with --env";
 }
 
-float sumOf(const float* pixel) {
-    return pixel[0] + pixel[1] + pixel[2];
+// The brightest pixel, and the sum of its components.
+std::pair<std::size_t, float> brightestOf(const Image& radiance) {
+    std::pair<std::size_t, float> brightest{0, -1};
+    for (std::size_t i = 0; i < radiance.pixels(); ++i) {
+        const float* const pixel = radiance.pixel(i);
+        if (const float sum = pixel[0] + pixel[1] + pixel[2]; sum > brightest.second) brightest = {i, sum};
+    }
+    return brightest;
 }
 
 // Radiance, its maps and their sums are float32; a path's estimate multiplies it by some thousand at most.
 // Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
 Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
-    const Image& radiance = subject.given.scene.environment->radiance;
-    float most = 0;
-    for (std::size_t i = 0; i < radiance.pixels(); ++i) most = std::max(most, sumOf(radiance.pixel(i)));
+    const float most = brightestOf(subject.given.scene.environment->radiance).second;
     return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
             .because =
                 "radiance is float32 from the environment to the picture, up to 3e38; maps and samples only "
@@ -194,15 +141,7 @@ Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
 // Scales only the brightest pixel.
 void pushEnvironment(Case& pushed, const Subject&, double factor) {
     Image& radiance = pushed.scene.environment->radiance;
-    std::size_t brightest = 0;
-    float most = -1;
-    for (std::size_t i = 0; i < radiance.pixels(); ++i) {
-        const float* pixel = std::as_const(radiance).pixel(i);
-        if (const float sum = sumOf(pixel); sum > most) {
-            most = sum;
-            brightest = i;
-        }
-    }
+    const std::size_t brightest = brightestOf(radiance).first;
     for (int c = 0; c < 3; ++c) {
         float& component = radiance.pixel(brightest)[c];
         component = static_cast<float>(
@@ -213,17 +152,11 @@ void pushEnvironment(Case& pushed, const Subject&, double factor) {
 }  // namespace
 
 std::vector<Quantity> lightQuantities() {
-    std::vector<double> places = ladder(1e-9, 1e7);
-    places.insert(places.begin(), 0);
-    std::vector<double> cones = ladder(0.01, 10);
-    for (const double wide : {30.0, 90.0, 150.0, 179.0, 180.0}) cones.push_back(wide);
+    const std::vector<double> places = ladder(1e-9, 1e7, 10, {0});
     return {
         {.name = "intensity",
-         .unit = "",
          .what = "all light sources, multiplied by a factor",
          .magnitudes = ladder(1e-12, 1e12),
-         .original = originalOne,
-         .lacks = lacksNothing,
          .push = pushIntensity,
          .variants = {{"lit-format", "fp16"}, {"lit-format", "b10g11r11"}},
          .same_picture = true,
@@ -234,43 +167,45 @@ std::vector<Quantity> lightQuantities() {
          .what = "the range of every point, spot and area light",
          .magnitudes = ladder(1e-3, 1e9),
          .original = originalRange,
-         .lacks = lacksLocalLight,
+         .lacks = {lacksLocalLight},
          .push = pushRange,
-         .predict = predictRange},
+         .because = "the range window uses the squared ratio of distance to range, which one step computes"},
         {.name = "distance",
          .unit = "m",
          .what =
              "distance of local lights from the surface in the middle of the picture, which stays as bright",
          .magnitudes = places,
-         .original = originalDistance,
-         .lacks = lacksDistance,
-         .push = pushDistance,
+         .original = [](const Subject& subject) { return localDistance(subject, subject.point); },
+         .lacks = {lacksLocalLight, lacksPerspective, lacksSurface},
+         .push = [](Case& pushed, const Subject& subject,
+                    double metres) { moveLocalLights(pushed, subject.point, metres, true); },
          .predict = predictDistance},
+        // Intensities stay: a light beside the eye lights the visible surfaces, not the eye.
         {.name = "eye",
          .unit = "m",
          .what = "distance of local lights from the camera",
          .magnitudes = places,
-         .original = originalEye,
-         .lacks = lacksLocalLight,
-         .push = pushEye,
-         .predict = predictEye},
+         .original = [](const Subject& subject) { return localDistance(subject, subject.view.eye()); },
+         .lacks = {lacksLocalLight},
+         .push = [](Case& pushed, const Subject& subject,
+                    double metres) { moveLocalLights(pushed, subject.view.eye(), metres, false); },
+         .because = "a light near the camera is near the origin of all coordinates, where float32 is finest"},
         {.name = "cone",
          .unit = "degrees",
          .what = "the full cone angle of every point and spot light, inner equal to outer",
-         .magnitudes = cones,
-         .original = originalCone,
-         .lacks = lacksCone,
+         .magnitudes = ladder(0.01, 10, 10, {30, 90, 150, 179, 180}),
+         .original = [](const Subject&) { return 90.0; },
+         .lacks = {lacksPunctualLight, lacksPerspective, lacksSurface},
          .push = pushCone,
-         .predict = predictCone},
+         .because = "a cone's soft edge is at least 0.001 wide in cosine, and float32 resolves 6e-8"},
         {.name = "environment",
-         .unit = "",
          .what = "the brightest pixel of the environment, multiplied by a factor",
          .magnitudes = ladder(1, 1e12),
-         .original = originalOne,
-         .lacks = lacksEnvironment,
+         .lacks = {lacksEnvironment},
          .push = pushEnvironment,
          .variants = {{"ibl", "sampled"}},
-         .predict = predictEnvironment}};
+         .predict = predictEnvironment},
+    };
 }
 
 }  // namespace diptych::audit

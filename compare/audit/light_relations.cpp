@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/quantities.h"
 #include "compare/audit/relations.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace diptych::audit {
 
@@ -17,11 +15,7 @@ std::string lacksTwoLights(const Subject& subject) {
     if (subject.given.settings.haze &&
         std::ranges::count(subject.given.scene.lights, LightKind::directional, &Light::kind) > 1)
         return "--haze scatters the light of one sun";
-    return lacksPerObject(subject);
-}
-
-void permuteLights(Related& related, const Subject&) {
-    std::ranges::reverse(related.changed.scene.lights);
+    return {};
 }
 
 std::string lacksSplittable(const Subject& subject) {
@@ -29,19 +23,16 @@ std::string lacksSplittable(const Subject& subject) {
     if (subject.given.scene.lights.empty()) return "the scene has no light";
     if (settings.light_cutoff > 0) return "--light-cutoff gives a dimmer light a shorter range";
     if (settings.shadows != Shadows::off) return "a sun or --shadow-lights cast shadows: leave out --shadows";
-    return lacksPerObject(subject);
+    return {};
 }
 
 // Splits every light, so that all views are affected; haze, though, scatters the light of only one sun.
 void splitLights(Related& related, const Subject&) {
     std::vector<Light> halves;
     for (Light light : related.changed.scene.lights) {
-        if (light.kind == LightKind::directional && related.changed.settings.haze) {
-            halves.push_back(std::move(light));
-            continue;
-        }
-        light.intensity /= 2;
-        halves.insert(halves.end(), 2, light);
+        const bool whole = !isLocal(light) && related.changed.settings.haze;
+        if (!whole) light.intensity /= 2;
+        halves.insert(halves.end(), whole ? 1 : 2, light);
     }
     related.changed.scene.lights = std::move(halves);
 }
@@ -53,17 +44,10 @@ void multiplyLight(Related& related, const Subject& subject, double factor) {
         related.own_base = true;
         related.base.scene.materials[i].unlit = related.changed.scene.materials[i].unlit = false;
     }
-    static const Quantity& intensity = *quantitiesOf(std::array{std::string("intensity")}).front();
-    intensity.push(related.changed, subject, factor);
+    const std::array intensity{std::string("intensity")};
+    quantitiesOf(intensity).front()->push(related.changed, subject, factor);
     related.map.light = factor;
 }
-void doubleLight(Related& related, const Subject& subject) {
-    multiplyLight(related, subject, 2);
-}
-void multiplyLightMuch(Related& related, const Subject& subject) {
-    multiplyLight(related, subject, 0x1p-6);
-}
-
 // Lights where the camera looks, so that they are in many lists; before and after the others.
 void addDarkLights(Related& related, const Subject& subject) {
     Light dark;
@@ -95,40 +79,41 @@ void addFarLights(Related& related, const Subject& subject) {
 }  // namespace
 
 std::vector<Relation> lightRelations() {
-    return {{.name = "lights_permuted",
-             .changes = "the order of the lights is reversed",
-             .equality = Equality::sums,
-             .because = "the same terms are added in another order",
-             .lacks = lacksTwoLights,
-             .change = permuteLights},
-            {.name = "lights_split",
-             .changes = "each light becomes two of half the intensity",
-             .equality = Equality::sums,
-             .because = "half of a float32 is exact; the sum has twice as many terms",
-             .lacks = lacksSplittable,
-             .change = splitLights},
-            {.name = "light_doubled",
-             .changes = "every light source is twice as bright",
-             .because = "shaded light is proportional to its source, and twice a float32 is exact",
-             .lacks = lacksNone,
-             .change = doubleLight,
-             .same_pipelines = true},
-            {.name = "light_64th",
-             .changes = "every light source has 1/64 of its brightness",
-             .because = "shaded light is proportional to its source, and 1/64 of a float32 is exact",
-             .lacks = lacksNone,
-             .change = multiplyLightMuch,
-             .same_pipelines = true},
-            {.name = "dark_lights",
-             .changes = "two lights of intensity 0 are added in the middle of the picture",
-             .because = "a light of intensity 0 adds 0",
-             .lacks = lacksPerObject,
-             .change = addDarkLights},
-            {.name = "far_lights",
-             .changes = "three bright lights are added out of range of every surface",
-             .because = "a light is exactly 0 beyond its range, so it adds 0",
-             .lacks = lacksPerObject,
-             .change = addFarLights}};
+    return {
+        {.name = "lights_permuted",
+         .changes = "the order of the lights is reversed",
+         .equality = Equality::sums,
+         .because = "the same terms are added in another order",
+         .lacks = {lacksTwoLights, lacksPerObject},
+         .change = [](Related& related,
+                      const Subject&) { std::ranges::reverse(related.changed.scene.lights); }},
+        {.name = "lights_split",
+         .changes = "each light becomes two of half the intensity",
+         .equality = Equality::sums,
+         .because = "half of a float32 is exact; the sum has twice as many terms",
+         .lacks = {lacksSplittable, lacksPerObject},
+         .change = splitLights},
+        {.name = "light_doubled",
+         .changes = "every light source is twice as bright",
+         .because = "shaded light is proportional to its source, and twice a float32 is exact",
+         .change = [](Related& related, const Subject& subject) { multiplyLight(related, subject, 2); },
+         .same_pipelines = true},
+        {.name = "light_64th",
+         .changes = "every light source has 1/64 of its brightness",
+         .because = "shaded light is proportional to its source, and 1/64 of a float32 is exact",
+         .change = [](Related& related, const Subject& subject) { multiplyLight(related, subject, 0x1p-6); },
+         .same_pipelines = true},
+        {.name = "dark_lights",
+         .changes = "two lights of intensity 0 are added in the middle of the picture",
+         .because = "a light of intensity 0 adds 0",
+         .lacks = {lacksPerObject},
+         .change = addDarkLights},
+        {.name = "far_lights",
+         .changes = "three bright lights are added out of range of every surface",
+         .because = "a light is exactly 0 beyond its range, so it adds 0",
+         .lacks = {lacksPerObject},
+         .change = addFarLights},
+    };
 }
 
 }  // namespace diptych::audit

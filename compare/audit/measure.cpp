@@ -8,6 +8,7 @@
 #include "compare/metrics/flip.h"
 #include "compare/picture/picture.h"
 #include "compare/render/reference_frame.h"
+#include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/model/material_slots.h"
 
@@ -58,6 +59,10 @@ double pictureError(const Frame& truth, const Frame& test, const Coverage& where
     return experiment::nearestRank(std::move(apart), 0.99) / 255.0;
 }
 
+// There the reference of captured surfaces traces its own rays through blended surfaces, whose light it
+// filters differently from a path.
+constexpr int blendedReach = 2;
+
 // Removes the pixels that `out` selects.
 template <class Out>
 void remove(Coverage& where, const Out& out) {
@@ -66,20 +71,6 @@ void remove(Coverage& where, const Out& out) {
             where.covered[i] = 0;
             --where.count;
         }
-}
-
-// Whether a blended surface is within this many pixels. There the reference of captured surfaces traces
-// its own rays through blended surfaces, whose light it filters differently from a path.
-constexpr int blendedReach = 2;
-bool isNearBlended(const Image& blended, std::size_t pixel) {
-    if (blended.pixels() == 0) return false;
-    const int x = static_cast<int>(pixel) % blended.width, y = static_cast<int>(pixel) / blended.width;
-    for (int v = std::max(y - blendedReach, 0); v <= std::min(y + blendedReach, blended.height - 1); ++v)
-        for (int u = std::max(x - blendedReach, 0); u <= std::min(x + blendedReach, blended.width - 1); ++u)
-            if (*blended.pixel(static_cast<std::size_t>(v) * static_cast<std::size_t>(blended.width) +
-                               static_cast<std::size_t>(u)) > 0)
-                return true;
-    return false;
 }
 
 // Keeps only the properties of a material that decide where its surface is visible.
@@ -105,22 +96,16 @@ Outcome failedOutcome(const std::string& why) {
     return outcome;
 }
 
-// The scene after an injected fault, and its renderer.
-struct Spoilt {
-    std::optional<Case> spoilt;
-    std::optional<SceneViews> views;
-    std::optional<Renderer> renderer;
-
-    void make(Device& device, const Case& pushed, const Measurer::Fault& fault,
-              const std::shared_ptr<PipelineSet>& pipelines) {
-        spoilt = pushed;
-        fault.scene(*spoilt);
-        views.emplace(spoilt->scene);
-        renderer.emplace(device, *views, pipelines);
-    }
-};
-
 }  // namespace
+
+bool isNearBlended(const Image& blended, std::size_t pixel, int reach) {
+    if (blended.pixels() == 0) return false;
+    const int x = static_cast<int>(pixel) % blended.width, y = static_cast<int>(pixel) / blended.width;
+    bool found = *blended.pixel(pixel) > 0;
+    around(
+        blended, x, y, [&](int u, int v) { found = found || blended.at(u, v) > 0; }, reach);
+    return found;
+}
 
 Settings Series::applied(Settings settings) const {
     settings.path = path;
@@ -134,35 +119,38 @@ std::string Series::words() const {
     return words;
 }
 
-void ChosenSeries::add(Series one, const Settings& settings) {
-    if (const auto problem = settings.problem()) {
-        left_out.push_back(one.words() + ": " + *problem);
-        return;
+ChosenSeries chosenOf(const std::vector<Series>& wanted,
+                      const std::function<Settings(const Series&)>& settingsOf) {
+    ChosenSeries chosen;
+    std::vector<Settings> known;
+    for (const Series& one : wanted) {
+        const Settings settings = settingsOf(one);
+        if (const auto problem = settings.problem()) {
+            chosen.left_out.push_back(one.words() + ": " + *problem);
+            continue;
+        }
+        Settings effective = effectiveSettings(settings);
+        const auto same = std::ranges::find(known, effective);
+        if (same != known.end()) {
+            const Series& as = chosen.series[static_cast<std::size_t>(same - known.begin())];
+            chosen.left_out.push_back(fmt::format("{} draws the same as {}", one.words(), as.words()));
+            continue;
+        }
+        known.push_back(std::move(effective));
+        chosen.series.push_back(one);
     }
-    Settings effective = effectiveSettings(settings);
-    const auto same = std::ranges::find(known_, effective);
-    if (same != known_.end()) {
-        const Series& as = series[static_cast<std::size_t>(same - known_.begin())];
-        left_out.push_back(fmt::format("{} draws the same as {}", one.words(), as.words()));
-        return;
-    }
-    known_.push_back(std::move(effective));
-    series.push_back(std::move(one));
+    return chosen;
 }
 
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject) {
     Case original = subject.given;
     quantity.push(original, subject, quantity.original(subject));
-    ChosenSeries all;
-    const auto add = [&](Series series) {
-        const Settings settings = series.applied(original.settings);
-        all.add(std::move(series), settings);
-    };
-    for (const Path path : drawn_paths) add({path, {}});
-    for (const Path path : drawn_paths) add({path, {{"gbuffer", "full"}}});
-    for (const Change& change : quantity.variants)
-        for (const Path path : drawn_paths) add({path, {change}});
-    return all;
+    std::vector<std::vector<Change>> changes{{}, {{"gbuffer", "full"}}};
+    for (const Change& change : quantity.variants) changes.push_back({change});
+    std::vector<Series> wanted;
+    for (const std::vector<Change>& change : changes)
+        for (const Path path : drawn_paths) wanted.push_back({path, change});
+    return chosenOf(wanted, [&](const Series& series) { return series.applied(original.settings); });
 }
 
 Measurer::Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep)
@@ -204,7 +192,7 @@ const Measurer::Truth& Measurer::original(const Size& size) {
 Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure) {
     Outcome outcome;
     Coverage opaque = coverage(truth.lit, truth.lit);
-    remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i); });
+    remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i, blendedReach); });
     const ChannelStats light = statsOf(Channel::lit, truth.lit, lit, opaque);
     outcome.light = knownOrInfinite(light.p99);
     outcome.light_999 = knownOrInfinite(light.p999);
@@ -241,10 +229,6 @@ Step Measurer::measure(const Quantity& quantity, std::span<const Series> series,
     return measure(pushed, series, &quantity, magnitude);
 }
 
-Step Measurer::measure(const Case& pushed, std::span<const Series> series) {
-    return measure(pushed, series, nullptr, 0);
-}
-
 Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> series) {
     Drawn drawn;
     // One core traces rays while the device renders, and then shades the captured surfaces.
@@ -254,15 +238,22 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
         SceneViews views(pushed.scene);
         Renderer renderer(device_, views, pipelines_);
         drawn.truth.lit = litOfSurfaces(renderer, pushed.settings);
-        Spoilt other;
-        if (fault_.scene) other.make(device_, pushed, fault_, pipelines_);
+        Case faulty;
+        std::optional<SceneViews> faulty_views;
+        std::optional<Renderer> faulty_renderer;
+        if (fault_.scene) {
+            faulty = pushed;
+            fault_.scene(faulty);
+            faulty_views.emplace(faulty.scene);
+            faulty_renderer.emplace(device_, *faulty_views, pipelines_);
+        }
         std::vector<Channel> channels{Channel::lit, Channel::material_id, Channel::depth};
         channels.insert(channels.end(), fault_.channels.begin(), fault_.channels.end());
         for (const Series& one : series) {
             Frame& frame = drawn.frames.emplace_back();
             std::string& failed = drawn.failed.emplace_back();
             try {
-                Renderer& drawer = other.renderer ? *other.renderer : renderer;
+                Renderer& drawer = faulty_renderer ? *faulty_renderer : renderer;
                 frame = drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
                 if (fault_.picture) fault_.picture(pushed, frame);
             } catch (const std::exception& error) {
@@ -280,13 +271,10 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
     step.magnitude = magnitude;
     try {
         // A quantity that only changes images is rendered once.
-        const bool again = quantity && quantity->of_pictures;
-        std::optional<Drawn> own;
-        if (!again || fault_.scene || fault_.picture)
-            own = draw(pushed, series);
-        else if (!pictures_ || pictures_->frames.size() != series.size())
-            pictures_ = draw(pushed, series);
-        const Drawn& drawn = own ? *own : *pictures_;
+        const bool kept = quantity && quantity->of_pictures && !fault_.scene && !fault_.picture;
+        Drawn own;
+        Drawn& drawn = kept ? pictures_ : own;
+        if (drawn.frames.empty() || drawn.frames.size() != series.size()) drawn = draw(pushed, series);
         std::optional<Truth> same;
         if (quantity && quantity->same_picture) {
             same = original(pushed.settings.size);

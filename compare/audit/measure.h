@@ -2,7 +2,7 @@
 // Renders a modified case by either path and compares it with the reference.
 #pragma once
 
-#include "compare/audit/quantity.h"
+#include "compare/audit/quantities.h"
 #include "compare/render/renderer.h"
 
 #include <algorithm>
@@ -32,14 +32,11 @@ struct Series {
 struct ChosenSeries {
     std::vector<Series> series;
     std::vector<std::string> left_out;  // "forward_plus, gbuffer full: is drawn as forward_plus"
-
-    // Adds a series unless it has no meaning or renders the same image as an earlier series. `settings`:
-    // all Settings of the series.
-    void add(Series series, const Settings& settings);
-
-private:
-    std::vector<Settings> known_;
 };
+
+// Without series that have no meaning or render the same image as an earlier one.
+ChosenSeries chosenOf(const std::vector<Series>& wanted,
+                      const std::function<Settings(const Series&)>& settingsOf);
 
 // Series of a quantity: both paths with the original Settings; deferred with a float32 G-buffer, which
 // rounds no more than arithmetic does; and the quantity's variants.
@@ -75,6 +72,9 @@ struct Step {
     std::string failed;         // why there is no reference
 };
 
+// Whether a blended surface (W x H x 1) is within this many pixels, or in the pixel; empty: nowhere.
+bool isNearBlended(const Image& blended, std::size_t pixel, int reach);
+
 class Measurer {
 public:
     // `device` and `subject` must outlive it. Renders the reference of the original subject.
@@ -92,8 +92,9 @@ public:
     // Hash of the pixels of the original subject's truth; represents all files that it comes from.
     std::string fingerprint();
     Step measure(const Quantity& quantity, std::span<const Series> series, double magnitude);
-    // Measures an already modified case.
-    Step measure(const Case& pushed, std::span<const Series> series);
+    // Measures an already modified case; by `quantity`, if any.
+    Step measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity = nullptr,
+                 double magnitude = 0);
 
 private:
     // Ground truth for a path: lit of captured surfaces; depth and materials of traced rays.
@@ -114,15 +115,13 @@ private:
         std::vector<std::string> failed;
     };
     Drawn draw(const Case& pushed, std::span<const Series> series);
-    Step measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity,
-                 double magnitude);
 
     Device& device_;
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
     std::map<std::pair<int, int>, Truth> original_;  // by image width and height
-    std::optional<Drawn> pictures_;                  // of a quantity that only changes images
+    Drawn pictures_;                                 // of a quantity that only changes images
     Fault fault_{};
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/groups.h"
+#include "compare/audit/quantities.h"
+#include "shared/scene/default_view.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +16,6 @@ namespace {
 
 // Horizontal, so that haze stays the same, and along no axis.
 const glm::dvec3 away = glm::normalize(glm::dvec3(0.8, 0, 0.6));
-
-void pushOffset(Case& pushed, const Subject&, double metres) {
-    moveAll(pushed, glm::translate(glm::dmat4(1), metres * away));
-}
-
-void pushScale(Case& pushed, const Subject&, double factor) {
-    scaleLengths(pushed, factor);
-}
 
 // Moves vertices far from their mesh's origin; its node moves them back.
 void pushVertex(Case& pushed, const Subject&, double metres) {
@@ -38,25 +32,20 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
     // Moves back only the mesh, not child nodes.
     const std::size_t count = scene.nodes.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (scene.nodes[i].mesh < 0 || scene.nodes[i].skin >= 0) continue;
-        Node carrier = scene.nodes[i];
-        carrier.parent = static_cast<int>(i);
-        carrier.parent_from_node = back;
-        carrier.transform = -1;
-        if (carrier.copies >= 0) {
-            for (glm::dmat4& copy : scene.copies[static_cast<std::size_t>(carrier.copies)])
-                copy = copy * back;
+        const Node& node = scene.nodes[i];
+        if (node.mesh < 0 || node.skin >= 0) continue;
+        if (node.copies >= 0) {
+            for (glm::dmat4& copy : scene.copies[static_cast<std::size_t>(node.copies)]) copy = copy * back;
             continue;
         }
+        carry(scene, i, node.mesh).parent_from_node = back;
         scene.nodes[i].mesh = -1;
-        scene.nodes.push_back(std::move(carrier));
     }
 }
 
 // Viewing distance, m.
 double distanceOf(const Subject& subject) {
-    return subject.seen ? glm::distance(subject.point, subject.view.eye())
-                        : std::max(subject.bounds.radius(), 1e-6);
+    return subject.seen ? subject.distance() : subject.radius();
 }
 
 Predicted predictOffset(const Subject& subject, const Settings&, double error) {
@@ -65,17 +54,10 @@ Predicted predictOffset(const Subject& subject, const Settings&, double error) {
         .because = "positions relative to the camera are computed in double, with 53 bits for the offset"};
 }
 
-Predicted predictVertex(const Subject&, const Settings&, double) {
-    return {.because =
-                "vertices are stored relative to the middle of all meshes, which is exact: float32 only "
-                "spans the scene's size"};
-}
-
 Predicted predictScale(const Subject& subject, const Settings&, double) {
     double least = std::numeric_limits<double>::infinity();
     for (const Light& light : subject.given.scene.lights)
-        if (light.kind == LightKind::point || light.kind == LightKind::spot)
-            least = std::min(least, double{light.intensity});
+        if (isPunctual(light)) least = std::min(least, double{light.intensity});
     // Candela scale with the square of the factor.
     const double dim = std::isfinite(least) && least > 0 ? std::sqrt(0x1p-126 / least) : 0;
     return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
@@ -85,44 +67,139 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
                 "the factor"};
 }
 
-double originalOffset(const Subject&) {
-    return 0;
+// A far plane beyond the whole scene, m.
+double farOf(const Subject& subject) {
+    return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * subject.reach();
+}
+
+void pushNear(Case& pushed, const Subject& subject, double ratio) {
+    pushed.camera().far = farOf(subject);
+    pushed.camera().near = pushed.camera().far / ratio;
+}
+
+// Rotates the eye around the point in the image's centre, at the same distance, until it sees the surface
+// there under this angle.
+void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
+    const glm::dvec3 to_eye = subject.view.eye() - subject.point;
+    glm::dvec3 along = to_eye - glm::dot(to_eye, subject.normal) * subject.normal;
+    if (!(glm::length(along) > 1e-6 * glm::length(to_eye)))
+        along = glm::cross(subject.normal,
+                           std::abs(subject.normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
+    const double angle = glm::radians(degrees);
+    const glm::dvec3 direction = std::cos(angle) * glm::normalize(along) + std::sin(angle) * subject.normal;
+    const glm::dvec3 eye = subject.point + glm::length(to_eye) * direction;
+    pushed.camera().world_from_camera = lookAt(eye, subject.point);
+}
+
+double originalGrazing(const Subject& subject) {
+    const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
+    return glm::degrees(std::asin(std::clamp(glm::dot(to_eye, subject.normal), 0.0, 1.0)));
+}
+
+// Error of the stored depth, and its reason.
+Predicted roundingOf(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::d32f:
+            return {.because =
+                        "reversed float32 depth has 24 bits wherever the planes are, and one division turns "
+                        "it into a position"};
+        case DepthFormat::d32f_standard:
+            return {.up = 0x1p-24,
+                    .because = "depth is stored near 1 at any distance, with two rounding errors of 24 bits"};
+        case DepthFormat::d24:
+            return {.up = 0x1p-25, .because = "depth has a rounding error of half a 24-bit step"};
+        case DepthFormat::d16:
+            return {.up = 0.5 / 65535, .because = "depth has a rounding error of half a 16-bit step"};
+    }
+    return {};
+}
+
+// A depth step dz changes the distance d by the relative amount d (f - n) / (n f) dz, most for the
+// farthest surface. Light from a lamp at distance r from the centre changes there by 2 d / r times as
+// much.
+Predicted predictNear(const Subject& subject, const Settings& settings, double error) {
+    Predicted predicted = roundingOf(settings.depth_format);
+    if (settings.depth_format == DepthFormat::d32f) return predicted;
+    const double brighter = std::max(1.0, 2 * subject.distance() / localDistance(subject, subject.point));
+    predicted.up = error * farOf(subject) / (subject.reach() * brighter * predicted.up);
+    return predicted;
+}
+
+// A vertex is accurate to 2^-24 of its distance, which at such a small angle is part of a pixel. On an
+// inclined surface its depth differs by as much.
+Predicted predictFov(const Subject& subject, const Settings&, double) {
+    const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
+    const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
+    return {
+        .down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
+        .because =
+            "a vertex is accurate to 2^-24 of its distance: at that angle the whole picture is no larger"};
 }
 
 }  // namespace
 
 std::vector<Quantity> placeQuantities() {
-    std::vector<double> offsets = ladder(1, 1e8);
-    offsets.insert(offsets.begin(), 0);
-    std::vector<double> vertices = ladder(1, 1e7);
-    vertices.insert(vertices.begin(), 0);
-    return {{.name = "offset",
-             .unit = "m",
-             .what = "distance from the origin of scene, lights and camera together",
-             .magnitudes = offsets,
-             .original = originalOffset,
-             .lacks = lacksNothing,
-             .push = pushOffset,
-             .same_picture = true,
-             .predict = predictOffset},
-            {.name = "vertex",
-             .unit = "m",
-             .what = "distance of vertices from their mesh's origin, which its node compensates",
-             .magnitudes = vertices,
-             .original = originalOffset,
-             .lacks = lacksNothing,
-             .push = pushVertex,
-             .predict = predictVertex},
-            {.name = "scale",
-             .unit = "",
-             .what = "factor on all lengths, with intensities adjusted so that the picture stays the same",
-             .magnitudes = ladder(1e-6, 1e6),
-             .original = originalOne,
-             .lacks = lacksNothing,
-             .push = pushScale,
-             .same_picture = true,
-             .lengths = true,
-             .predict = predictScale}};
+    constexpr auto originalNone = [](const Subject&) { return 0.0; };
+    return {
+        {.name = "offset",
+         .unit = "m",
+         .what = "distance from the origin of scene, lights and camera together",
+         .magnitudes = ladder(1, 1e8, 10, {0}),
+         .original = originalNone,
+         .push = [](Case& pushed, const Subject&,
+                    double metres) { moveAll(pushed, glm::translate(glm::dmat4(1), metres * away)); },
+         .same_picture = true,
+         .predict = predictOffset},
+        {.name = "vertex",
+         .unit = "m",
+         .what = "distance of vertices from their mesh's origin, which its node compensates",
+         .magnitudes = ladder(1, 1e7, 10, {0}),
+         .original = originalNone,
+         .push = pushVertex,
+         .because = "vertices are stored relative to the middle of all meshes, which is exact: float32 only "
+                    "spans the scene's size"},
+        {.name = "scale",
+         .what = "factor on all lengths, with intensities adjusted so that the picture stays the same",
+         .magnitudes = ladder(1e-6, 1e6),
+         .push = [](Case& pushed, const Subject&, double factor) { scaleLengths(pushed, factor); },
+         .same_picture = true,
+         .lengths = true,
+         .predict = predictScale},
+        {.name = "exposure",
+         .what = "exposure of the 8-bit pictures, as a factor of the automatic exposure",
+         .magnitudes = ladder(1e-30, 1e30, 1e3),
+         .push = [](Case& pushed, const Subject&, double factor) { pushed.exposure = factor; },
+         .of_pictures = true,
+         .because = "exposure multiplies float32 radiance in double, and both pictures are rounded to 8 bits "
+                    "after the tone curve"},
+        {.name = "near",
+         .what = "the far plane's distance divided by the near plane's, by moving the near plane",
+         .magnitudes = ladder(1e2, 1e9),
+         .original = [](const Subject& subject) { return farOf(subject) / subject.view.camera.near; },
+         .push = pushNear,
+         .variants = {{"depth-format", "d32f-standard"}, {"depth-format", "d24"}, {"depth-format", "d16"}},
+         .predict = predictNear,
+         .predicts_formats = true},
+        {.name = "fov",
+         .unit = "degrees",
+         .what = "the vertical field of view, from the same camera position",
+         .magnitudes = ladder(0.01, 10, 10, {30, 60, 90, 120, 150, 170, 179}),
+         .original = [](const Subject& subject) { return glm::degrees(subject.view.camera.yfov); },
+         .lacks = {lacksPerspective},
+         .push = [](Case& pushed, const Subject&,
+                    double degrees) { pushed.camera().yfov = glm::radians(degrees); },
+         .predict = predictFov},
+        {.name = "grazing",
+         .unit = "degrees",
+         .what = "the angle between the view and the surface in the middle of the picture",
+         .magnitudes = ladder(0.001, 10, 10, {30, 60, 90}),
+         .original = originalGrazing,
+         .lacks = {lacksPerspective, lacksSurface},
+         .push = pushGrazing,
+         .because =
+             "the material model clamps n.v to at least 1e-4, and the rasteriser interpolates depth by "
+             "plane equations"},
+    };
 }
 
 }  // namespace diptych::audit

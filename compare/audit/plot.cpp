@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/plot.h"
-
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "shared/text/counted.h"
@@ -34,38 +32,37 @@ std::vector<Tick> fewerNames(std::vector<Tick> ticks) {
 class AuditPlot {
 public:
     explicit AuditPlot(const QuantityAudit& audit)
-        : audit_(audit), across_(magnitudes()), up_({leastError, mostError}) {}
+        : audit_(audit), across_(magnitudesOf(audit)), up_({leastError, mostError}) {}
 
     std::string svg(PlotPlace place) const {
+        const Quantity& quantity = *audit_.quantity;
+        const std::string name =
+            fmt::format("{}{}{}", quantity.name, quantity.unit.empty() ? "" : ", ", quantity.unit);
         Drawing drawing;
-        drawing.axes(box_, {fewerNames(across_.ticks()), [this](double m) { return x(m); }, axisName()},
+        drawing.axes(box_, {fewerNames(across_.ticks()), [this](double m) { return x(m); }, name},
                      {up_.ticks(), [this](double e) { return y(e); }, "relative error"});
-        std::string out = drawing.group();
         for (const double limit : {1e-3, 1e-2})
-            out += fmt::format("<line class=\"budget\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>",
-                               svgNumber(box_.left), svgNumber(y(limit)), svgNumber(box_.right),
-                               svgNumber(y(limit)));
+            drawing.line("budget", box_.left, y(limit), box_.right, y(limit));
         if (audit_.original > 0)
-            out += fmt::format("<line class=\"usual\" x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{2}\"/>",
-                               svgNumber(x(audit_.original)), svgNumber(box_.top), svgNumber(box_.bottom));
+            drawing.line("usual", x(audit_.original), box_.top, x(audit_.original), box_.bottom);
         // The first of overlapping series is on top.
-        for (std::size_t s = audit_.series.size(); s-- > 0;) out += line(s);
-        out += legend();
+        for (std::size_t s = audit_.series.size(); s-- > 0;) drawing.add(line(s));
+        double py = box_.bottom + 62;
+        for (std::size_t s = 0; s < audit_.series.size(); ++s, py += legendLine) {
+            drawing.add(fmt::format("<g class=\"{}\"><path d=\"M{} {}h34\"/></g>", kind(s),
+                                    svgNumber(box_.left), svgNumber(py - 4)));
+            drawing.text("tick", box_.left + 42, py, audit_.series[s].words());
+        }
         return plotElement(plotWidth,
                            box_.bottom + 56 + legendLine * static_cast<double>(audit_.series.size()),
-                           fmt::format("error over {}", audit_.quantity->name), place, out);
+                           fmt::format("error over {}", quantity.name), place, drawing.group());
     }
 
 private:
-    std::vector<double> magnitudes() const {
+    static std::vector<double> magnitudesOf(const QuantityAudit& audit) {
         std::vector<double> all;
-        for (const Step& step : audit_.steps) all.push_back(step.magnitude);
+        for (const Step& step : audit.steps) all.push_back(step.magnitude);
         return all;
-    }
-    std::string axisName() const {
-        const Quantity& quantity = *audit_.quantity;
-        return quantity.unit.empty() ? std::string(quantity.name)
-                                     : fmt::format("{}, {}", quantity.name, quantity.unit);
     }
     double x(double magnitude) const {
         const double place = magnitude > 0 ? across_.place(magnitude) : 0;
@@ -105,16 +102,6 @@ private:
                                   svgNumber(px - 4), svgNumber(py - 4), words);
         }
         return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", kind(s), path, marks);
-    }
-    std::string legend() const {
-        std::string out;
-        double py = box_.bottom + 62;
-        for (std::size_t s = 0; s < audit_.series.size(); ++s, py += legendLine)
-            out += fmt::format(
-                "<g class=\"{}\"><path d=\"M{} {}h34\"/></g><text class=\"tick\" x=\"{}\" y=\"{}\">{}</text>",
-                kind(s), svgNumber(box_.left), svgNumber(py - 4), svgNumber(box_.left + 42), svgNumber(py),
-                page::markup(audit_.series[s].words()));
-        return out;
     }
 
     const PlotBox box_{leftEdge, topEdge, plotWidth - rightEdge, plotHeight - 56};

@@ -14,6 +14,12 @@ namespace diptych::audit {
 
 namespace {
 
+template <class Value>
+void eraseRange(std::vector<Value>& values, std::size_t from, std::size_t to) {
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(from),
+                 values.begin() + static_cast<std::ptrdiff_t>(to));
+}
+
 class Reducer {
 public:
     Reducer(Case flat, const std::function<FailingPixel(const Case&)>& test, std::size_t budget)
@@ -29,13 +35,7 @@ public:
         dropNodes();
         onePixel();
         dropLights();
-        Reduced reduced;
-        reduced.smallest = std::move(now_);
-        reduced.shown = shown_;
-        reduced.triangles = triangleCount(reduced.smallest.scene);
-        reduced.lights = reduced.smallest.scene.lights.size();
-        reduced.tried = tried_;
-        return reduced;
+        return Reduced{std::move(now_), shown_};
     }
 
 private:
@@ -50,12 +50,12 @@ private:
         return true;
     }
 
-    // Removes ranges of `count` elements, first halves, then smaller ones. remove(case, from, to).
+    // Removes ranges of `count` elements but one, first halves, then smaller ones. remove(case, from, to).
     template <class Count, class Remove>
-    void shrink(const Count& count, std::size_t least, const Remove& remove) {
+    void shrink(const Count& count, const Remove& remove) {
         for (std::size_t part = (count(now_) + 1) / 2; part > 0; part /= 2)
-            for (std::size_t from = 0; from < count(now_) && count(now_) > least;) {
-                const std::size_t to = std::min({from + part, count(now_), from + count(now_) - least});
+            for (std::size_t from = 0; from < count(now_) && count(now_) > 1;) {
+                const std::size_t to = std::min({from + part, count(now_), from + count(now_) - 1});
                 Case candidate = now_;
                 remove(candidate, from, to);
                 if (!accept(std::move(candidate))) from = to;
@@ -64,15 +64,11 @@ private:
     }
 
     void dropNodes() {
-        shrink([](const Case& c) { return c.scene.nodes.size(); }, 1,
+        shrink([](const Case& c) { return c.scene.nodes.size(); },
                [](Case& c, std::size_t from, std::size_t to) {
-                   const auto nodes = c.scene.nodes.begin();
-                   c.scene.nodes.erase(nodes + static_cast<std::ptrdiff_t>(from),
-                                       nodes + static_cast<std::ptrdiff_t>(to));
+                   eraseRange(c.scene.nodes, from, to);
                    // Each node has the mesh of its own index.
-                   const auto mesh = c.scene.meshes.begin();
-                   c.scene.meshes.erase(mesh + static_cast<std::ptrdiff_t>(from),
-                                        mesh + static_cast<std::ptrdiff_t>(to));
+                   eraseRange(c.scene.meshes, from, to);
                    for (std::size_t i = 0; i < c.scene.nodes.size(); ++i)
                        c.scene.nodes[i].mesh = static_cast<int>(i);
                });
@@ -80,16 +76,12 @@ private:
 
     // Keeps the last one: a scene without lights has a default directional light.
     void dropLights() {
-        shrink([](const Case& c) { return c.scene.lights.size(); }, 1,
-               [](Case& c, std::size_t from, std::size_t to) {
-                   const auto lights = c.scene.lights.begin();
-                   c.scene.lights.erase(lights + static_cast<std::ptrdiff_t>(from),
-                                        lights + static_cast<std::ptrdiff_t>(to));
-               });
+        shrink([](const Case& c) { return c.scene.lights.size(); },
+               [](Case& c, std::size_t from, std::size_t to) { eraseRange(c.scene.lights, from, to); });
     }
 
     void dropTriangles() {
-        shrink([](const Case& c) { return triangleCount(c.scene); }, 1,
+        shrink([](const Case& c) { return triangleCount(c.scene); },
                [](Case& c, std::size_t from, std::size_t to) {
                    std::size_t before = 0;
                    for (Mesh& mesh : c.scene.meshes) {
@@ -97,8 +89,7 @@ private:
                        const std::size_t count = indices.size() / 3;
                        const std::size_t first = std::clamp(from, before, before + count) - before,
                                          last = std::clamp(to, before, before + count) - before;
-                       indices.erase(indices.begin() + static_cast<std::ptrdiff_t>(3 * first),
-                                     indices.begin() + static_cast<std::ptrdiff_t>(3 * last));
+                       eraseRange(indices, 3 * first, 3 * last);
                        before += count;
                    }
                });

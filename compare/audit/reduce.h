@@ -20,7 +20,6 @@ struct FailingPixel {
 struct Reduced {
     Case smallest;
     FailingPixel shown;
-    std::size_t triangles = 0, lights = 0, tried = 0;
 };
 
 // `test`: whether a case fails as expected. Tries at most `budget` cases. Empty if the scene without

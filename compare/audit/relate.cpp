@@ -12,7 +12,6 @@
 #include "shared/vulkan/device.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -51,15 +50,6 @@ RenderOptions drawingRelated(bool packed = false) {
     return options;
 }
 
-bool hasTexture(const Material& material) {
-    return std::ranges::any_of(
-        materialSlots, [&](const MaterialSlot& slot) { return (material.*slot.texture).texture >= 0; });
-}
-
-bool anyBlends(const Scene& scene) {
-    return std::ranges::any_of(scene.materials, [](const Material& m) { return blends(m); });
-}
-
 // Error bound of a channel's component decoded from the G-buffer; emission and a film's thickness: relative
 // to the largest component.
 std::map<Channel, double> packedBounds(const Settings& settings) {
@@ -75,16 +65,11 @@ std::map<Channel, double> packedBounds(const Settings& settings) {
     return bounds;
 }
 
-bool isReferenceSeries(const Series& series) {
-    return isReference(series.path);
-}
-
 // Pixels per radian of the image; an orthographic one as seen from the distance at which it is rendered.
 double pixelsPerRadian(const Subject& subject) {
     const Camera& camera = subject.view.camera;
     if (!camera.orthographic) return subject.view.height / (2 * std::tan(camera.yfov / 2));
-    const double away = glm::distance(subject.view.eye(), subject.bounds.centre()) + subject.bounds.radius();
-    return away * subject.view.height / (2 * camera.ymag);
+    return subject.reach() * subject.view.height / (2 * camera.ymag);
 }
 
 double largestSide(const Scene& scene) {
@@ -95,34 +80,25 @@ double largestSide(const Scene& scene) {
 
 Settings settingsOfSeries(const Series& series, const Settings& settings) {
     const Settings applied = series.applied(settings);
-    return isReferenceSeries(series) ? referenceSettings(applied) : withoutReference(applied);
+    return isReference(series.path) ? referenceSettings(applied) : withoutReference(applied);
+}
+
+// Renderers to test: both paths with the original Settings, deferred with a float32 G-buffer, and last the
+// reference.
+ChosenSeries relatedSeries(const Subject& subject) {
+    return chosenOf({{drawn_paths[0], {}},
+                     {drawn_paths[1], {}},
+                     {Path::deferred, {{"gbuffer", "full"}}},
+                     {Path::reference, {{"reference-mode", "scene"}}}},
+                    [&](const Series& series) { return settingsOfSeries(series, subject.given.settings); });
 }
 
 }  // namespace
 
 bool RelationResult::passes() const {
     return std::ranges::all_of(series, [](const SeriesResult& of) {
-        return isReferenceSeries(of.series) || !of.lacks.empty() || of.comparison.passes();
+        return isReference(of.series.path) || !of.lacks.empty() || of.comparison.passes();
     });
-}
-
-Blame RelationResult::blame(bool cpu) const {
-    if (passes()) return Blame::none;
-    for (const SeriesResult& of : series)
-        if (isReferenceSeries(of.series) && of.lacks.empty() && !of.comparison.passes())
-            return Blame::relation;
-    return cpu ? Blame::ours_likely : Blame::driver_or_ours;
-}
-
-ChosenSeries relatedSeries(const Subject& subject) {
-    ChosenSeries all;
-    for (Series series : {Series{drawn_paths[0], {}}, Series{drawn_paths[1], {}},
-                          Series{Path::deferred, {{"gbuffer", "full"}}},
-                          Series{Path::reference, {{"reference-mode", "scene"}}}}) {
-        const Settings settings = settingsOfSeries(series, subject.given.settings);
-        all.add(std::move(series), settings);
-    }
-    return all;
 }
 
 RelationMeasurer::RelationMeasurer(Device& device, const Subject& subject,
@@ -134,38 +110,27 @@ RelationMeasurer::RelationMeasurer(Device& device, const Subject& subject,
       pipelines_(pipelines ? std::move(pipelines) : makePipelineSet(device)),
       chosen_(relatedSeries(subject)) {}
 
-RelationMeasurer::Drawn RelationMeasurer::draw(const Case& of, std::span<const Settings> settings,
-                                               bool reference) {
-    Drawn drawn;
+void RelationMeasurer::draw(Drawn& drawn, const Case& of, std::span<const Settings> settings,
+                            bool reference) {
     drawn.frames.resize(settings.size());
     drawn.failed.resize(settings.size());
     SceneViews views(of.scene);
-    Renderer renderer(device_, views, pipelines_);
+    std::optional<Renderer> renderer;
     for (std::size_t i = 0; i < settings.size(); ++i) {
-        if (!needsDevice(settings[i])) continue;
+        const bool on_device = needsDevice(settings[i]);
+        if (drawn.frames[i] || !drawn.failed[i].empty() || (!on_device && !reference)) continue;
+        if (on_device && !renderer) renderer.emplace(device_, views, pipelines_);
         try {
-            drawn.frames[i] = renderer.draw(settings[i], drawingRelated());
-        } catch (const std::exception& error) {
-            drawn.failed[i] = error.what();
-        }
-    }
-    if (reference) addReference(drawn, of, settings);
-    return drawn;
-}
-
-void RelationMeasurer::addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings) {
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-        if (needsDevice(settings[i]) || drawn.frames[i]) continue;
-        try {
-            SceneViews views(of.scene);
-            drawn.frames[i] = std::move(drawWithoutDevice(views, {settings[i]}, drawingRelated()).front());
+            drawn.frames[i] =
+                on_device ? renderer->draw(settings[i], drawingRelated())
+                          : std::move(drawWithoutDevice(views, {settings[i]}, drawingRelated()).front());
         } catch (const std::exception& error) {
             drawn.failed[i] = error.what();
         }
     }
 }
 
-Frame RelationMeasurer::packedLight(const Case& of) {
+Image RelationMeasurer::packedLight(const Case& of, const PictureMap& map) {
     Settings settings = of.settings;
     settings.path = unencoded_path;
     SceneViews views(of.scene);
@@ -178,17 +143,15 @@ Frame RelationMeasurer::packedLight(const Case& of) {
         *change.pixel(i) = static_cast<float>(
             metrics::distance(std::as_const(own).pixel(i), through.pixel(i), own.components));
     own = std::move(change);
-    return frame;
+    return std::move(mappedBack(frame, map).channels.at(Channel::lit));
 }
 
 Image RelationMeasurer::packedLight(const Related& related) {
-    Image sum = related.own_base || packed_light_.empty()
-                    ? std::move(packedLight(related.base).channels.at(Channel::lit))
-                    : packed_light_;
-    if (!related.own_base) packed_light_ = sum;
-    const Frame changed = mappedBack(packedLight(related.changed), related.map);
-    const Image& other = changed.channels.at(Channel::lit);
-    std::ranges::transform(sum.data, other.data, sum.data.begin(), std::plus());
+    Image own;
+    Image& given = related.own_base ? own : packed_light_;
+    if (given.empty()) given = packedLight(related.base, {});
+    Image sum = packedLight(related.changed, related.map);
+    std::ranges::transform(sum.data, given.data, sum.data.begin(), std::plus());
     return sum;
 }
 
@@ -206,7 +169,8 @@ RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const 
     if (relation.equality != Equality::rounding) return tolerance;
     tolerance.relative = 2 * (terms + roundingsOfATerm) * roundoff;
     for (const Material& material : related.base.scene.materials)
-        tolerance.textured.push_back(hasTexture(material));
+        tolerance.textured.push_back(std::ranges::any_of(
+            materialSlots, [&](const MaterialSlot& slot) { return (material.*slot.texture).texture >= 0; }));
     if (isReference(settings.path)) return tolerance;
     tolerance.step = std::ldexp(2.0, -static_cast<int>(device_.limits().subPixelPrecisionBits));
     // One step across, one down, and one between two levels.
@@ -228,8 +192,9 @@ std::uint64_t RelationMeasurer::tied() {
         Related related{subject_.given, subject_.given};
         order->change(related, subject_);
         const std::array settings{settingsOfSeries({unencoded_path, {}}, subject_.given.settings)};
-        const Drawn given = draw(related.base, settings, false),
-                    changed = draw(related.changed, settings, false);
+        Drawn given, changed;
+        draw(given, related.base, settings, false);
+        draw(changed, related.changed, settings, false);
         if (!given.frames[0] || !changed.frames[0]) continue;
         RelationTolerance tolerance;
         tolerance.reorders = true;
@@ -264,7 +229,7 @@ void RelationMeasurer::check(SeriesResult& of, std::size_t i, const Related& rel
 RelationResult RelationMeasurer::measure(const Relation& relation, const std::function<void(Case&)>& spoil) {
     RelationResult result;
     result.relation = &relation;
-    result.lacks = subject_.bounds.empty() ? "the scene has nothing to draw" : relation.lacks(subject_);
+    result.lacks = relation.lacks(subject_);
     if (!result.lacks.empty()) return result;
     if (on_step_) on_step_(std::string(relation.name));
     Related related{subject_.given, subject_.given};
@@ -276,35 +241,31 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
         after.push_back(settingsOfSeries(series, related.changed.settings));
     }
     // The original images are rendered once, unless a relation has its own base.
-    const bool own = related.own_base;
-    std::optional<Drawn> others;
+    Drawn own, changed;
+    Drawn& given = related.own_base ? own : given_;
     // The reference integrates an environment for a minute, where a path reads its maps. It decides
     // nothing here: it only shows whose fault a broken relation is, and which pixels blend.
     const bool dear = related.base.scene.environment.has_value();
-    if (own) others = draw(related.base, before, !dear || anyBlends(related.base.scene));
-    if (!own && !given_) given_ = draw(related.base, before, !dear || anyBlends(related.base.scene));
-    Drawn& given = own ? *others : *given_;
-    Drawn changed = draw(related.changed, after, !dear);
+    const bool blended = std::ranges::any_of(related.base.scene.materials, blends);
+    draw(given, related.base, before, !dear || blended);
+    draw(changed, related.changed, after, !dear);
     for (std::size_t i = 0; i < series_.size(); ++i) {
-        SeriesResult of;
+        SeriesResult& of = result.series.emplace_back();
         of.series = series_[i];
         if (relation.of_settings && effectiveSettings(before[i]) == effectiveSettings(after[i])) {
             of.lacks = fmt::format("{} does not read the changed input", nameOf(series_[i].path));
-            result.series.push_back(std::move(of));
             continue;
         }
-        if (dear && isReferenceSeries(of.series)) {
+        if (dear && isReference(of.series.path)) {
             if (result.passes()) {
                 of.lacks = "not drawn: both paths hold, and the reference is slow with an environment";
-                result.series.push_back(std::move(of));
                 continue;
             }
-            addReference(given, related.base, before);
-            addReference(changed, related.changed, after);
+            draw(given, related.base, before, true);
+            draw(changed, related.changed, after, true);
         }
         of.tolerance = toleranceOf(relation, related, after[i]);
         check(of, i, related, given, changed);
-        result.series.push_back(std::move(of));
     }
     // Visibility among coinciding surfaces is arbitrary.
     if (relation.equality != Equality::rounding && !relation.reorders) return result;

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "compare/audit/measure.h"
-#include "compare/audit/relation.h"
-#include "compare/audit/relation_result.h"
+#include "compare/audit/relations.h"
 #include "shared/frame/frame.h"
 
 #include <cstdint>
@@ -17,6 +16,71 @@
 
 namespace diptych::audit {
 
+// Channels that are compared.
+std::span<const Channel> relatedChannels();
+
+// Tolerances between two images, each derived from a known property.
+struct RelationTolerance {
+    Equality equality = Equality::bits;
+    bool reorders = false;  // Relation::reorders
+    // bits: ulps of a pixel's largest component. 0 if all pipelines round alike.
+    int ulps = 0;
+    // Relative tolerance of a component: of radiance for `sums`, of every channel for `rounding`.
+    double relative = 0;
+    // rounding: fraction of a pixel by which a device may move a vertex (its subpixel steps).
+    double step = 0;
+    // rounding: error of a triangle's normal, computed from positions of neighbouring pixels; radians.
+    double facet = 0;
+    // rounding: one step of a texture filter's weight, as a fraction of the range.
+    double filter_step = 0;
+    // Whether each material of the original scene has a texture; and the fraction of their pixels that may
+    // be filtered with another step.
+    std::vector<bool> textured;
+    double filtered_share = 0;
+    // rounding: fraction of each pixel hidden by blended surfaces, W x H x 1; nullptr: nothing blends. No
+    // channel contains their edges.
+    const Image* blended = nullptr;
+    // rounding: error bounds of a packed G-buffer in each image, by channel, in units of its components;
+    // and their effect on lit of both (W x H x 1, W/(sr m^2); nullptr: none).
+    std::map<Channel, double> packed;
+    const Image* packed_light = nullptr;
+
+    std::string inWords() const;
+};
+
+// Worst pixel of a channel: the one with the largest error relative to its tolerance.
+struct ChannelResult {
+    Channel mode = Channel::lit;
+    double error = 0, allowed = 0;  // at that pixel, of the largest component (bits: ulps)
+    double used = 0;                // error / allowed; infinite if no error is allowed
+    int x = -1, y = -1;             // in the original image, from the top left; -1: no difference
+    std::uint64_t beyond = 0;       // pixels out of tolerance
+};
+
+struct FrameResult {
+    std::vector<ChannelResult> channels;  // as relatedChannels(), those that both Frames have
+    std::uint64_t covered = 0;            // pixels that show a surface in either image
+    // Pixels excluded because they show another triangle (rounding: beside an edge; reorders: of equal
+    // depth), and the largest permitted number.
+    std::uint64_t aside = 0, most_aside = 0;
+    // rounding: pixels of textured materials whose surface differs by a step of the filter, and the
+    // largest permitted number. lit is not compared there.
+    std::uint64_t filtered = 0, most_filtered = 0;
+    std::string failed;  // why nothing was rendered
+    // error / allowed at each pixel, W x H x 1: of lit, or of the worst channel if lit passes.
+    Image used_by_pixel;
+
+    bool passes() const;
+    const ChannelResult* worst() const;  // channel that uses most of its tolerance; nullptr: none
+    double used() const { return worst() ? worst()->used : 0; }
+};
+
+// Maps the changed image back onto the original one.
+Frame mappedBack(const Frame& changed, const PictureMap& map);
+
+// `changed`: mapped back.
+FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance);
+
 // One renderer's two images.
 struct SeriesResult {
     Series series;      // also the reference's: mode scene, in double
@@ -26,21 +90,13 @@ struct SeriesResult {
     std::optional<Frame> given{}, changed{};  // only if broken: with lit, mapped back
 };
 
-// Likely cause of a broken relation, judged by the double-precision reference.
-enum class Blame { none, ours_likely, driver_or_ours, relation };
-
 struct RelationResult {
     const Relation* relation = nullptr;
     std::string lacks;  // why it does not apply to this scene; empty if it does
     std::vector<SeriesResult> series;
 
     bool passes() const;  // of the paths; the reference only shows the cause
-    Blame blame(bool cpu) const;
 };
-
-// Renderers to test: both paths with the original Settings, deferred with a float32 G-buffer, and last the
-// reference.
-ChosenSeries relatedSeries(const Subject& subject);
 
 class RelationMeasurer {
 public:
@@ -59,13 +115,11 @@ private:
         std::vector<std::optional<Frame>> frames;
         std::vector<std::string> failed;
     };
-    // `reference`: also render series that need no device.
-    Drawn draw(const Case& of, std::span<const Settings> settings, bool reference);
-    // Adds the series that draw() omitted.
-    static void addReference(Drawn& drawn, const Case& of, std::span<const Settings> settings);
-    // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, in place of
-    // its lit; or the sum of both cases, in the base's pixels.
-    Frame packedLight(const Case& of);
+    // Adds the missing images; with `reference`, also those that need no device.
+    void draw(Drawn& drawn, const Case& of, std::span<const Settings> settings, bool reference);
+    // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, mapped back; or
+    // the sum of both cases.
+    Image packedLight(const Case& of, const PictureMap& map);
     Image packedLight(const Related& related);
     RelationTolerance toleranceOf(const Relation& relation, const Related& related,
                                   const Settings& settings) const;
@@ -84,8 +138,8 @@ private:
     const ChosenSeries chosen_;
     const std::vector<Series>& series_ = chosen_.series;
     std::optional<std::uint64_t> tied_;
-    std::optional<Drawn> given_;  // the original subject
-    Image packed_light_;          // of the original subject
+    Drawn given_;         // the original subject
+    Image packed_light_;  // of the original subject
 };
 
 }  // namespace diptych::audit

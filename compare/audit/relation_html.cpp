@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/page.h"
-#include "compare/audit/relation_words.h"
+#include "compare/audit/words.h"
+#include "compare/files/listed_folder.h"
+#include "compare/metrics/channel.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
+#include "compare/picture/picture.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/image/png.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace diptych::audit {
 
@@ -24,19 +26,12 @@ Span chip(std::string_view verdict) {
     return {verdict, Span::verdict, verdict == "holds" ? "pass" : "fail"};
 }
 
-output::Text seriesText(const SeriesResult& of, const std::string& after = "") {
-    return {Span("", Span::swatch, nameOf(of.series.path)), seriesInWords(of) + after};
-}
-
 // Broken relations come first.
 std::vector<const RelationResult*> ordered(const RelationAudit& audit) {
     std::vector<const RelationResult*> all;
-    for (const RelationResult& of : audit.relations) all.push_back(&of);
-    const auto rank = [](const RelationResult* of) {
-        const std::string_view verdict = verdictOf(*of);
-        return verdict == "broken" ? 0 : verdict == "holds" ? 1 : 2;
-    };
-    std::ranges::stable_sort(all, {}, rank);
+    for (const char* verdict : {"broken", "holds", "does not apply"})
+        for (const RelationResult& of : audit.relations)
+            if (verdictOf(of) == verdict) all.push_back(&of);
     return all;
 }
 
@@ -52,13 +47,12 @@ output::Table tableOfRelations(const RelationAudit& audit) {
     for (const RelationResult* of : ordered(audit))
         for (const SeriesResult& series : of->series) {
             if (!series.lacks.empty()) continue;
-            const ChannelResult* const worst = series.comparison.worst();
             const std::string_view name = of->relation->name;
             const std::uint64_t aside = series.comparison.aside + series.comparison.filtered;
-            table.rows.push_back(
-                {{Span(name, Span::link, fmt::format("#{}", name)), chip(verdictOf(series)),
-                  seriesText(series), output::numberCell(worst ? worst->used : 0), worstInWords(series),
-                  output::sorted(static_cast<double>(aside), std::to_string(aside))}});
+            table.rows.push_back({{Span(name, Span::link, fmt::format("#{}", name)), chip(verdictOf(series)),
+                                   seriesText(series.series, seriesInWords(series)),
+                                   output::numberCell(series.comparison.used()), worstInWords(series),
+                                   output::sorted(static_cast<double>(aside), std::to_string(aside))}});
         }
     return table;
 }
@@ -105,37 +99,64 @@ output::Box sectionOfRelation(const RelationResult& of, const ReportDevice& devi
         box.blocks.emplace_back(Paragraph{Span(blame + ".", Span::strong)});
     output::List list;
     for (const SeriesResult& series : of.series)
-        list.items.push_back(seriesText(
-            series, ": " + (series.lacks.empty() ? "allowed: " + series.tolerance.inWords() : series.lacks)));
+        list.items.push_back(
+            seriesText(series.series,
+                       seriesInWords(series) + ": " +
+                           (series.lacks.empty() ? "allowed: " + series.tolerance.inWords() : series.lacks)));
     box.blocks.emplace_back(output::Box{"soft small", {list}});
     for (const SeriesResult& series : of.series)
         if (series.lacks.empty() && !series.comparison.passes())
-            box.blocks.insert(box.blocks.end(),
-                              {Paragraph{seriesText(series)}, channelsOf(series), picturesOf(of, series)});
+            box.blocks.insert(box.blocks.end(), {Paragraph{seriesText(series.series, seriesInWords(series))},
+                                                 channelsOf(series), picturesOf(of, series)});
     return box;
+}
+
+// lit with the original image's exposure.
+Image8 shownLit(const Frame& frame, const Frame& given) {
+    const DebugMode& mode = debugMode(Channel::lit);
+    PictureScale scale;
+    scale.exposure = exposureFor({}, &given.channels.at(mode.channel), coverage(given, given));
+    return channelPicture(mode, frame, scale);
+}
+
+void putPictures(ListedFolder& folder, const std::string& stem, const SeriesResult& of) {
+    const auto put = [&](const char* name, const Image8& picture) {
+        const std::string file = fmt::format("{}-{}.png", stem, name);
+        folder.list(file);
+        writePng(folder / file, picture);
+    };
+    put("given", shownLit(*of.given, *of.given));
+    put("changed", shownLit(*of.changed, *of.given));
+    put("used", errorPicture(of.comparison.used_by_pixel, 1));
 }
 
 }  // namespace
 
 std::string relationsHtml(const RelationAudit& audit, const std::vector<std::string>& files) {
-    output::Document page =
-        pageOf(audit, "relations", "changes that must not change the picture", files, audit.passes());
     output::Box sections{"audit alone", {}};
     for (const RelationResult* of : ordered(audit))
         sections.blocks.emplace_back(sectionOfRelation(*of, audit.device));
-    page.blocks = {
-        output::Box{"box says", {Paragraph{inWords(audit)}}},
-        Heading{2, "All verdicts"},
-        tableOfRelations(audit),
-        Paragraph{"Each relation compares two pictures of one renderer, so it needs no ground truth. A "
-                  "pixel's error is divided by the error allowed there: above 1 the relation is broken. "
-                  "Pixels at an edge that show another surface are excluded, and so are textured pixels that "
-                  "a filter weights differently; the number of both is limited.",
-                  "soft small"},
-        Heading{2, "The relations"},
-        sections};
-    addNotes(page, audit.notes);
-    return inHtml(page);
+    return pageOf(
+        audit, "relations", "changes that must not change the picture", audit.passes(),
+        {output::Box{"box says", {Paragraph{inWords(audit)}}}, Heading{2, "All verdicts"},
+         tableOfRelations(audit),
+         Paragraph{
+             "Each relation compares two pictures of one renderer, so it needs no ground truth. A "
+             "pixel's error is divided by the error allowed there: above 1 the relation is broken. "
+             "Pixels at an edge that show another surface are excluded, and so are textured pixels that "
+             "a filter weights differently; the number of both is limited.",
+             "soft small"},
+         Heading{2, "The relations"}, sections},
+        files);
+}
+
+std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& path, bool force) {
+    ListedFolder folder(path, relationsManifest, force);
+    for (const RelationResult& of : audit.relations)
+        for (const SeriesResult& series : of.series)
+            if (series.changed) putPictures(folder, pictureStem(*of.relation, series), series);
+    folder.put("index.html", relationsHtml(audit, folder.files()));
+    return folder.finish(toJson(audit));
 }
 
 }  // namespace diptych::audit

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/relation_result.h"
+#include "compare/audit/relate.h"
 
 #include "compare/metrics/channel.h"
+#include "compare/verdict/neighbours.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
@@ -11,7 +12,6 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -69,14 +69,9 @@ double ulpsApart(const float* a, const float* b, int components) {
 
 // Calls visit(index) for the pixels around one.
 template <class Visit>
-void around(const Image& image, std::size_t pixel, const Visit& visit) {
-    const int x = static_cast<int>(pixel % static_cast<std::size_t>(image.width)),
-              y = static_cast<int>(pixel / static_cast<std::size_t>(image.width));
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
-            if (u != x || v != y)
-                visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
-                      static_cast<std::size_t>(u));
+void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
+    const int x = static_cast<int>(pixel) % image.width, y = static_cast<int>(pixel) / image.width;
+    around(image, x, y, [&](int u, int v) { visit(indexOf(image, u, v)); });
 }
 
 class Evaluation {
@@ -100,7 +95,7 @@ public:
             const ChannelResult& of = result.channels.back();
             if (of.used > most && (most <= 1 || mode == Channel::lit)) {
                 most = of.used;
-                result.used = std::move(used);
+                result.used_by_pixel = std::move(used);
             }
         }
         return result;
@@ -115,6 +110,21 @@ private:
         return given_.channels.contains(mode) && changed_.channels.contains(mode);
     }
 
+    double difference(Channel mode, std::size_t pixel) const {
+        return apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), given(mode).components);
+    }
+    // The largest component in either image.
+    double size(Channel mode, std::size_t pixel) const {
+        const int components = given(mode).components;
+        return std::max(largest(given(mode).pixel(pixel), components),
+                        largest(changed(mode).pixel(pixel), components));
+    }
+    // What a packed G-buffer may change in both images.
+    double packed(Channel mode) const {
+        const auto bound = tolerance_.packed.find(mode);
+        return bound == tolerance_.packed.end() ? 0 : 2 * bound->second;
+    }
+
     // Largest change of a channel, in either image, to neighbouring pixels of the same material, or to all
     // if none has it.
     double variation(Channel mode, std::size_t pixel) const {
@@ -122,7 +132,7 @@ private:
         bool found = false;
         for (const Frame* frame : {&given_, &changed_}) {
             const Image &image = frame->channels.at(mode), &ids = frame->channels.at(Channel::material_id);
-            around(image, pixel, [&](std::size_t other) {
+            aroundPixel(image, pixel, [&](std::size_t other) {
                 const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
                 if (change == unbounded) return;
                 any = std::max(any, change);
@@ -142,9 +152,7 @@ private:
 
     // Difference of normals of a lobe, radians, beyond the packing error; normals are compared separately.
     double normalApart(Channel mode, std::size_t pixel) const {
-        const auto packed = tolerance_.packed.find(mode);
-        return std::max(0.0, apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), 3) -
-                                 (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
+        return std::max(0.0, difference(mode, pixel) - packed(mode));
     }
     // Largest relative change of a lobe's light by the change of its normal. Per radian ln D of GGX changes
     // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
@@ -176,36 +184,28 @@ private:
 
     // Tolerance of `rounding` for the largest component, without steps of a texture filter.
     double allowedByRounding(Channel mode, std::size_t pixel) const {
-        const Image &a = given(mode), &b = changed(mode);
-        const double size =
-            std::max(largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components));
         if (mode == Channel::material_id) return 0;
+        const double value = size(mode, pixel);
         // A light's end cancels: the remainder has rounding errors relative to the whole.
-        double allowed = tolerance_.relative * (mode == Channel::lit ? std::max(size, light_floor_) : size) +
-                         std::numeric_limits<float>::min();
+        double allowed =
+            tolerance_.relative * (mode == Channel::lit ? std::max(value, light_floor_) : value) +
+            std::numeric_limits<float>::min();
         if (mode == Channel::geometric_normal) allowed += tolerance_.facet;
         if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
-        if (const auto packed = tolerance_.packed.find(mode); packed != tolerance_.packed.end())
-            allowed += 2 * packed->second * (debugMode(mode).metric == Metric::relative ? size : 1);
-        if (mode == Channel::lit) allowed += size * lightByNormals(pixel);
+        allowed += packed(mode) * (debugMode(mode).metric == Metric::relative ? value : 1);
+        if (mode == Channel::lit) allowed += value * lightByNormals(pixel);
         if (mode == Channel::lit && tolerance_.packed_light)
             allowed += double{tolerance_.packed_light->data[pixel]};
         return allowed;
     }
     bool isWithinRounding(Channel mode, std::size_t pixel) const {
-        return apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), given(mode).components) <=
-               allowedByRounding(mode, pixel);
+        return difference(mode, pixel) <= allowedByRounding(mode, pixel);
     }
 
     // For a textured surface, whose light follows its channels: without the change to the next pixel.
     bool isFilteredAlike(Channel mode, std::size_t pixel) const {
-        const Image &a = given(mode), &b = changed(mode);
-        const double difference = apart(a.pixel(pixel), b.pixel(pixel), a.components);
-        const auto packed = tolerance_.packed.find(mode);
-        const double size =
-            std::max({1.0, largest(a.pixel(pixel), a.components), largest(b.pixel(pixel), b.components)});
-        return difference <=
-               size * (tolerance_.relative + (packed != tolerance_.packed.end() ? 2 * packed->second : 0));
+        return difference(mode, pixel) <=
+               std::max(1.0, size(mode, pixel)) * (tolerance_.relative + packed(mode));
     }
 
     // Whether another surface is visible beside the pixel: another material, another triangle's normal, or
@@ -215,7 +215,7 @@ private:
                     &depth = frame.channels.at(Channel::depth),
                     &facets = frame.channels.at(Channel::geometric_normal);
         bool found = false;
-        around(ids, pixel, [&](std::size_t other) {
+        aroundPixel(ids, pixel, [&](std::size_t other) {
             const double far = std::max(depth.data[pixel], depth.data[other]);
             found = found || ids.data[pixel] != ids.data[other] ||
                     apart(facets.pixel(pixel), facets.pixel(other), 3) > 1e-3 ||
@@ -224,18 +224,11 @@ private:
         return found;
     }
 
-    bool isBesideBlended(std::size_t pixel) const {
-        if (!tolerance_.blended) return false;
-        const auto covered = [&](std::size_t at) { return *tolerance_.blended->pixel(at) > 0; };
-        bool found = covered(pixel);
-        around(*tolerance_.blended, pixel, [&](std::size_t other) { found = found || covered(other); });
-        return found;
-    }
-
     void setEdgesAside(FrameResult& result) {
         std::uint64_t edges = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            const bool beside = isBesideEdge(given_, i), blended = isBesideBlended(i);
+            const bool beside = isBesideEdge(given_, i),
+                       blended = tolerance_.blended && isNearBlended(*tolerance_.blended, i, 1);
             edges += beside || blended;
             aside_[i] =
                 (beside &&
@@ -251,8 +244,7 @@ private:
         for (std::size_t i = 0; i < aside_.size(); ++i) {
             if (given(Channel::depth).data[i] != changed(Channel::depth).data[i]) continue;
             aside_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
-                return mode != Channel::lit && isKnown(mode) &&
-                       apart(given(mode).pixel(i), changed(mode).pixel(i), given(mode).components) > 0;
+                return mode != Channel::lit && isKnown(mode) && difference(mode, i) > 0;
             });
             result.aside += aside_[i];
         }
@@ -275,25 +267,23 @@ private:
     }
 
     double errorAt(Channel mode, std::size_t pixel, double& allowed) const {
-        const Image &a = given(mode), &b = changed(mode);
-        const float *p = a.pixel(pixel), *q = b.pixel(pixel);
-        allowed = 0;
+        const float *const p = given(mode).pixel(pixel), *const q = changed(mode).pixel(pixel);
+        const int components = given(mode).components;
         if (tolerance_.equality == Equality::bits ||
             (tolerance_.equality == Equality::sums && mode != Channel::lit)) {
             allowed = tolerance_.ulps;
-            return ulpsApart(p, q, a.components);
+            return ulpsApart(p, q, components);
         }
         if (tolerance_.equality == Equality::rounding) {
+            const bool normal = mode == Channel::normals || mode == Channel::clearcoat_normal;
             allowed = allowedByRounding(mode, pixel);
             if (isTextured(pixel))
-                allowed += tolerance_.filter_step *
-                           (mode == Channel::normals || mode == Channel::clearcoat_normal ? 2 : 1) *
-                           std::max({1.0, largest(p, a.components), largest(q, a.components)});
-            return apart(p, q, a.components);
+                allowed += tolerance_.filter_step * (normal ? 2 : 1) * std::max(1.0, size(mode, pixel));
+            return difference(mode, pixel);
         }
         // Terms are at least 0, so each component's sum equals the sum of magnitudes.
         double worst = 0, error = 0;
-        for (int c = 0; c < a.components; ++c) {
+        for (int c = 0; c < components; ++c) {
             const double may =
                 tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
                 std::numeric_limits<float>::min();
@@ -372,17 +362,11 @@ std::span<const Channel> relatedChannels() {
 }
 
 std::string RelationTolerance::inWords() const {
-    switch (equality) {
-        case Equality::bits:
-            return ulps == 0 ? "bit for bit" : fmt::format("{} ULP of the largest component", ulps);
-        case Equality::sums:
-            return fmt::format("lit: {:.2g} of each component", relative);
-        case Equality::rounding:
-            return fmt::format(
-                "{:.2g} of the value{}", relative,
-                step > 0 ? fmt::format(" plus {:.2g} of its change to the next pixel", step) : "");
-    }
-    return {};
+    if (equality == Equality::bits)
+        return ulps == 0 ? "bit for bit" : fmt::format("{} ULP of the largest component", ulps);
+    if (equality == Equality::sums) return fmt::format("lit: {:.2g} of each component", relative);
+    return fmt::format("{:.2g} of the value{}", relative,
+                       step > 0 ? fmt::format(" plus {:.2g} of its change to the next pixel", step) : "");
 }
 
 bool FrameResult::passes() const {

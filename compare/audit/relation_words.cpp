@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/relation_words.h"
-
 #include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "shared/frame/debug_modes.h"
@@ -17,16 +15,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json jsonOfChannel(const ChannelResult& of) {
-    return {{"name", debugMode(of.mode).name}, {"error", numberOf(of.error)},
-            {"allowed", numberOf(of.allowed)}, {"used", numberOf(of.used)},
-            {"worst_pixel", {of.x, of.y}},     {"pixels_beyond", of.beyond}};
-}
-
 Json jsonOfSeries(const SeriesResult& of, const Relation& relation) {
-    Json changes = Json::object();
-    for (const Change& change : of.series.changes) changes[std::string(change.option)] = change.value;
-    Json json{{"path", nameOf(of.series.path)}, {"settings", changes}, {"verdict", verdictOf(of)}};
+    Json json = jsonOf(of.series);
+    json["verdict"] = verdictOf(of);
     if (!of.lacks.empty()) {
         json["because"] = of.lacks;
         return json;
@@ -40,7 +31,12 @@ Json jsonOfSeries(const SeriesResult& of, const Relation& relation) {
                       {"most_filtered_otherwise", of.comparison.most_filtered}};
     json["channels"] = Json::array();
     for (const ChannelResult& channel : of.comparison.channels)
-        json["channels"].push_back(jsonOfChannel(channel));
+        json["channels"].push_back({{"name", debugMode(channel.mode).name},
+                                    {"error", numberOf(channel.error)},
+                                    {"allowed", numberOf(channel.allowed)},
+                                    {"used", numberOf(channel.used)},
+                                    {"worst_pixel", {channel.x, channel.y}},
+                                    {"pixels_beyond", channel.beyond}});
     if (of.changed)
         for (const char* shown : {"given", "changed", "used"})
             json["pictures"].push_back(fmt::format("{}-{}.png", pictureStem(relation, of), shown));
@@ -65,9 +61,8 @@ bool RelationAudit::passes() const {
 }
 
 std::string_view verdictOf(const RelationResult& result) {
-    const bool any =
-        std::ranges::any_of(result.series, [](const SeriesResult& of) { return of.lacks.empty(); });
-    if (!any) return "does not apply";
+    if (std::ranges::all_of(result.series, [](const SeriesResult& of) { return !of.lacks.empty(); }))
+        return "does not apply";
     return result.passes() ? "holds" : "broken";
 }
 
@@ -77,20 +72,16 @@ std::string_view verdictOf(const SeriesResult& result) {
 }
 
 std::string blameInWords(const RelationResult& result, const ReportDevice& device) {
-    switch (result.blame(device.bitExact())) {
-        case Blame::none:
-            return {};
-        case Blame::relation:
+    if (result.passes()) return {};
+    for (const SeriesResult& of : result.series)
+        if (isReference(of.series.path) && of.lacks.empty() && !of.comparison.passes())
             return "the double-precision reference breaks it too: the changed scene is read differently, or "
                    "the relation does not hold for this scene; most likely a bug of Diptych";
-        case Blame::ours_likely:
-            return fmt::format("holds in double precision, and {} is a CPU: most likely a bug of Diptych",
-                               device.name);
-        case Blame::driver_or_ours:
-            return fmt::format("holds in double precision: a bug of the driver or of Diptych, on {} with {}",
-                               device.name, device.driver);
-    }
-    return {};
+    return device.bitExact()
+               ? fmt::format("holds in double precision, and {} is a CPU: most likely a bug of Diptych",
+                             device.name)
+               : fmt::format("holds in double precision: a bug of the driver or of Diptych, on {} with {}",
+                             device.name, device.driver);
 }
 
 std::string seriesInWords(const SeriesResult& result) {
@@ -113,18 +104,12 @@ std::string inWords(const RelationResult& result, const ReportDevice& device) {
         return fmt::format("{:<19} does not apply: {}\n", relation.name,
                            result.lacks.empty() ? "neither path reads the changed input" : result.lacks);
     if (verdict == "holds") {
-        const SeriesResult* worst = nullptr;
-        double used = -1;
-        for (const SeriesResult& of : result.series) {
-            if (!of.lacks.empty() || isReference(of.series.path)) continue;
-            const ChannelResult* const channel = of.comparison.worst();
-            if (const double its = channel ? channel->used : 0; its > used) {
-                used = its;
-                worst = &of;
-            }
-        }
-        return fmt::format("{:<19} holds: {}{}\n", relation.name, worstInWords(*worst),
-                           used > 0 ? ", " + worst->series.words() + asideInWords(*worst) : "");
+        const SeriesResult& worst = *std::ranges::max_element(result.series, {}, [](const SeriesResult& of) {
+            return of.lacks.empty() && !isReference(of.series.path) ? of.comparison.used() : -1;
+        });
+        return fmt::format(
+            "{:<19} holds: {}{}\n", relation.name, worstInWords(worst),
+            worst.comparison.used() > 0 ? ", " + worst.series.words() + asideInWords(worst) : "");
     }
     std::string out =
         fmt::format("{:<19} BROKEN: {}; {}\n", relation.name, relation.changes, relation.because);
@@ -142,25 +127,19 @@ std::string inWords(const RelationResult& result, const ReportDevice& device) {
 }
 
 std::string inWords(const RelationAudit& audit) {
-    std::size_t hold = 0, broken = 0, silent = 0;
-    for (const RelationResult& of : audit.relations) {
-        const std::string_view verdict = verdictOf(of);
-        ++(verdict == "holds" ? hold : verdict == "broken" ? broken : silent);
-    }
+    const auto count = [&](std::string_view verdict) {
+        return std::ranges::count(audit.relations, verdict,
+                                  [](const RelationResult& of) { return verdictOf(of); });
+    };
     return fmt::format("{}: {} of {} relations hold, {} broken, {} not applicable\n",
-                       broken > 0 ? "FAIL" : "pass", hold, audit.relations.size(), broken, silent);
+                       audit.passes() ? "pass" : "FAIL", count("holds"), audit.relations.size(),
+                       count("broken"), count("does not apply"));
 }
 
 Json toJson(const RelationAudit& audit) {
-    Json json{{"schema", 1},
-              {"verdict", audit.passes() ? "pass" : "fail"},
-              {"scene", audit.scene},
-              {"camera", audit.camera},
-              {"settings", parseOrderedJson(diptych::toJson(audit.settings))},
-              {"device",
-               {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
-              {"notes", audit.notes},
-              {"relations", Json::array()}};
+    Json json{{"schema", 1}, {"verdict", audit.passes() ? "pass" : "fail"}};
+    addAudited(json, audit);
+    json["relations"] = Json::array();
     for (const RelationResult& of : audit.relations) {
         const Relation& relation = *of.relation;
         Json one{{"name", relation.name},

@@ -66,6 +66,22 @@ std::size_t triangleCount(const Scene& scene) {
     return triangles;
 }
 
+bool isRigid(const Primitive& primitive) {
+    return primitive.joint_sets.empty() && primitive.targets.empty();
+}
+
+Primitive withoutVertices(const Primitive& primitive) {
+    Primitive empty;
+    empty.material = primitive.material;
+    empty.flat = primitive.flat;
+    return empty;
+}
+
+void addVertex(Primitive& to, const Primitive& from, std::uint32_t i) {
+    to.indices.push_back(static_cast<std::uint32_t>(to.positions.size()));
+    eachAttribute(to, from, [i](auto& values, const auto& given) { values.push_back(given[i]); });
+}
+
 std::vector<int> writtenMaterials(const Scene& scene) {
     std::vector<int> order;
     for (const Node& node : scene.nodes) {
@@ -83,7 +99,7 @@ GltfFile writtenScene(const Case& flat) {
     Json& gltf = file.json;
     gltf["extensionsUsed"] = gltfMaterialExtensions();
     gltf["scene"] = 0;
-    gltf["nodes"] = gltf["meshes"] = gltf["materials"] = Json::array();
+    for (const char* key : {"materials", "meshes", "nodes"}) gltf[key] = Json::array();
     const std::vector<int> materials = writtenMaterials(flat.scene);
     for (const int material : materials)
         gltf["materials"].push_back(gltfMaterial(flat.scene.materials[static_cast<std::size_t>(material)]));
@@ -93,13 +109,7 @@ GltfFile writtenScene(const Case& flat) {
         if (primitive.indices.empty()) continue;
         const auto material = std::ranges::find(materials, primitive.material) - materials.begin();
         Primitive used;
-        for (const std::uint32_t i : primitive.indices) {
-            used.indices.push_back(static_cast<std::uint32_t>(used.positions.size()));
-            used.positions.push_back(primitive.positions[i]);
-            used.normals.push_back(primitive.normals[i]);
-            used.tangents.push_back(primitive.tangents[i]);
-            if (!primitive.colors.empty()) used.colors.push_back(primitive.colors[i]);
-        }
+        for (const std::uint32_t i : primitive.indices) addVertex(used, primitive, i);
         Json attributes{{"POSITION", file.addPositions(used.positions)},
                         {"NORMAL", file.add(used.normals, "VEC3", 5126)}};
         if (flat.scene.materials[static_cast<std::size_t>(primitive.material)].anisotropy > 0)
@@ -126,7 +136,6 @@ GltfFile writtenScene(const Case& flat) {
 std::string gltfOf(const Case& flat) {
     return writtenScene(flat).text();
 }
-
 std::string glbOf(const Case& flat) {
     return writtenScene(flat).binary();
 }

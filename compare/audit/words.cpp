@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace diptych::audit {
@@ -22,25 +21,12 @@ double numberFrom(const Json& json) {
 }
 
 Json jsonOf(const BreakingPoint& point) {
-    Json json{{"last", point.last}};
-    json["first_beyond"] = point.broken ? Json(point.first) : Json(nullptr);
-    return json;
+    return {{"last", point.last}, {"first_beyond", point.broken ? Json(point.first) : Json(nullptr)}};
 }
 
 Json jsonOf(const ValidRange& range) {
     if (!range.at_original) return nullptr;
     return {{"down", jsonOf(range.down)}, {"up", jsonOf(range.up)}};
-}
-
-Json jsonOf(const Series& series) {
-    Json changes = Json::object();
-    for (const Change& change : series.changes) changes[std::string(change.option)] = change.value;
-    return {{"path", nameOf(series.path)}, {"settings", changes}};
-}
-
-Json agreement(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
-    const std::optional<bool> agree = agrees(audit, criterion, series);
-    return agree ? Json(*agree) : Json(nullptr);
 }
 
 Json jsonOf(const QuantityAudit& audit) {
@@ -59,11 +45,13 @@ Json jsonOf(const QuantityAudit& audit) {
         for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
             const Predicted& predicted = audit.predicted[c][s];
             if (predicted.because.empty()) continue;
-            series["predicted"][std::string(criteria[c].name)] = {{"down", predicted.down},
-                                                                  {"up", numberOf(predicted.up)},
-                                                                  {"because", predicted.because},
-                                                                  {"at_most", predicted.at_most},
-                                                                  {"agrees", agreement(audit, c, s)}};
+            const std::optional<bool> agree = agrees(audit, c, s);
+            series["predicted"][std::string(criteria[c].name)] = {
+                {"down", predicted.down},
+                {"up", numberOf(predicted.up)},
+                {"because", predicted.because},
+                {"at_most", predicted.at_most},
+                {"agrees", agree ? Json(*agree) : Json(nullptr)}};
         }
         json["series"].push_back(std::move(series));
     }
@@ -85,6 +73,21 @@ std::string rangeOf(std::optional<double> from, std::optional<double> to) {
 }
 
 }  // namespace
+
+void addAudited(Json& json, const Audited& audited) {
+    const ReportDevice& device = audited.device;
+    json["scene"] = audited.scene;
+    json["camera"] = audited.camera;
+    json["settings"] = parseOrderedJson(diptych::toJson(audited.settings));
+    json["device"] = {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
+    json["notes"] = audited.notes;
+}
+
+Json jsonOf(const Series& series) {
+    Json changes = Json::object();
+    for (const Change& change : series.changes) changes[std::string(change.option)] = change.value;
+    return {{"path", nameOf(series.path)}, {"settings", changes}};
+}
 
 Json numberOf(double value) {
     return std::isfinite(value) ? Json(value) : Json("infinite");
@@ -130,12 +133,9 @@ std::string inWords(const QuantityAudit& audit) {
     out += fmt::format("    {:<36} {:<22} {:<22} {:<22} {}\n", "", "error < 1e-3", "error < 1e-2",
                        "not visible", "finite");
     for (std::size_t s = 0; s < audit.series.size(); ++s) {
-        out += fmt::format("    {:<36}", audit.series[s].words());
-        for (std::size_t c = 0; c < criterionCount; ++c) {
-            const std::string range = rangeInWords(audit.valid_ranges[c][s]);
-            out += c + 1 < criterionCount ? fmt::format(" {:<22}", range) : " " + range;
-        }
-        out += "\n";
+        const auto range = [&](std::size_t c) { return rangeInWords(audit.valid_ranges[c][s]); };
+        out += fmt::format("    {:<36} {:<22} {:<22} {:<22} {}\n", audit.series[s].words(), range(0),
+                           range(1), range(2), range(3));
         for (std::size_t c = 0; c < audit.predicted.size(); ++c)
             if (const auto agree = agrees(audit, c, s); agree && !*agree)
                 out += fmt::format("        predicted for {}: {}, which differs from the measurement\n",
@@ -145,8 +145,7 @@ std::string inWords(const QuantityAudit& audit) {
         for (const Step& step : audit.steps)
             if (const Outcome& outcome = step.outcomes[s]; outcome.nonfinite > 0) {
                 out += fmt::format("    {}: {} NaN or infinite at {}{}, the first at {},{}\n",
-                                   audit.series[s].words(),
-                                   counted(static_cast<std::uint64_t>(outcome.nonfinite), "pixel"),
+                                   audit.series[s].words(), counted(outcome.nonfinite, "pixel"),
                                    magnitudeInWords(step.magnitude), unit, outcome.worst_x, outcome.worst_y);
                 break;
             }
@@ -212,17 +211,11 @@ Step stepFromJson(const Json& json) {
 }
 
 Json toJson(const Audit& audit) {
-    Json json{{"schema", 1},
-              {"scene", audit.scene},
-              {"camera", audit.camera},
-              {"settings", parseOrderedJson(diptych::toJson(audit.settings))},
-              {"device",
-               {{"name", audit.device.name}, {"driver", audit.device.driver}, {"type", audit.device.type}}},
-              {"notes", audit.notes},
-              {"steps_kept", audit.kept},
-              {"to_come", audit.to_come},
-              {"quantities", Json::array()},
-              {"requirements", Json::array()}};
+    Json json{{"schema", 1}};
+    addAudited(json, audit);
+    json["steps_kept"] = audit.kept;
+    json["to_come"] = audit.to_come;
+    for (const char* key : {"quantities", "requirements"}) json[key] = Json::array();
     for (const QuantityAudit& quantity : audit.quantities) json["quantities"].push_back(jsonOf(quantity));
     for (const Requirement& requirement : audit.requirements)
         json["requirements"].push_back({{"quantity", requirement.quantity},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/auditor.h"
 #include "compare/audit/words.h"
-#include "compare/audit/write.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"

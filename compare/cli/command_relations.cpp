@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // audit --relations
 #include "compare/audit/relate.h"
-#include "compare/audit/relation_words.h"
 #include "compare/audit/relations.h"
+#include "compare/audit/words.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/commands.h"
 #include "compare/run/print.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands that an audit prints have been tried and reproduce the failure.
-#include "compare/audit/failures.h"
+#include "compare/audit/auditor.h"
 #include "compare/audit/quantities.h"
 #include "tests/image/square.h"
 #include "tests/tool/run.h"
@@ -24,7 +24,6 @@ audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subje
         .what = "the lamp's intensity",
         .magnitudes = {1, 8},
         .original = [](const Subject&) { return 1.0; },
-        .lacks = [](const Subject&) { return std::string(); },
         .push = [](Case& pushed, const Subject&,
                    double candela) { pushed.scene.lights[0].intensity = static_cast<float>(candela); }};
     measurer.plant({.picture = [](const Case& drawn, Frame& frame) {
@@ -47,29 +46,28 @@ TEST(AuditCommands, AreThoseThatShowTheFailure) {
     const Subject subject = audit::makeSubject(scene, settings);
     audit::Measurer measurer(device(), subject, {});
     const audit::QuantityAudit whole = faultyAudit(measurer, subject);
-    const Folder folder;
     std::vector<std::string> tried;
     const auto failureOf = [&](const char* shows) {
         tried.clear();
         audit::QuantityAudit copy = whole;
         std::map<std::string, std::string> files;
-        audit::addFailures(copy, subject, measurer,
-                           {folder.path(),
-                            {"--device", "0"},
-                            [&](const std::vector<std::string>& words) {
-                                std::string line;
-                                for (const std::string& word : words) {
-                                    line += word + " ";
-                                    if (word.ends_with(".gltf") || word.ends_with(".json")) {
-                                        EXPECT_TRUE(fs::exists(word)) << word;
-                                        EXPECT_TRUE(word.starts_with(folder.path().string())) << word;
-                                    }
-                                }
-                                tried.push_back(line);
-                                if (!*shows) throw std::runtime_error("no room");
-                                return line.find(shows) != line.npos;
-                            }},
-                           "out", files);
+        audit::AuditQuestion question;
+        question.folder = "out";
+        question.words = {"--device", "0"};
+        question.fails = [&](const std::vector<std::string>& words, const fs::path& trial) {
+            std::string line;
+            for (const std::string& word : words) {
+                line += word + " ";
+                if (word.ends_with(".gltf") || word.ends_with(".json")) {
+                    EXPECT_TRUE(fs::exists(word)) << word;
+                    EXPECT_TRUE(word.starts_with(trial.string())) << word;
+                }
+            }
+            tried.push_back(line);
+            if (!*shows) throw std::runtime_error("no room");
+            return line.find(shows) != line.npos;
+        };
+        audit::addFailures(copy, subject, measurer, question, files);
         EXPECT_EQ(files.size(), 2u);
         EXPECT_EQ(copy.failures.size(), 1u);
         return copy.failures.at(0);

@@ -171,7 +171,6 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                     .what = "the roughness of all",
                                     .magnitudes = {0.01, 1},
                                     .original = [](const Subject&) { return 1.0; },
-                                    .lacks = [](const Subject&) { return std::string(); },
                                     .push = pushSharpness};
     const double predicted = std::pow(2 * 1.5 * 0x1p-24 / percent, 0.25);
     expectWithinTwo(limitOf(measurer, sharpness, 0.5, 0.01), predicted, "D");
@@ -221,7 +220,6 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                .what = "the whole angle of the spot",
                                .magnitudes = {1, 90},
                                .original = [](const Subject&) { return 90.0; },
-                               .lacks = [](const Subject&) { return std::string(); },
                                .push = pushSoftCone};
     const double predicted = 2 * std::acos(1 - 0.001 * 0.995) * 180 / std::numbers::pi;
     expectWithinTwo(limitOf(measurer, cone, 90, 1), predicted, "cone");

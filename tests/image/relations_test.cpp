@@ -3,7 +3,7 @@
 // meant for.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
-#include "compare/audit/relation_words.h"
+#include "compare/audit/words.h"
 #include "tests/image/scenes.h"
 
 #include <functional>
