@@ -16,16 +16,19 @@ constexpr double mostCopies = 3000;
 // Lights times pixels of an image; one second of lavapipe if every pixel evaluates every light.
 constexpr double mostLit = 1e8;
 
+// A side of an image, in whole pixels.
+int wholePixels(double pixels) {
+    return std::max(1, static_cast<int>(std::lround(pixels)));
+}
+
 // An image size of the same aspect ratio for which this many lights are affordable; equal at every
 // magnitude.
 Size sizeForLights(const Subject& subject) {
     const Size size = subject.given.settings.size;
     const double pixels = static_cast<double>(size.width) * size.height;
-    const auto local = std::ranges::count_if(subject.given.scene.lights, isLocal);
-    const double part =
-        std::sqrt(std::min(1.0, mostLit / (mostCopies * static_cast<double>(local) * pixels)));
-    const auto side = [&](int whole) { return std::max(1, static_cast<int>(std::lround(whole * part))); };
-    return {side(size.width), side(size.height)};
+    const auto local = static_cast<double>(std::ranges::count_if(subject.given.scene.lights, isLocal));
+    const double part = std::sqrt(std::min(1.0, mostLit / (mostCopies * local * pixels)));
+    return {wholePixels(size.width * part), wholePixels(size.height * part)};
 }
 
 // This many copies of every local light, sharing its intensity, so that the image stays the same.
@@ -100,8 +103,7 @@ std::string lacksRigid(const Subject& subject) {
 
 void pushSize(Case& pushed, const Subject& subject, double height) {
     const double aspect = static_cast<double>(subject.view.width) / subject.view.height;
-    const auto side = [](double pixels) { return std::max(1, static_cast<int>(std::lround(pixels))); };
-    pushed.settings.size = {side(aspect * height), side(height)};
+    pushed.settings.size = {wholePixels(aspect * height), wholePixels(height)};
 }
 
 }  // namespace

@@ -64,14 +64,10 @@ Subject makeSubject(const Scene& scene, const Settings& settings) {
     given.scene.lights = view.lights;
     if (view.sun && !given.scene.lights.empty())
         given.scene.lights.pop_back();  // --env-sun extracts it again
-    for (Light& light : given.scene.lights) {
-        light.node = -1;
-        light.source = -1;
-    }
+    for (Light& light : given.scene.lights) light.node = light.source = -1;
     given.settings.lights = Settings().lights;
     Camera camera = view.view.camera;
-    camera.node = -1;
-    camera.source = -1;
+    camera.node = camera.source = -1;
     camera.name = "audited";
     given.scene.cameras.push_back(std::move(camera));
     given.settings.camera = std::to_string(given.scene.cameras.size() - 1);

@@ -68,9 +68,8 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         failure.words = at + "; it does not occur without the scene's textures, environment and animation";
         return;
     }
-    const std::string name(of.quantity->name);
-    failure.scene = fmt::format("{}.gltf", name);
-    const std::string lights = fmt::format("{}.lights.json", name);
+    failure.scene = fmt::format("{}.gltf", of.quantity->name);
+    const std::string lights = fmt::format("{}.lights.json", of.quantity->name);
     scenes[failure.scene] = gltfOf(reduced->smallest);
     scenes[lights] = lightsFileOf(reduced->smallest);
     const Settings& small = reduced->smallest.settings;

@@ -48,6 +48,7 @@ void multiplyLight(Related& related, const Subject& subject, double factor) {
     quantitiesOf(intensity).front()->push(related.changed, subject, factor);
     related.map.light = factor;
 }
+
 // Lights where the camera looks, so that they are in many lists; before and after the others.
 void addDarkLights(Related& related, const Subject& subject) {
     Light dark;

@@ -213,8 +213,7 @@ void RelationMeasurer::check(SeriesResult& of, std::size_t i, const Related& rel
     }
     if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
         of.tolerance.blended = &reference->blended;
-    for (const std::string& failed : {given.failed[i], changed.failed[i]})
-        if (of.comparison.failed.empty()) of.comparison.failed = failed;
+    of.comparison.failed = given.failed[i].empty() ? changed.failed[i] : given.failed[i];
     if (of.comparison.failed.empty()) {
         Frame back = mappedBack(*changed.frames[i], related.map);
         of.comparison = evaluate(*given.frames[i], back, of.tolerance);

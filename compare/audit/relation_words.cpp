@@ -67,8 +67,7 @@ std::string_view verdictOf(const RelationResult& result) {
 }
 
 std::string_view verdictOf(const SeriesResult& result) {
-    if (!result.lacks.empty()) return "does not apply";
-    return result.comparison.passes() ? "holds" : "broken";
+    return !result.lacks.empty() ? "does not apply" : result.comparison.passes() ? "holds" : "broken";
 }
 
 std::string blameInWords(const RelationResult& result, const ReportDevice& device) {
