@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -23,21 +22,19 @@ struct Blending {
 };
 
 Blending blendingOf(const Frame& frame) {
-    const auto lit = frame.channels.find(Channel::lit);
-    if (lit == frame.channels.end() || frame.unblended.empty()) return {};
-    return {&frame.unblended, &lit->second};
+    const Image* const lit = findChannel(frame, Channel::lit);
+    return lit && !frame.unblended.empty() ? Blending{&frame.unblended, lit} : Blending{};
 }
 
 // The same after the G-buffer's encoding if that is lossy: in a pair of both paths, only differences that
 // the encoding does not explain count.
 Blending encodedBlendingOf(const Frame& forward, const Frame& other) {
-    const auto lit = forward.through_gbuffer.find(Channel::lit);
-    if (!shadesFragments(forward.settings.path) || !hasGBuffer(other.settings.path) ||
-        other.settings.gbuffer == GBufferEncoding::full ||
-        forward.settings.gbuffer != other.settings.gbuffer || lit == forward.through_gbuffer.end() ||
+    const Image* const lit = findChannel(forward.through_gbuffer, Channel::lit);
+    if (!shadesFragments(forward.settings.path) || !isPacked(other.settings) ||
+        forward.settings.gbuffer != other.settings.gbuffer || !lit ||
         forward.unblended_through_gbuffer.empty())
         return blendingOf(forward);
-    return {&forward.unblended_through_gbuffer, &lit->second};
+    return {&forward.unblended_through_gbuffer, lit};
 }
 
 bool isBlended(const Blending& of, std::size_t i) {
@@ -98,9 +95,8 @@ std::optional<AfterBlending> afterBlending(const FramePair& pair) {
     const Blending a = encodedBlendingOf(pair.baseline, pair.test),
                    b = encodedBlendingOf(pair.test, pair.baseline);
     if (a.before == nullptr || b.before == nullptr) return {};
-    if (isReferenceFrame(pair.baseline) == isReferenceFrame(pair.test)) return ofPaths(pair, a, b);
-    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (reference.settings.reference_mode != ReferenceMode::surface) return {};
+    if (!pair.hasReference()) return ofPaths(pair, a, b);
+    if (pair.reference().settings.reference_mode != ReferenceMode::surface) return {};
     return ofReference(pair, a, b);
 }
 

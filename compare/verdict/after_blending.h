@@ -4,7 +4,6 @@
 
 #include "compare/verdict/frame_pair.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -2,32 +2,18 @@
 #include "compare/verdict/blended_pixels.h"
 
 #include "compare/metrics/pixel.h"
+#include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace diptych {
-namespace {
-
-template <class Visit>
-void within(const Image& image, std::size_t pixel, int radius, const Visit& visit) {
-    const int x = static_cast<int>(pixel) % image.width, y = static_cast<int>(pixel) / image.width;
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
-        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
-            visit(static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
-                  static_cast<std::size_t>(u));
-}
-
-}  // namespace
 
 BlendedPixels::BlendedPixels(const FramePair& pair) : pair_(pair) {
-    const bool first = isReferenceFrame(pair.baseline);
-    if (first == isReferenceFrame(pair.test)) return;
-    const Frame& reference = first ? pair.baseline : pair.test;
-    if (reference.blended.empty()) return;
-    reference_ = &reference;
-    for (const float v : reference.unblended.data)
+    if (!pair.hasReference() || pair.reference().blended.empty()) return;
+    reference_ = &pair.reference();
+    for (const float v : reference_->unblended.data)
         if (std::isfinite(v)) brightest_ = std::max(brightest_, double{v});
 }
 
@@ -41,7 +27,8 @@ double BlendedPixels::throughGlass(const DebugMode& mode, std::size_t pixel) con
     if (!isLit(mode.channel) || !imageOf(mode)) return 0;
     const Image& glass = reference_->blended;
     double share = 0;
-    within(glass, pixel, 1, [&](std::size_t i) { share = std::max(share, double{glass.pixel(i)[1]}); });
+    within(glass, pixel, 1,
+           [&](std::size_t i, int, int) { share = std::max(share, double{glass.pixel(i)[1]}); });
     return share > 0 ? std::max(share * brightest_, metrics::largestFinite(glass.pixel(pixel) + 2, 1)) : 0;
 }
 
@@ -49,10 +36,11 @@ double BlendedPixels::allowed(const DebugMode& mode, std::size_t pixel) const {
     const Image* const image = imageOf(mode);
     if (!image) return 0;
     bool covered = false;
-    within(*image, pixel, 1, [&](std::size_t i) { covered = covered || *reference_->blended.pixel(i) > 0; });
+    within(*image, pixel, 1,
+           [&](std::size_t i, int, int) { covered = covered || *reference_->blended.pixel(i) > 0; });
     if (!covered) return 0;
     double range = 0;
-    within(*image, pixel, 2, [&](std::size_t i) {
+    within(*image, pixel, 2, [&](std::size_t i, int, int) {
         range = std::max(range, metrics::distance(image->pixel(i), image->pixel(pixel), mode.width));
     });
     return range + throughGlass(mode, pixel) + texel(mode);

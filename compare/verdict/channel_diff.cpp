@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/channel_diff.h"
 
+#include "compare/metrics/pixel.h"
 #include "compare/verdict/device_bounds.h"
-#include "compare/verdict/domain.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
@@ -11,20 +12,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace diptych {
 namespace {
-
-// Covered pixels out of tolerance.
-std::uint64_t pixelsBeyond(const ChannelDiff& channel, const FramePair& pair,
-                           const Measurement& measurement) {
-    const double most = channel.tolerance.max;
-    if (const auto certain = certainErrors(*channel.mode, pair))
-        return static_cast<std::uint64_t>(
-            std::ranges::count_if(*certain, [&](double e) { return !(e <= most); }));
-    return measurement.pixelsAbove(most);
-}
 
 // Whether no error exceeds the largest bound of the bits, but some pixel's own.
 bool isBeyondItsBits(const ChannelDiff& channel) {
@@ -32,8 +24,9 @@ bool isBeyondItsBits(const ChannelDiff& channel) {
            channel.stats.max <= channel.tolerance.max;
 }
 
-// The criterion of the derived tolerance.
-Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const Measurement& measurement) {
+// The criterion of the derived tolerance. `beyond`: as from judgePaths().
+Criterion criterionOf(const ChannelDiff& channel, std::optional<std::uint64_t> beyond,
+                      const Measurement& measurement) {
     if (const auto& pixels = channel.unexplained_pixels)
         return {.figure = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
     if (const auto& use = isBeyondItsBits(channel) ? channel.encoding_use : channel.device_use)
@@ -53,7 +46,7 @@ Criterion criterionOf(const ChannelDiff& channel, const FramePair& pair, const M
                                              : "p99.9",
             .measured = most ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
             .limit = channel.tolerance.max,
-            .pixels = pixelsBeyond(channel, pair, measurement)};
+            .pixels = beyond ? *beyond : measurement.pixelsAbove(channel.tolerance.max)};
 }
 
 // Error message of the criterion; empty if it passes.
@@ -117,16 +110,13 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
     channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
 }
 
-// If the compared errors are not the metric's own, shows them and their largest: the excess over the
-// reference's uncertainty.
-void showExcess(ChannelDiff& channel, const FramePair& pair) {
-    const std::optional<std::vector<double>> excess = certainErrors(*channel.mode, pair);
-    if (!excess) return;
+// Shows certainErrors() instead of the metric's own errors, and the largest of them.
+void showExcess(ChannelDiff& channel, const FramePair& pair, const std::vector<double>& excess) {
     const Image& like = pair.baseline.channels.at(channel.mode->channel);
     auto shown = std::make_shared<Image>(like.width, like.height, 1);
     std::size_t next = 0;
     for (std::size_t i = 0; i < shown->pixels(); ++i)
-        if (pair.coverage.covered[i]) shown->data[i] = static_cast<float>((*excess)[next++]);
+        if (pair.coverage.covered[i]) shown->data[i] = static_cast<float>(excess[next++]);
     if (const auto most = std::ranges::max_element(shown->data); most != shown->data.end() && *most > 0) {
         const auto at = static_cast<int>(most - shown->data.begin());
         channel.stats.worst_x = at % like.width;
@@ -145,13 +135,65 @@ double noiseOf(const FramePair& pair, Channel mode) {
     return sum;
 }
 
-void setShare(Criterion& criterion, const Coverage& coverage) {
-    const auto all = static_cast<double>(coverage.count);
-    criterion.share = all > 0 ? std::min(1.0, static_cast<double>(criterion.pixels) / all) : 0;
+// How far a pixel is out of range, and its value; 0: inside.
+struct Outside {
+    double by = 0, value = 0;
+};
+
+Outside outside(Domain domain, const float* p, int components) {
+    Outside worst;
+    const auto look = [&](double value, double by) {
+        if (by > worst.by) worst = {by, value};
+    };
+    if (domain == Domain::unit || domain == Domain::unit_or_zero) {
+        const double length = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
+        if (domain == Domain::unit || length != 0) look(length, std::abs(length - 1));
+        return worst;
+    }
+    for (int c = 0; c < components; ++c) {
+        look(p[c], -double{p[c]});
+        if (domain == Domain::share) look(p[c], double{p[c]} - 1);
+    }
+    return worst;
+}
+
+const char* faultOf(Domain domain) {
+    return domain == Domain::unit           ? "vectors are not of unit length"
+           : domain == Domain::unit_or_zero ? "vectors are neither 0 nor of unit length"
+           : domain == Domain::share        ? "values are not between 0 and 1"
+                                            : "values are negative";
+}
+
+// Pixels of a channel outside its valid range (DebugMode::domain), beyond float32 rounding: "3 pixel(s)
+// are no unit vectors, length 1.02 at 5,7"; empty if there are none. Only counts covered pixels that are
+// no background (`ids`: the image's material_id; nullptr: no background). Ignores NaN and infinity, which
+// the metrics handle.
+std::string outsideDomain(const DebugMode& mode, const Image& image, const Coverage& coverage,
+                          const Image* ids) {
+    if (mode.domain == Domain::any) return {};
+    std::uint64_t count = 0;
+    std::size_t place = 0;
+    Outside worst;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        if (!coverage.covered[i] || (ids && *ids->pixel(i) < 0)) continue;
+        if (!metrics::finite(image.pixel(i), image.components)) continue;
+        const Outside here = outside(mode.domain, image.pixel(i), image.components);
+        if (here.by <= lengthBound) continue;
+        ++count;
+        if (here.by > worst.by) {
+            worst = here;
+            place = i;
+        }
+    }
+    if (count == 0) return {};
+    const auto width = static_cast<std::size_t>(image.width);
+    return fmt::format("{} at {}, the worst {:.6g} at {},{}", faultOf(mode.domain), counted(count, "pixel"),
+                       worst.value, place % width, place / width);
 }
 
 // Finds the tolerance between two paths, or a path and a reference, and how much of it a channel uses.
-void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
+// Returns the number of covered pixels whose certainErrors() exceed it; empty without these.
+std::optional<std::uint64_t> judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
     const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.channel) : 0;
@@ -165,33 +207,38 @@ void judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
         mode, pair, noise + (pair.cpu ? 0 : gpuSlack(mode, pair.baseline.channels.at(mode.channel))));
     channel.footprints = footprints(mode, pair);
     if (channel.footprints) channel.tolerance = footprintTolerance(*channel.footprints);
-    channel.certain_p999 = certainP999(mode, pair);
-    if (!channel.footprints) showExcess(channel, pair);
+    std::optional<std::vector<double>> certain = certainErrors(mode, pair);
+    if (!certain) return {};
+    if (!channel.footprints) showExcess(channel, pair, *certain);
+    const auto beyond =
+        std::ranges::count_if(*certain, [&](double e) { return !(e <= channel.tolerance.max); });
+    channel.certain_p999 = nearestRank(std::move(*certain), 0.999);
+    return static_cast<std::uint64_t>(beyond);
 }
 
 // Compares by the derived tolerance.
 void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
+    std::optional<std::uint64_t> beyond;
     if (isInformative(mode, pair)) {
         channel.tolerance = informativeTolerance(pair);
     } else if (pair.across) {
         channel.device_use = deviceUse(mode, pair);
         channel.tolerance = deviceTolerance(mode, pair, *channel.device_use);
     } else {
-        judgePaths(channel, pair, allowNoise);
+        beyond = judgePaths(channel, pair, allowNoise);
     }
     if (!isInformative(mode, pair)) {
-        channel.criterion = criterionOf(channel, pair, measurement);
-        setShare(*channel.criterion, pair.coverage);
+        channel.criterion = criterionOf(channel, beyond, measurement);
+        channel.criterion->share = std::min(1.0, measurement.shareOf(channel.criterion->pixels));
         channel.reason = faultOf(channel);
         leadWithNonfinite(channel, pair);
     }
     // This program's images must be in their valid range, whatever they are compared with.
     for (const Frame* frame : {&pair.baseline, &pair.test}) {
         if (!channel.reason.empty() || !frame->origin.file.empty()) continue;
-        const auto ids = frame->channels.find(Channel::material_id);
         const std::string fault = outsideDomain(mode, frame->channels.at(mode.channel), pair.coverage,
-                                                ids == frame->channels.end() ? nullptr : &ids->second);
+                                                findChannel(*frame, Channel::material_id));
         if (!fault.empty()) channel.reason = frame->name + ": " + fault;
     }
 }
@@ -207,22 +254,6 @@ void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measuremen
 }
 
 }  // namespace
-
-std::string_view nameOf(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::pass:
-            return "pass";
-        case Verdict::fail:
-            return "fail";
-        case Verdict::forward_only:
-            return "forward-only";
-        case Verdict::deferred_only:
-            return "deferred-only";
-        case Verdict::informative:
-            return "informative";
-    }
-    return "?";
-}
 
 bool isInformative(const DebugMode& mode, const FramePair& pair) {
     // Light lists, shadows, terms of lit, haze.

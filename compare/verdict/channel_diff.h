@@ -4,20 +4,19 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/verdict/bound_use.h"
-#include "compare/verdict/criterion.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
 #include "compare/verdict/granted.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/frame/debug_modes.h"
+#include "shared/frame/setting_values.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,11 +24,16 @@ namespace diptych {
 
 // informative: decides nothing, because the two sides have different lighting Settings.
 enum class Verdict { pass, fail, forward_only, deferred_only, informative };
+template <>
+inline constexpr EnumName<Verdict> enum_names<Verdict>[] = {{Verdict::pass, "pass"},
+                                                            {Verdict::fail, "fail"},
+                                                            {Verdict::forward_only, "forward-only"},
+                                                            {Verdict::deferred_only, "deferred-only"},
+                                                            {Verdict::informative, "informative"}};
 // Both Frames have the channel.
 constexpr bool isCompared(Verdict verdict) {
     return verdict == Verdict::pass || verdict == Verdict::fail || verdict == Verdict::informative;
 }
-std::string_view nameOf(Verdict verdict);  // "pass", "fail", "forward-only", "deferred-only", "informative"
 
 struct ChannelDiff {
     const DebugMode* mode = nullptr;

@@ -2,11 +2,8 @@
 #include "compare/verdict/comparison.h"
 
 #include "compare/frames/frame_facts.h"
-#include "compare/reference/reference.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/encoding_bits.h"
-#include "compare/verdict/encoding_use.h"
-#include "compare/verdict/one_sided.h"
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
@@ -24,28 +21,6 @@
 
 namespace diptych {
 namespace {
-
-// Planes that distinguish objects in two Frames.
-ObjectPlanes objectsOf(const Frame& reference, const Frame& test) {
-    ObjectPlanes objects;
-    const auto find = [](const Frame& frame, Channel mode) {
-        const auto found = frame.channels.find(mode);
-        return found == frame.channels.end() ? nullptr : &found->second;
-    };
-    for (const int side : {0, 1}) {
-        const Frame& frame = side == 0 ? reference : test;
-        objects.ids[side] = find(frame, Channel::material_id);
-        objects.depth[side] = find(frame, Channel::depth);
-    }
-    return objects;
-}
-
-// Whether only lit is comparable: a path's other channels are of its first sample, the reference's of the
-// pixel's centre.
-bool comparesLitAlone(const Frame& left, const Frame& right) {
-    if (isReferenceFrame(left) == isReferenceFrame(right)) return false;
-    return (isReferenceFrame(left) ? right : left).settings.msaa > 1;
-}
 
 // Adds failures and notes from the Frame's counters, which no channel shows.
 void readCounters(const Frame& frame, Comparison& comparison) {
@@ -142,7 +117,7 @@ const Frame* explaining(const Report& report, const Frame& left, const Frame& ri
 std::vector<Channel> provingChannels(const Comparison& comparison, const FramePair& pair,
                                      std::span<const Rule> rules) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
-    if (!deferred || !forward || deferred->settings.gbuffer == GBufferEncoding::full) return {};
+    if (!deferred || !forward || !isPacked(deferred->settings)) return {};
     const bool judgesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
         const DebugMode& mode = *channel.mode;
         return isLit(mode.channel) && isCompared(channel.verdict) && !isInformative(mode, pair) &&
@@ -179,9 +154,8 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
     if (coverage.known && shown < least)
         return fmt::format("only {} of the image shows the scene", percentText(shown));
     const auto litOf = [&](const Frame& frame) {
-        const auto lit = frame.channels.find(Channel::lit);
-        const bool asked = lit != frame.channels.end() && frame.isRequested(lit->first);
-        return asked ? litShare(lit->second, coverage) : 1.0;
+        const Image* const lit = findChannel(frame, Channel::lit);
+        return lit && frame.isRequested(Channel::lit) ? litShare(*lit, coverage) : 1.0;
     };
     const double lit = std::max(litOf(left), litOf(right));
     if (lit == 0) return "both images are black: no light reaches a visible surface";
@@ -191,22 +165,20 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
 
 // In mode scene: how many pixels of which channel are compared in which way; else empty.
 std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
-    const ChannelDiff *fewest = nullptr, *most = nullptr;
-    for (const ChannelDiff& channel : channels) {
-        if (!channel.footprints) continue;
-        const std::uint64_t smooth = channel.footprints->smooth;
-        if (!fewest || smooth < fewest->footprints->smooth) fewest = &channel;
-        if (!most || smooth > most->footprints->smooth) most = &channel;
-    }
-    if (!fewest) return {};
-    const auto of = [](const ChannelDiff& channel) {
-        const Footprints& f = *channel.footprints;
-        return fmt::format("{} of {} in {}", f.smooth, f.smooth + f.detailed + f.edges, channel.mode->name);
+    std::vector<const ChannelDiff*> judged;
+    for (const ChannelDiff& channel : channels)
+        if (channel.footprints) judged.push_back(&channel);
+    if (judged.empty()) return {};
+    const auto smooth = [](const ChannelDiff* channel) { return channel->footprints->smooth; };
+    const auto of = [](const ChannelDiff* channel) {
+        const Footprints& f = *channel->footprints;
+        return fmt::format("{} of {} in {}", f.smooth, f.pixels(), channel->mode->name);
     };
     return fmt::format(
         "--reference-mode scene: each pixel with smooth surroundings has its own bound (from {} to {}); the "
         "others together may have a mean FLIP of {}; each channel's section has its numbers",
-        of(*fewest), of(*most), detailFlip);
+        of(*std::ranges::min_element(judged, {}, smooth)), of(*std::ranges::max_element(judged, {}, smooth)),
+        detailFlip);
 }
 
 // Channels for which a reference in mode scene gives hardly any pixel a bound of its own. Empty if there
@@ -216,7 +188,7 @@ std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
     for (const ChannelDiff& channel : channels)
         if (const auto& f = channel.footprints; f && f->closeShare() < leastCloseShare)
             words.push_back(fmt::format(
-                "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->smooth + f->detailed + f->edges,
+                "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->pixels(),
                 f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));
     return words.empty()
                ? std::string()
@@ -252,7 +224,7 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
     const bool forward_only = mode.maker == MadeBy::forward_only && hasGBuffer(path),
                deferred_only = mode.maker == MadeBy::deferred_only && shadesFragments(path);
     if ((!forward_only && !deferred_only) || (rule && namesChannels(*rule)))
-        return judgeOneSided({std::string(mode.name), having.name}, demands, comparison.failures,
+        return judgeOneSided(std::string(mode.name), having.name, demands, comparison.failures,
                              comparison.notes);
     ChannelDiff& channel = comparison.channels.emplace_back();
     channel.mode = &mode;
@@ -264,9 +236,11 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
 
 // Adds the requested channels of both sides, not yet compared. Returns the names of those that at least one
 // side has.
-std::vector<std::string> pairChannels(const Frame& left, const Frame& right, const CompareOptions& options,
+std::vector<std::string> pairChannels(const FramePair& pair, const CompareOptions& options,
                                       Comparison& comparison) {
-    const bool lit_alone = comparesLitAlone(left, right);
+    const Frame &left = pair.baseline, &right = pair.test;
+    // A path's other channels are of its first sample, the reference's of the pixel's centre.
+    const bool lit_alone = pair.hasReference() && pair.path().settings.msaa > 1;
     if (lit_alone)
         comparison.notes.push_back(
             "only lit is compared with the reference: with MSAA, a path's other channels show one sample, "
@@ -333,21 +307,17 @@ void diffChannels(const FramePair& pair, const CompareOptions& options, Comparis
 // Warns if agreement says little; a failure with --strict. `shown` as for emptinessOf().
 void readEmptiness(const FramePair& pair, double shown, const CompareOptions& options,
                    Comparison& comparison) {
-    if (const std::string emptiness = emptinessOf(pair.baseline, pair.test, comparison.coverage, shown);
-        !emptiness.empty()) {
-        if (options.allow_empty)
-            comparison.notes.push_back(emptiness);
-        else if (options.strict)
-            comparison.failures.push_back(emptiness + "; --allow-empty accepts that");
-        else
-            comparison.emptiness = emptiness;
-    }
-    const auto weaken = [&](const std::string& why) {
+    const auto weaken = [&](const std::string& why, const char* hint = "; --strict does not accept that") {
         if (options.strict)
-            comparison.failures.push_back(why + "; --strict does not accept that");
+            comparison.failures.push_back(why + hint);
         else
             comparison.emptiness += (comparison.emptiness.empty() ? "" : "; ") + why;
     };
+    const std::string emptiness = emptinessOf(pair.baseline, pair.test, comparison.coverage, shown);
+    if (!emptiness.empty() && options.allow_empty)
+        comparison.notes.push_back(emptiness);
+    else if (!emptiness.empty())
+        weaken(emptiness, "; --allow-empty accepts that");
     if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) weaken(loose);
     for (const ChannelDiff& channel : comparison.channels) {
         if (channel.granted.empty()) continue;
@@ -392,7 +362,10 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
     const double shown = static_cast<double>(comparison.coverage.count) /
                          static_cast<double>(std::max<std::size_t>(comparison.coverage.covered.size(), 1));
     applySelection(comparison.coverage, left.settings.size.width, left.settings.size.height,
-                   options.selection, objectsOf(left, right), comparison.notes);
+                   options.selection,
+                   {{findChannel(left, Channel::material_id), findChannel(right, Channel::material_id)},
+                    {findChannel(left, Channel::depth), findChannel(right, Channel::depth)}},
+                   comparison.notes);
     FramePair pair{left,
                    right,
                    needs,
@@ -409,7 +382,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         leaveOutOtherSurfaces(pair, comparison);
     }
 
-    const std::vector<std::string> names = pairChannels(left, right, options, comparison);
+    const std::vector<std::string> names = pairChannels(pair, options, comparison);
     diffChannels(pair, options, comparison);
     // Two devices blend surfaces that each has sampled and placed in its own way.
     if (!options.across) readBlending(pair, options.rules, comparison);

@@ -2,7 +2,6 @@
 #include "compare/verdict/device_bounds.h"
 
 #include "compare/metrics/pixel.h"
-#include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace diptych {
 namespace {
@@ -79,18 +77,13 @@ double perTexel(const DebugMode& mode, const Requirements& needs) {
     }
 }
 
-const Image* imageOf(const std::map<Channel, Image>& images, Channel mode) {
-    const auto found = images.find(mode);
-    return found == images.end() ? nullptr : &found->second;
-}
-
 }  // namespace
 
 PlaceBound::PlaceBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test)
     : mode_(mode),
       grid_(*pair.grid),
       images_{&baseline, &test},
-      step_(kink * stepOf(*pair.across, &DevicePrecision::sub_pixel_bits)) {}
+      step_(kink * stepOf(pair.across->devices, &DevicePrecision::sub_pixel_bits)) {}
 
 double PlaceBound::operator()(std::size_t i) const {
     if (grid_.narrow[i] != 0) {
@@ -118,7 +111,7 @@ double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) cons
 Shadowed::Shadowed(const FramePair& pair) {
     for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility})
         if (const Image* a = findChannel(pair.baseline, mode), *b = findChannel(pair.test, mode); a && b) {
-            const Image* const relit = imageOf(pair.across->relit, mode);
+            const Image* const relit = findChannel(pair.across->relit, mode);
             images_.push_back({relit ? relit : a, b, a});
         }
 }
@@ -182,8 +175,8 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
       per_texel_(kind_ == Kind::pane && pair.needs.textures == 0 ? 0 : perTexel(mode, pair.needs)),
       bits_(kind_ == Kind::surface ? 2 * encodingBound(mode, pair) : 0),
-      texels_(imageOf(across_.texels, mode.channel)),
-      expected_(imageOf(across_.relit, mode.channel)),
+      texels_(findChannel(across_.texels, mode.channel)),
+      expected_(findChannel(across_.relit, mode.channel)),
       darkens_(mode.channel == Channel::albedo && pair.needs.specular_glossiness),
       f0_(findChannel(pair.baseline, Channel::dielectric_f0)),
       shadowed_(pair) {
@@ -312,9 +305,8 @@ bool DeviceBounds::isBeside(std::size_t i) const {
     bool found = false;
     for (const Image* image : {&baseline_, &test_})
         aroundPixel(*image, i, [&](std::size_t j, unsigned) {
-            found = found ||
-                    (*image->pixel(j) == *test_.pixel(i) && *image->pixel(j) != *baseline_.pixel(i)) ||
-                    (*image->pixel(j) == *baseline_.pixel(i) && *image->pixel(j) != *test_.pixel(i));
+            const float value = *image->pixel(j);
+            found = found || (value == *test_.pixel(i)) != (value == *baseline_.pixel(i));
         });
     return found;
 }

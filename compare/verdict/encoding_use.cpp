@@ -70,27 +70,23 @@ PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, do
     return pixelUse(metrics::distance(read, own, mode.width), slack * size);
 }
 
-bool isLightingField(Channel mode) {
-    return std::ranges::find(lightingFields(), mode) != lightingFields().end();
-}
-
 }  // namespace
 
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward) return {};
-    const auto mine = deferred->channels.find(mode.channel), theirs = forward->channels.find(mode.channel);
-    if (mine == deferred->channels.end() || theirs == forward->channels.end()) return {};
+    const Image *mine = findChannel(*deferred, mode.channel), *theirs = findChannel(*forward, mode.channel);
+    if (!mine || !theirs) return {};
     const auto field = storedField(mode.channel, deferred->settings.gbuffer, pair.needs);
     // Images of each sample that both have: deferred's and forward+'s.
-    std::vector<std::pair<const Image*, const Image*>> samples{{&mine->second, &theirs->second}};
+    std::vector<std::pair<const Image*, const Image*>> samples{{mine, theirs}};
     const auto read = deferred->further_samples.find(mode.channel),
                own = forward->further_samples.find(mode.channel);
     if (read != deferred->further_samples.end() && own != forward->further_samples.end() &&
         read->second.size() == own->second.size())
         for (std::size_t s = 0; s < read->second.size(); ++s)
             samples.emplace_back(&read->second[s], &own->second[s]);
-    if (!field && (samples.size() == 1 || !isLightingField(mode.channel))) return {};
+    if (!field && (samples.size() == 1 || std::ranges::count(lightingFields(), mode.channel) == 0)) return {};
     return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
         PixelUse worst;
         for (const auto& [a, b] : samples) {

@@ -35,12 +35,9 @@ double sampledPart(const Settings& settings) {
 }  // namespace
 
 EnvironmentCost::EnvironmentCost(const FramePair& pair) {
-    const bool first = isReferenceFrame(pair.baseline);
-    if (first == isReferenceFrame(pair.test)) return;
-    const Frame& reference = first ? pair.baseline : pair.test;
-    if (reference.environment_costs.empty()) return;
-    costs_ = &reference.environment_costs;
-    settings_ = &(first ? pair.test : pair.baseline).settings;
+    if (!pair.hasReference() || pair.reference().environment_costs.empty()) return;
+    costs_ = &pair.reference().environment_costs;
+    settings_ = &pair.path().settings;
 }
 
 double EnvironmentCost::allowedDiffuse(const DebugMode& mode, std::size_t pixel) const {

@@ -7,7 +7,6 @@
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/neighbours.h"
-#include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
 
@@ -16,10 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace diptych {
 namespace {
@@ -44,14 +41,12 @@ bool isSurface(const DebugMode& mode) {
     return mode.maker == MadeBy::both && !isLit(mode.channel) && !isGeometry(mode);
 }
 
-// Largest change of the value within `radius` pixels of (x, y).
-double rangeAt(const DebugMode& mode, const Image& image, int x, int y, int radius = 1) {
-    const float* const here = image.pixel(indexOf(image, x, y));
+// Largest change of the value within `radius` pixels of pixel `i`.
+double rangeAt(const DebugMode& mode, const Image& image, std::size_t i, int radius = 1) {
     double range = 0;
-    around(
-        image, x, y,
-        [&](int u, int v) { range = std::max(range, apart(mode, image.pixel(indexOf(image, u, v)), here)); },
-        radius);
+    within(image, i, radius, [&](std::size_t j, int, int) {
+        range = std::max(range, apart(mode, image.pixel(j), image.pixel(i)));
+    });
     return range;
 }
 
@@ -81,35 +76,34 @@ public:
         std::vector<std::uint8_t> detailed(baseline_.pixels(), 0);
         std::vector<double> used, others_used;  // of all pixels; without those of glass
         double largest = 0;
-        for (int y = 0; y < baseline_.height; ++y)
-            for (int x = 0; x < baseline_.width; ++x) {
-                const std::size_t i = indexOf(baseline_, x, y);
-                if (!pair_.coverage.covered[i]) continue;
-                const double error = error_(test_.pixel(i), baseline_.pixel(i));
-                const double glass = blended_.throughGlass(mode_, i);
-                const double bound = glass > 0 ? glassBound(i, glass) : isInside(x, y) ? boundAt(x, y) : -1;
-                result.glass += glass > 0;
-                // A number against NaN is always an error.
-                if (bound < 0 && std::isfinite(error)) {
-                    detailed[i] = 1;
-                    continue;
-                }
-                result.most = std::max(result.most, bound);
-                const double share = error == 0          ? 0
-                                     : std::isinf(error) ? error  // whatever its bound
-                                                         : error / std::max(bound, 0.0);
-                used.push_back(share);
-                if (!(glass > 0)) others_used.push_back(share);
-                result.beyond += share > 1;
-                if (share > largest) {
-                    largest = share;
-                    result.x = x;
-                    result.y = y;
-                }
+        for (std::size_t i = 0; i < baseline_.pixels(); ++i) {
+            if (!pair_.coverage.covered[i]) continue;
+            const double error = error_(test_.pixel(i), baseline_.pixel(i));
+            const double glass = blended_.throughGlass(mode_, i);
+            const double bound = glass > 0 ? glassBound(i, glass) : isInside(i) ? boundAt(i) : -1;
+            result.glass += glass > 0;
+            // A number against NaN is always an error.
+            if (bound < 0 && std::isfinite(error)) {
+                detailed[i] = 1;
+                continue;
             }
+            result.most = std::max(result.most, bound);
+            const double share = error == 0          ? 0
+                                 : std::isinf(error) ? error  // whatever its bound
+                                                     : error / std::max(bound, 0.0);
+            used.push_back(share);
+            if (!(glass > 0)) others_used.push_back(share);
+            result.beyond += share > 1;
+            if (!(share > largest)) continue;
+            largest = share;
+            result.x = static_cast<int>(i) % baseline_.width;
+            result.y = static_cast<int>(i) / baseline_.width;
+        }
         result.smooth = used.size();
         // Wide bounds of glass do not raise the number of other pixels that may be beyond theirs.
-        result.used = std::max(ranked(std::move(used)), ranked(std::move(others_used)));
+        // Filtered alpha masks may show the background at whole pixels of a hole's edge.
+        const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
+        result.used = std::max(nearestRank(std::move(used), most), nearestRank(std::move(others_used), most));
         const auto others = static_cast<std::uint64_t>(std::ranges::count(detailed, 1));
         if (isGeometry(mode_) || mode_.kind == ChannelKind::id)
             result.edges = others;
@@ -119,27 +113,15 @@ public:
     }
 
 private:
-    // The value that nearly all are at most; 0 without any.
-    double ranked(std::vector<double> used) const {
-        if (used.empty()) return 0;
-        // Filtered alpha masks may show the background at whole pixels of a hole's edge.
-        const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
-        const auto rank = static_cast<std::size_t>(std::ceil(most * static_cast<double>(used.size()))) - 1;
-        std::ranges::nth_element(used, used.begin() + static_cast<std::ptrdiff_t>(rank));
-        return used[rank];
-    }
-
     // Whether each image shows a single material, or the background, all around. The two materials need
     // not be equal: a difference is an error.
-    bool isInside(int x, int y) const {
+    bool isInside(std::size_t i) const {
         const Image *a = findChannel(pair_.baseline, Channel::material_id),
                     *b = findChannel(pair_.test, Channel::material_id);
         if (!a || !b) return true;
-        const std::size_t here = indexOf(*a, x, y);
         bool inside = true;
-        around(*a, x, y, [&](int u, int v) {
-            const std::size_t i = indexOf(*a, u, v);
-            inside = inside && *a->pixel(i) == *a->pixel(here) && *b->pixel(i) == *b->pixel(here);
+        within(*a, i, 1, [&](std::size_t j, int, int) {
+            inside = inside && *a->pixel(j) == *a->pixel(i) && *b->pixel(j) == *b->pixel(i);
         });
         return inside;
     }
@@ -229,24 +211,24 @@ private:
     }
 
     // Largest permitted error of a smooth pixel, in the channel's metric; negative if it is not smooth.
-    double boundAt(int x, int y) const {
+    double boundAt(std::size_t i) const {
         if (mode_.kind == ChannelKind::id) return 0;
-        const std::size_t i = indexOf(baseline_, x, y);
         // Only the reference's range: the tested image must not widen its own tolerance.
         const bool first = isReferenceFrame(pair_.baseline);
-        const double range = rangeAt(mode_, first ? baseline_ : test_, x, y);
+        const Image &reference = first ? baseline_ : test_, &path = first ? test_ : baseline_;
+        const double range = rangeAt(mode_, reference, i);
         const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
         const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
         // A fiftieth of the channel's range; two degrees for directions.
         const double smooth = isAngle(mode_.metric) ? 2 : 0.02 * unit;
-        if (!(std::max(range, rangeAt(mode_, first ? test_ : baseline_, x, y)) <= smooth)) return -1;
+        if (!(std::max(range, rangeAt(mode_, path, i)) <= smooth)) return -1;
         if (isLit(mode_.channel) && !isSameSurface(i)) return -1;
         const double rounding =
             isAngle(mode_.metric) ? shadingRounding * degreesPerRadian : shadingRounding * unit;
         // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
         // of what is still smooth, because only an edge exceeds that.
-        const double filtered = std::min(rangeAt(mode_, first ? baseline_ : test_, x, y, 2), 2 * smooth);
+        const double filtered = std::min(rangeAt(mode_, reference, i, 2), 2 * smooth);
         const double texel = texels(mode_, baseline_.pixel(i)) + darkened(mode_, baseline_, i);
         return (filtered + rounding + texel + colours(i, size)) / unit + encoding(i, unit) +
                (uncertainty(i) + environment_.allowed(mode_, i)) / unit;
@@ -260,8 +242,7 @@ private:
 
     // Uncertainty of a sampled reference at 99.9 % confidence.
     double uncertainty(std::size_t i) const {
-        const Image& known =
-            isReferenceFrame(pair_.baseline) ? pair_.baseline.uncertainty : pair_.test.uncertainty;
+        const Image& known = pair_.reference().uncertainty;
         return isLit(mode_.channel) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
     }
 
@@ -344,8 +325,7 @@ Tolerance footprintTolerance(const Footprints& footprints) {
 }
 
 double Footprints::closeShare() const {
-    const std::uint64_t all = smooth + detailed + edges;
-    return all > 0 ? static_cast<double>(smooth) / static_cast<double>(all) : 1;
+    return pixels() > 0 ? static_cast<double>(smooth) / static_cast<double>(pixels()) : 1;
 }
 
 std::vector<Channel> footprintChannels() {
@@ -356,9 +336,8 @@ std::vector<Channel> footprintChannels() {
 }
 
 std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair) {
-    if (!isPathAgainstReference(pair)) return {};
-    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    if (reference.settings.reference_mode != ReferenceMode::scene) return {};
+    if (!isPathAgainstReference(pair) || pair.reference().settings.reference_mode != ReferenceMode::scene)
+        return {};
     return Judge(mode, pair)();
 }
 

@@ -32,6 +32,7 @@ struct Footprints {
     double flip = 0;             // mean FLIP of these
     std::uint64_t edges = 0;     // pixels not compared, of channels that are no image
 
+    std::uint64_t pixels() const { return smooth + detailed + edges; }
     double closeShare() const;  // fraction of pixels with a bound of their own; 1 without pixels
 };
 

@@ -7,12 +7,27 @@
 #include "shared/material/texture_probe.h"
 #include "shared/scene/requirements.h"
 
+#include <map>
 #include <string_view>
 
 namespace diptych {
 
 struct AcrossDevices;  // across_devices.h
 class SurfaceGrid;     // surface_grid.h
+
+// nullptr: no image of the channel.
+inline const Image* findChannel(const std::map<Channel, Image>& images, Channel mode) {
+    const auto found = images.find(mode);
+    return found == images.end() ? nullptr : &found->second;
+}
+inline const Image* findChannel(const Frame& frame, Channel mode) {
+    return findChannel(frame.channels, mode);
+}
+
+// Whether a path with these Settings stores surfaces in fewer bits than float32.
+inline bool isPacked(const Settings& settings) {
+    return hasGBuffer(settings.path) && settings.gbuffer != GBufferEncoding::full;
+}
 
 // Two Frames of one scene and camera, the device that rendered them, and the scene's requirements.
 struct FramePair {
@@ -36,10 +51,20 @@ struct FramePair {
     std::string_view light_differs = {};
 
     // The side whose path can do it (hasGBuffer, shadesFragments); nullptr: neither, or both.
-    const Frame* of(bool (*can)(Path)) const;
+    const Frame* of(bool (*can)(Path)) const {
+        const bool first = can(baseline.settings.path), second = can(test.settings.path);
+        return first == second ? nullptr : first ? &baseline : &test;
+    }
+
+    // Whether one side alone is the reference; that side, and the other.
+    bool hasReference() const { return isReferenceFrame(baseline) != isReferenceFrame(test); }
+    const Frame& reference() const { return isReferenceFrame(baseline) ? baseline : test; }
+    const Frame& path() const { return isReferenceFrame(baseline) ? test : baseline; }
 };
 
 // Whether one side is the reference and the other a path.
-bool isPathAgainstReference(const FramePair& pair);
+inline bool isPathAgainstReference(const FramePair& pair) {
+    return pair.hasReference() && !pair.baseline.origin.external && !pair.test.origin.external;
+}
 
 }  // namespace diptych

@@ -3,14 +3,14 @@
 
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
-#include "compare/verdict/criterion.h"
+#include "compare/verdict/rules.h"
 #include "compare/verdict/tolerance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace diptych {
 namespace {
@@ -36,12 +36,6 @@ Granted namedFor(std::size_t approximation, const Settings& settings) {
     return {};
 }
 
-double p999Of(std::vector<double> values) {
-    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(values.size()))) - 1;
-    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(rank));
-    return values[rank];
-}
-
 }  // namespace
 
 std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
@@ -55,20 +49,18 @@ std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
         if (!pair.coverage.covered[i]) continue;
         const float* const p = baseline.pixel(i);
         const auto allowed = allowances.at(mode, i);
-        double all = 0;
-        for (const double each : allowed) all += each;
+        const double all = std::accumulate(allowed.begin(), allowed.end(), 0.0);
         const double unit = std::max(metrics::largestFinite(p, baseline.components), error.floor());
         const double taken = all > 0 ? std::min(error(test.pixel(i), p), all / unit) / all : 0;
         for (std::size_t a = 0; a < approximations; ++a) errors[a].push_back(allowed[a] * taken);
     }
-    const bool first = isReferenceFrame(pair.baseline);
     std::vector<Granted> all;
     for (std::size_t a = 0; a < approximations; ++a) {
-        Granted granted = namedFor(a, (first ? pair.test : pair.baseline).settings);
-        for (const double each : errors[a]) granted.mean += each;
-        granted.mean /= static_cast<double>(errors[a].size());
+        Granted granted = namedFor(a, pair.path().settings);
+        granted.mean =
+            std::accumulate(errors[a].begin(), errors[a].end(), 0.0) / static_cast<double>(errors[a].size());
         if (!(granted.mean > 0)) continue;
-        granted.p999 = p999Of(std::move(errors[a]));
+        granted.p999 = nearestRank(std::move(errors[a]), 0.999);
         all.push_back(std::move(granted));
     }
     std::ranges::stable_sort(all, std::greater(), &Granted::mean);
@@ -76,9 +68,8 @@ std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
 }
 
 double grantedMean(const std::vector<Granted>& granted) {
-    double sum = 0;
-    for (const Granted& each : granted) sum += each.mean;
-    return sum;
+    return std::accumulate(granted.begin(), granted.end(), 0.0,
+                           [](double sum, const Granted& each) { return sum + each.mean; });
 }
 
 std::string grantedText(const DebugMode& mode, const std::vector<Granted>& granted) {

@@ -5,7 +5,6 @@
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

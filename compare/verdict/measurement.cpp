@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace diptych {
@@ -21,11 +21,6 @@ struct Row {
     Value (*value)(const Measurement&);
 };
 
-Value ofFlip(const Measurement& m, double FlipResult::*member) {
-    const HdrFlipResult* flip = m.flip();
-    return flip ? Value((*flip).*member) : Value();
-}
-
 template <double ChannelStats::*member>
 Value stat(const Measurement& m) {
     return m.stats().*member;
@@ -36,7 +31,7 @@ Value plain(const Measurement& m) {
 }
 template <double FlipResult::*member>
 Value flip(const Measurement& m) {
-    return ofFlip(m, member);
+    return m.flip() ? Value(m.flip()->*member) : Value();
 }
 template <double StandardMetrics::*member>
 Value angle(const Measurement& m) {
@@ -98,6 +93,11 @@ const Figure* findFigure(std::string_view name) {
     return found == figures().end() ? nullptr : &*found;
 }
 
+bool isBetterIfMore(std::string_view name) {
+    const Figure* const figure = findFigure(name);
+    return figure && figure->more_is_better;
+}
+
 bool Measurement::isVector() const {
     return pair_.kind == ChannelKind::vector && pair_.reference.components == 3;
 }
@@ -106,10 +106,6 @@ std::optional<double> Measurement::operator()(const Quantity& quantity) const {
     if (quantity.figure == FAILING) return shareOf(pixelsAbove(quantity.above));
     const auto row = std::ranges::find(rows, quantity.figure, [](const Row& r) { return r.figure.name; });
     return row == rows.end() ? Value() : row->value(*this);
-}
-
-Measured Measurement::asMeasured() const {
-    return [this](const Quantity& quantity) { return (*this)(quantity); };
 }
 
 std::vector<std::pair<std::string, double>> Measurement::all() const {
@@ -221,11 +217,12 @@ void countPixels(Criterion& criterion, const Measurement& measurement) {
 }  // namespace
 
 Decision decide(const Rule& rule, const Measurement& measurement) {
-    Decision decision = decide(rule, measurement.asMeasured());
+    const Measured measured = std::cref(measurement);
+    Decision decision = decide(rule, measured);
     if (decision.criterion) countPixels(*decision.criterion, measurement);
     if (decision.level != Level::pass) {
         const Condition& broken = decision.level == Level::fail ? rule.fail : *rule.warn;
-        if (auto bound = decidingBound(broken, measurement.asMeasured())) {
+        if (auto bound = decidingBound(broken, measured)) {
             countPixels(*bound, measurement);
             decision.reason += shareText(*bound);
         }

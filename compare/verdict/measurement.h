@@ -35,7 +35,6 @@ public:
 
     // Empty if the metric is undefined: flip and ssim need colours, angles need vectors.
     std::optional<double> operator()(const Quantity& quantity) const;
-    Measured asMeasured() const;  // a function that calls this object, which must outlive it
 
     // All defined metrics, in the table's order.
     std::vector<std::pair<std::string, double>> all() const;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "compare/metrics/pixel.h"
+#include "compare/verdict/frame_pair.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/frame.h"
 #include "shared/image/image.h"
 
 #include <algorithm>
@@ -16,22 +16,17 @@ namespace diptych {
 
 inline constexpr double degreesPerRadian = 180 / std::numbers::pi;
 
-// nullptr: the Frame lacks the channel.
-inline const Image* findChannel(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    return found == frame.channels.end() ? nullptr : &found->second;
-}
-
 inline std::size_t indexOf(const Image& image, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
 }
 
-// Visits the pixels around (x, y), without itself.
+// Visits the pixels at most `radius` rows and columns away, and the pixel itself: visit(index, dx, dy).
 template <class Visit>
-void around(const Image& image, int x, int y, const Visit& visit, int radius = 1) {
+void within(const Image& image, std::size_t pixel, int radius, const Visit& visit) {
+    const int x = static_cast<int>(pixel) % image.width, y = static_cast<int>(pixel) / image.width;
     for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height - 1); ++v)
         for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width - 1); ++u)
-            if (u != x || v != y) visit(u, v);
+            visit(indexOf(image, u, v), u - x, v - y);
 }
 
 // Difference of two values in the unit of ranges: degrees for directions, else the largest component

@@ -4,7 +4,6 @@
 #include "compare/metrics/pixel.h"
 #include "compare/metrics/prefilter.h"
 #include "compare/run/still_working.h"
-#include "compare/verdict/one_sided.h"
 #include "shared/image/file_bytes.h"
 #include "shared/image/free_memory.h"
 #include "shared/image/picture_file.h"
@@ -20,7 +19,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
-#include <optional>
+#include <ranges>
 #include <stdexcept>
 
 namespace diptych {
@@ -195,19 +194,10 @@ void bringTogether(PictureFile& a, PictureFile& b, bool same_bytes, bool strict,
     diff.display = a.display_referred;
 }
 
-ObjectPlanes objectsOf(const std::vector<PictureChannel>& reference,
-                       const std::vector<PictureChannel>& test) {
-    ObjectPlanes objects;
-    const auto find = [](const std::vector<PictureChannel>& channels, const char* name) {
-        const auto found = std::ranges::find(channels, name, &PictureChannel::name);
-        return found == channels.end() || found->image.components != 1 ? nullptr : &found->image;
-    };
-    for (const int side : {0, 1}) {
-        const auto& channels = side == 0 ? reference : test;
-        objects.ids[side] = find(channels, "material_id");
-        objects.depth[side] = find(channels, "depth");
-    }
-    return objects;
+// nullptr: no channel of this name with one component.
+const Image* planeOf(const std::vector<PictureChannel>& channels, const char* name) {
+    const auto found = std::ranges::find(channels, name, &PictureChannel::name);
+    return found == channels.end() || found->image.components != 1 ? nullptr : &found->image;
 }
 
 constexpr const char* commandLine = "command line";
@@ -233,9 +223,9 @@ Rule ruleOf(const PictureDiffOptions& options, const PictureChannelDiff& channel
         quantity.figure = "max";
     }
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
-    const Figure* figure = findFigure(quantity.figure);
-    double equal = 0;
-    if (figure && figure->more_is_better) equal = figure->name == "ssim" ? 1 : metrics::infinity;
+    const double equal = !isBetterIfMore(quantity.figure) ? 0
+                         : quantity.figure == "ssim"      ? 1
+                                                          : metrics::infinity;
     rule.fail = bound(needsEquality(options, channel) ? equal : options.tolerance);
     if (options.failing)
         rule.fail = {Condition::Kind::bound, {FAILING, options.tolerance}, *options.failing, {}};
@@ -322,13 +312,6 @@ void addNotes(PictureDiff& diff, const PictureDiffOptions& options) {
                                          fmt::join(without, ", ")));
 }
 
-// `names`: channels of both files. A rule that names no channel by its whole name fails, because its
-// author expects a match; a pattern may match nothing.
-void judgeIdleRules(PictureDiff& diff, std::span<const Rule> rules, const std::vector<std::string>& names) {
-    for (const Rule* rule : idleRules(rules, names))
-        (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));
-}
-
 // The channel with its measurement, after --blur and --shift.
 std::unique_ptr<PictureChannelDiff> diffOf(MatchedChannel pair, const PictureDiff& diff,
                                            const PictureDiffOptions& options) {
@@ -394,10 +377,9 @@ std::string figureOfMetric(const std::string& name) {
                                                            {"relmse", "relative_mse"}};
     if (const auto other = others.find(name); other != others.end()) return other->second;
     if (findFigure(name)) return name;
-    std::string all;
-    for (const Figure& figure : figures()) all += fmt::format(", {}", figure.name);
-    throw std::runtime_error(
-        fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp{}", name, all));
+    throw std::runtime_error(fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp, {}",
+                                         name,
+                                         fmt::join(figures() | std::views::transform(&Figure::name), ", ")));
 }
 
 DecidingErrors decidingErrors(const PictureDiff& diff, const PictureChannelDiff& channel) {
@@ -445,7 +427,9 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
                                 right = channelsOf(std::move(b), options.names);
     diff.coverage = std::make_unique<Coverage>(
         everyPixel(static_cast<std::size_t>(diff.width) * static_cast<std::size_t>(diff.height)));
-    applySelection(*diff.coverage, diff.width, diff.height, options.selection, objectsOf(left, right),
+    applySelection(*diff.coverage, diff.width, diff.height, options.selection,
+                   {{planeOf(left, "material_id"), planeOf(right, "material_id")},
+                    {planeOf(left, "depth"), planeOf(right, "depth")}},
                    diff.notes);
     std::vector<std::string> names;
     for (const auto* side : {&left, &right})
@@ -453,12 +437,16 @@ PictureDiff diffPictures(const std::string& reference, const std::string& test,
     MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
     for (const OneSidedChannel& channel : matched.one_sided)
-        judgeOneSided(channel, {options.rules, options.channels, options.strict}, diff.failures, diff.notes);
+        judgeOneSided(channel.name, channel.owner, {options.rules, options.channels, options.strict},
+                      diff.failures, diff.notes);
     for (MatchedChannel& pair : matched.channels)
         diff.channels.push_back(diffOf(std::move(pair), diff, options));
     judgeChannels(diff, options);
     addNotes(diff, options);
-    judgeIdleRules(diff, options.rules, names);
+    // A rule that names no channel by its whole name fails, because its author expects a match; a pattern
+    // may match nothing.
+    for (const Rule* rule : idleRules(options.rules, names))
+        (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));
     checkBlackness(diff, options);
     return diff;
 }

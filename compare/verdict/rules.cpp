@@ -9,12 +9,15 @@
 #include "shared/text/wildcard.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <limits>
+#include <ranges>
 #include <set>
+#include <utility>
 
 namespace diptych {
 namespace {
@@ -24,9 +27,7 @@ using Json = nlohmann::json;
 using Presets = std::map<std::string, Json>;
 
 std::string figureNames() {
-    std::string names;
-    for (const Figure& figure : figures()) names += fmt::format("{}, ", figure.name);
-    return names + FAILING;
+    return fmt::format("{}, {}", fmt::join(figures() | std::views::transform(&Figure::name), ", "), FAILING);
 }
 
 double numberOf(const Json& value, const std::string& what) {
@@ -156,53 +157,64 @@ std::optional<std::string> boundViolation(const Condition& c, const Measured& me
     const std::optional<double> value = measured(c.quantity);
     const std::string what = quantityText(c.quantity);
     if (!value) return fmt::format("{} is not defined for this channel", what);
-    const Figure* figure = findFigure(c.quantity.figure);
-    if (figure && figure->more_is_better) {
-        if (*value >= c.limit) return {};
-        return fmt::format("{} {} is below {}", what, shown(*value, c.limit), shown(c.limit, *value));
-    }
-    if (*value <= c.limit) return {};
-    return fmt::format("{} {} exceeds {}", what, shown(*value, c.limit), shown(c.limit, *value));
+    const bool least = isBetterIfMore(c.quantity.figure);
+    if (least ? *value >= c.limit : *value <= c.limit) return {};
+    return fmt::format("{} {} {} {}", what, shown(*value, c.limit), least ? "is below" : "exceeds",
+                       shown(c.limit, *value));
 }
 
 std::string joined(const Condition& condition, const char* word) {
-    std::string text;
+    std::vector<std::string> parts;
     for (const Condition& part : condition.parts) {
-        const bool inner = part.kind != Condition::Kind::bound;
-        text += fmt::format("{}{}", text.empty() ? "" : word,
-                            inner ? fmt::format("({})", conditionText(part)) : conditionText(part));
+        const std::string text = conditionText(part);
+        parts.push_back(part.kind == Condition::Kind::bound ? text : "(" + text + ")");
     }
-    return text;
+    return fmt::format("{}", fmt::join(parts, word));
 }
 
 }  // namespace
 
+double usedOf(const Criterion& criterion) {
+    const auto [over, under] = criterion.least ? std::pair{criterion.limit, criterion.measured}
+                                               : std::pair{criterion.measured, criterion.limit};
+    if (over == 0 || over == under) return over == 0 ? 0 : 1;
+    return under > 0 ? over / under : std::numeric_limits<double>::infinity();
+}
+
+std::string shareText(const Criterion& criterion) {
+    return fmt::format(
+        fmt::runtime(criterion.differing ? "; {} of the pixels differ" : ", at {} of the pixels"),
+        percentText(criterion.share));
+}
+
+std::string percentText(double share) {
+    if (share > 0 && share < 1e-4) return "under 0.01 %";
+    if (share < 1 && share > 0.9999) return "over 99.99 %";
+    return fmt::format("{:.3g} %", 100 * share);
+}
+
 std::optional<std::string> violation(const Condition& condition, const Measured& measured) {
     if (condition.kind == Condition::Kind::bound) return boundViolation(condition, measured);
-    std::string reasons;
+    const bool any = condition.kind == Condition::Kind::any;
+    std::vector<std::string> reasons;
     for (const Condition& part : condition.parts) {
-        const std::optional<std::string> why = violation(part, measured);
-        if (condition.kind == Condition::Kind::any && !why) return {};
-        if (why)
-            reasons += (reasons.empty()                          ? ""
-                        : condition.kind == Condition::Kind::any ? ", and "
-                                                                 : ", ") +
-                       *why;
+        std::optional<std::string> why = violation(part, measured);
+        if (any && !why) return {};
+        if (why) reasons.push_back(std::move(*why));
     }
     if (reasons.empty()) return {};
-    return reasons;
+    return fmt::format("{}", fmt::join(reasons, any ? ", and " : ", "));
 }
 
 std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured) {
     if (condition.kind == Condition::Kind::bound) {
         const std::optional<double> value = measured(condition.quantity);
         if (!value) return {};
-        const Figure* figure = findFigure(condition.quantity.figure);
         const bool share = condition.quantity.figure == FAILING;
         return Criterion{.figure = quantityText(condition.quantity),
                          .measured = *value,
                          .limit = condition.limit,
-                         .least = figure && figure->more_is_better,
+                         .least = isBetterIfMore(condition.quantity.figure),
                          .above = share ? std::optional(condition.quantity.above) : std::nullopt};
     }
     std::optional<Criterion> deciding;
@@ -242,9 +254,8 @@ std::optional<double> boundOn(const Condition& condition, std::string_view figur
 std::string conditionText(const Condition& condition) {
     if (condition.kind == Condition::Kind::all) return joined(condition, " and ");
     if (condition.kind == Condition::Kind::any) return joined(condition, " or ");
-    const Figure* figure = findFigure(condition.quantity.figure);
     return fmt::format("{} {} {:g}", quantityText(condition.quantity),
-                       figure && figure->more_is_better ? ">=" : "<=", condition.limit);
+                       isBetterIfMore(condition.quantity.figure) ? ">=" : "<=", condition.limit);
 }
 
 std::string_view nameOf(Level level) {
@@ -291,6 +302,20 @@ std::vector<const Rule*> idleRules(std::span<const Rule> rules, const std::vecto
 std::string idleText(const Rule& rule, const std::vector<std::string>& channels) {
     return fmt::format("{}: no channel here is called {}{}", rule.origin, rule.channel,
                        isPattern(rule) ? "" : didYouMean(rule.channel, channels));
+}
+
+void judgeOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
+                   std::vector<std::string>& failures, std::vector<std::string>& notes) {
+    const std::string alone = fmt::format("{} is in {} only", channel, owner);
+    const Rule* rule = ruleFor(demands.rules, channel);
+    if (rule && namesChannels(*rule))
+        failures.push_back(fmt::format("{}, but {} needs both sides", alone, rule->origin));
+    else if (std::ranges::count(demands.names, channel) > 0)
+        failures.push_back(fmt::format("{}, but --channels requests it", alone));
+    else if (demands.all)
+        failures.push_back(alone + ", but --strict requires the same channels on both sides");
+    else
+        notes.push_back(alone + ": not compared");
 }
 
 void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known) {

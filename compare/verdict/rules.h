@@ -3,11 +3,9 @@
 // renderdiff presets.
 #pragma once
 
-#include "compare/verdict/criterion.h"
-
+#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +22,7 @@ struct Figure {
 };
 std::span<const Figure> figures();
 const Figure* findFigure(std::string_view name);  // nullptr if unknown
+bool isBetterIfMore(std::string_view name);
 
 inline constexpr const char* FAILING = "failing";
 
@@ -34,6 +33,31 @@ struct Quantity {
 };
 // Returns the measured value of a quantity; empty if it is undefined for the channel (flip of an id).
 using Measured = std::function<std::optional<double>(const Quantity&)>;
+
+// The metric that decided a verdict, as measured, and its limit.
+struct Criterion {
+    // A metric of rules.h, "p99.9", "pixels unexplained", "times the bounds", "flip of detail", "pixels
+    // NaN or infinite", "p99.9 of the excess" (certainErrors()).
+    std::string figure;
+    double measured = 0;
+    double limit = 0;               // largest value that passes; with `least` the smallest
+    bool least = false;             // for psnr and ssim
+    std::optional<double> above{};  // if the metric is a fraction of pixels: their error threshold
+    // Covered pixels out of tolerance; for a metric of the whole channel (a mean, FLIP), those that differ
+    // at all.
+    std::uint64_t pixels = 0;
+    double share = 0;        // `pixels` as a fraction of all covered pixels, 0 to 1
+    bool differing = false;  // `pixels` counts pixels that differ
+};
+
+// Fraction of the limit that is used: 1 just passes; infinite if the limit is 0 and the metric is not.
+double usedOf(const Criterion& criterion);
+
+// ", at 12.3 % of the pixels"; for a metric of the whole channel "; 12.3 % of the pixels differ".
+std::string shareText(const Criterion& criterion);
+
+// "12.3 %"; never "0 %" for a non-zero share, nor "100 %" for less than all.
+std::string percentText(double share);
 
 // A bound on one quantity, or several conditions of which all or any must pass.
 struct Condition {
@@ -96,6 +120,16 @@ bool isPattern(const Rule& rule);
 // Rules that match none of the channels; and the message about one of them, which suggests a similar name.
 std::vector<const Rule*> idleRules(std::span<const Rule> rules, const std::vector<std::string>& channels);
 std::string idleText(const Rule& rule, const std::vector<std::string>& channels);
+
+// Demands for a channel on both sides.
+struct ChannelDemands {
+    std::span<const Rule> rules{};     // each demands the channels that it names
+    std::vector<std::string> names{};  // --channels: these
+    bool all = false;                  // --strict: every channel
+};
+// For a channel of `owner` alone, adds a line to `failures` if it is demanded on both sides, else to `notes`.
+void judgeOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
+                   std::vector<std::string>& failures, std::vector<std::string>& notes);
 
 // Throws std::runtime_error, one line, if a rule names a single channel that is not known.
 void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known);

@@ -47,25 +47,19 @@ void applyCrop(Coverage& coverage, int width, int height, const Crop& crop) {
     if (crop.x + crop.width > width || crop.y + crop.height > height)
         throw std::runtime_error(fmt::format("--crop {},{},{}x{}: is not inside the image of {}x{}", crop.x,
                                              crop.y, crop.width, crop.height, width, height));
+    std::size_t i = 0;
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
+        for (int x = 0; x < width; ++x, ++i)
             if (x < crop.x || x >= crop.x + crop.width || y < crop.y || y >= crop.y + crop.height)
-                coverage.covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                 static_cast<std::size_t>(x)] = 0;
+                coverage.covered[i] = 0;
 }
 
-bool otherId(float a, float b) {
-    return a != b;
-}
-bool otherDepth(float a, float b) {
-    return std::abs(a - b) > depthStep * std::min(std::abs(a), std::abs(b));
-}
-
-// Sets 1 at both pixels of every horizontal or vertical neighbour pair that belongs to two objects.
-template <class Other>
-void markEdges(const Image& plane, const Other& other, std::vector<std::uint8_t>& edges) {
+// Sets 1 at both pixels of every horizontal or vertical neighbour pair that belongs to two objects. `ids`:
+// whether the plane has ids, else depths.
+void markEdges(const Image& plane, bool ids, std::vector<std::uint8_t>& edges) {
     const auto mark = [&](int x, int y, int nx, int ny) {
-        if (!other(plane.at(x, y), plane.at(nx, ny))) return;
+        const float a = plane.at(x, y), b = plane.at(nx, ny);
+        if (ids ? a == b : !(std::abs(a - b) > depthStep * std::min(std::abs(a), std::abs(b)))) return;
         edges[plane.offset(x, y)] = 1;
         edges[plane.offset(nx, ny)] = 1;
     };
@@ -110,13 +104,8 @@ void applyEdges(Coverage& coverage, int width, int height, int radius, const Obj
         throw std::runtime_error(
             "--ignore-edges: needs material_id or Z to find edges, and neither image has one");
     std::vector<std::uint8_t> edges(coverage.covered.size(), 0);
-    for (const int side : {0, 1}) {
-        if (!planes[side]) continue;
-        if (ids)
-            markEdges(*planes[side], otherId, edges);
-        else
-            markEdges(*planes[side], otherDepth, edges);
-    }
+    for (const int side : {0, 1})
+        if (planes[side]) markEdges(*planes[side], ids, edges);
     edges = grown(edges, width, height, radius - 1);
     for (std::size_t i = 0; i < edges.size(); ++i)
         if (edges[i]) coverage.covered[i] = 0;

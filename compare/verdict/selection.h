@@ -5,7 +5,6 @@
 #include "compare/metrics/channel.h"
 #include "shared/image/image.h"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

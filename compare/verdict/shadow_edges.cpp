@@ -8,17 +8,12 @@
 namespace diptych {
 
 ShadowEdges::ShadowEdges(const FramePair& pair) {
-    const bool first = isReferenceFrame(pair.baseline);
-    if (first == isReferenceFrame(pair.test)) return;
-    reference_ = first ? &pair.baseline : &pair.test;
-    path_ = first ? &pair.test : &pair.baseline;
-    const auto find = [&](Channel mode) {
-        const auto found = path_->channels.find(mode);
-        return found == path_->channels.end() ? nullptr : &found->second;
-    };
-    depth_ = find(Channel::depth);
-    level_ = find(Channel::cascade);
-    coarser_ = find(Channel::page_residency);
+    if (!pair.hasReference()) return;
+    reference_ = &pair.reference();
+    path_ = &pair.path();
+    depth_ = findChannel(*path_, Channel::depth);
+    level_ = findChannel(*path_, Channel::cascade);
+    coarser_ = findChannel(*path_, Channel::page_residency);
     const bool by_depth = !path_->shadow_reach.empty() && depth_ != nullptr,
                by_level = !path_->shadow_level_reach.empty() && level_ != nullptr && coarser_ != nullptr;
     sun_ = !reference_->shadow_edge.empty() && (by_depth || by_level);

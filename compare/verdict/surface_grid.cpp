@@ -5,9 +5,10 @@
 #include "compare/verdict/tolerance.h"
 
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,49 +37,39 @@ public:
           position_(findChannel(frame, Channel::position)),
           normal_(findChannel(frame, Channel::geometric_normal)) {
         const FrameCamera& c = frame.camera;
-        for (int i = 0; i < 3; ++i) forward_[i] = c.target[i] - c.eye[i];
-        normalize(forward_);
-        right_ = cross(forward_, {c.up[0], c.up[1], c.up[2]});
-        normalize(right_);
-        up_ = cross(right_, forward_);
+        forward_ = normalized(glm::make_vec3(c.target) - glm::make_vec3(c.eye));
+        right_ = normalized(glm::cross(forward_, glm::make_vec3(c.up)));
+        up_ = glm::cross(right_, forward_);
     }
 
     // Change of depth to the next pixel on the triangle's plane and `step` of a pixel beyond it, m.
     double slope(std::size_t i, double step) const {
         if (!depth_ || !position_ || !normal_ || *depth_->pixel(i) <= 0) return 0;
-        const float *n = normal_->pixel(i), *p = position_->pixel(i);
+        const glm::dvec3 n = glm::make_vec3(normal_->pixel(i)), p = glm::make_vec3(position_->pixel(i));
         const double z = *depth_->pixel(i), pixel = z / pixelsPerRadian(frame_, i);
         double facing = 0;
-        for (int c = 0; c < 3; ++c)
-            facing += double{n[c]} * (frame_.camera.fov_degrees > 0 ? double{p[c]} / z : forward_[c]);
-        const double across = pixel * (std::abs(dot(n, right_)) + std::abs(dot(n, up_)));
+        for (int c = 0; c < 3; ++c) facing += n[c] * (frame_.camera.fov_degrees > 0 ? p[c] / z : forward_[c]);
+        const double across = pixel * (std::abs(glm::dot(n, right_)) + std::abs(glm::dot(n, up_)));
         const double left = std::abs(facing) - step * across / z;
         return left > 0 ? across / left : std::numeric_limits<double>::infinity();
     }
 
 private:
-    using Vector = std::array<double, 3>;
-    static double dot(const float* a, const Vector& b) {
-        return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
-    }
-    static Vector cross(const Vector& a, const Vector& b) {
-        return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    }
-    static void normalize(Vector& v) {
-        const double length = std::hypot(v[0], v[1], v[2]);
-        for (double& c : v) c = length > 0 ? c / length : 0;
+    static glm::dvec3 normalized(const glm::dvec3& v) {
+        const double length = std::hypot(v.x, v.y, v.z);
+        return length > 0 ? v / length : glm::dvec3(0);
     }
 
     const Frame& frame_;
     const Image *depth_, *position_, *normal_;
-    Vector forward_{}, right_{}, up_{};
+    glm::dvec3 forward_, right_, up_;
 };
 
 }  // namespace
 
-double stepOf(const AcrossDevices& across, unsigned DevicePrecision::*bits) {
-    return std::ldexp(1.0, -static_cast<int>(across.devices[0].*bits)) +
-           std::ldexp(1.0, -static_cast<int>(across.devices[1].*bits));
+double stepOf(const std::array<DevicePrecision, 2>& devices, unsigned DevicePrecision::*bits) {
+    return std::ldexp(1.0, -static_cast<int>(devices[0].*bits)) +
+           std::ldexp(1.0, -static_cast<int>(devices[1].*bits));
 }
 
 double relativeRounding() {
@@ -111,7 +102,7 @@ SurfaceGrid::SurfaceGrid(const FramePair& pair)
     const FacetBound facetOf(pair);
     const Steepness steepness(pair.baseline);
     const Image* const depth = findChannel(pair.baseline, Channel::depth);
-    const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
+    const double step = stepOf(pair.across->devices, &DevicePrecision::sub_pixel_bits);
     tbb::parallel_for(std::size_t{0}, surface.size(), [&](std::size_t i) {
         if (!pair.coverage.covered[i]) return;
         const double facet = facetOf(i);

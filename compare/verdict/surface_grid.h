@@ -6,13 +6,14 @@
 #include "compare/verdict/frame_pair.h"
 #include "compare/verdict/neighbours.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace diptych {
 
 // Sum of both devices' steps of a grid of `bits`.
-double stepOf(const AcrossDevices& across, unsigned DevicePrecision::*bits);
+double stepOf(const std::array<DevicePrecision, 2>& devices, unsigned DevicePrecision::*bits);
 
 // Relative error of a value that both devices interpolate.
 double relativeRounding();
@@ -23,11 +24,9 @@ double pixelsPerRadian(const Frame& frame, std::size_t i);
 // Calls visit(pixel, bit) for the pixels around one.
 template <class Visit>
 void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
-    around(image, x, y, [&](int u, int v) {
-        const int place = (v - y + 1) * 3 + (u - x + 1);
-        visit(indexOf(image, u, v), 1u << (place > 4 ? place - 1 : place));
+    within(image, pixel, 1, [&](std::size_t j, int dx, int dy) {
+        const int place = (dy + 1) * 3 + dx + 1;
+        if (j != pixel) visit(j, 1u << (place > 4 ? place - 1 : place));
     });
 }
 // Bits of the neighbours across (left, right) and down (above, below).

@@ -150,7 +150,7 @@ private:
     const Shadowed shadowed_{pair_};
     std::optional<DeviceBounds> depth_, light_;
     std::optional<PlaceBound> coordinates_;
-    const double step_ = stepOf(*pair_.across, &DevicePrecision::sub_pixel_bits);
+    const double step_ = stepOf(pair_.across->devices, &DevicePrecision::sub_pixel_bits);
 };
 
 }  // namespace
@@ -181,7 +181,7 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         count(found.shadows, i, ids->width, shade, beside);
         found.others[i] = other || shade ? 1 : 0;
     }
-    const double step = stepOf(*pair.across, &DevicePrecision::sub_pixel_bits);
+    const double step = stepOf(pair.across->devices, &DevicePrecision::sub_pixel_bits);
     found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
     // Each texel of a filter across an edge may show another triangle.
     const double texels = pair.baseline.settings.shadow_kernel + 1;

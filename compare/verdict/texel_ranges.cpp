@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/texel_ranges.h"
 
-#include "compare/verdict/neighbours.h"
+#include "compare/verdict/surface_grid.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/material.h"
 #include "shared/frame/debug_modes.h"
@@ -13,12 +13,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -31,70 +32,60 @@ constexpr double levelBelow = 0.5, levelAbove = 1;
 // be visible, even from half a texel beside, more than the steps by which two devices place a vertex.
 constexpr int texelsSeen = 1;
 
+using Factors = std::array<double, 4>;  // of a texel's components
+
 // Contribution of a texel's components to a channel: `factor` times the component's range.
 struct Use {
     Channel mode;
-    std::array<double, 4> factor;  // of each component
+    Factors factor;
     // Whether texels of 0 take the layer away, so that the channel is 0 there: then `factor` is its largest
     // value, and the difference where such texels and others may be visible.
     bool removes = false;
 };
 
-using Factors = std::array<double, 4>;  // of a texel's components
-
 double largestComponent(const auto& v) {
     return double{std::max({v.x, v.y, v.z})};
 }
+Factors rgba(double r, double g = 0, double b = 0, double a = 0) {
+    return {r, g, b, a};
+}
+Factors rgb(double f) {
+    return {f, f, f, 0};
+}
+Factors rgbOf(const auto& color) {
+    return rgb(largestComponent(color));
+}
+Factors bumps(float scale) {
+    return rgb(std::max(1.0, std::abs(double{scale})));
+}
 
 // The material's factor of each component of a slot's texels.
-Factors factorsOf(const Material& m, std::size_t slot) {
-    const auto color = [](double f) { return Factors{f, f, f, 0}; };
-    const auto bumps = [&](float scale) { return color(std::max(1.0, std::abs(double{scale}))); };
-    switch (slot) {
-        case gpu::SLOT_base_color:
-            return color(largestComponent(m.base_color));
-        case gpu::SLOT_metallic_roughness:
-            return {0, m.roughness, m.metallic, 0};
-        case gpu::SLOT_normal:
-            return bumps(m.normal_scale);
-        case gpu::SLOT_occlusion:
-            return {m.occlusion_strength, 0, 0, 0};
-        case gpu::SLOT_emissive:
-            return color(largestComponent(m.emissive));
-        case gpu::SLOT_specular:
-            return {0, 0, 0, m.specular};
-        case gpu::SLOT_specular_color:
-            return color(largestComponent(m.specular_color));
-        case gpu::SLOT_lightmap:
-            return color(m.lightmap_intensity);
-        case gpu::SLOT_clearcoat:
-            return {m.clearcoat, 0, 0, 0};
-        case gpu::SLOT_clearcoat_roughness:
-            return {0, m.clearcoat_roughness, 0, 0};
-        case gpu::SLOT_clearcoat_normal:
-            return bumps(m.clearcoat_normal_scale);
-        case gpu::SLOT_anisotropy:
-            return {1, 1, m.anisotropy, 0};
-        case gpu::SLOT_sheen_color:
-            return color(largestComponent(m.sheen_color));
-        case gpu::SLOT_sheen_roughness:
-            return {0, 0, 0, m.sheen_roughness};
-        case gpu::SLOT_iridescence:
-            return {m.iridescence, 0, 0, 0};
-        case gpu::SLOT_iridescence_thickness:
-            return {0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least), 0, 0};
-        case gpu::SLOT_transmission:
-            return {m.transmission, 0, 0, 0};
-        case gpu::SLOT_thickness:
-            return {0, m.thickness, 0, 0};
-        case gpu::SLOT_diffuse_transmission:
-            return {0, 0, 0, m.diffuse_transmission};
-        case gpu::SLOT_diffuse_transmission_color:
-            return color(largestComponent(m.diffuse_transmission_color));
-        default:
-            return {};
-    }
-}
+constexpr std::pair<std::size_t, Factors (*)(const Material&)> slotFactors[] = {
+    {gpu::SLOT_base_color, [](const Material& m) { return rgbOf(m.base_color); }},
+    {gpu::SLOT_metallic_roughness, [](const Material& m) { return rgba(0, m.roughness, m.metallic); }},
+    {gpu::SLOT_normal, [](const Material& m) { return bumps(m.normal_scale); }},
+    {gpu::SLOT_occlusion, [](const Material& m) { return rgba(m.occlusion_strength); }},
+    {gpu::SLOT_emissive, [](const Material& m) { return rgbOf(m.emissive); }},
+    {gpu::SLOT_specular, [](const Material& m) { return rgba(0, 0, 0, m.specular); }},
+    {gpu::SLOT_specular_color, [](const Material& m) { return rgbOf(m.specular_color); }},
+    {gpu::SLOT_lightmap, [](const Material& m) { return rgb(m.lightmap_intensity); }},
+    {gpu::SLOT_clearcoat, [](const Material& m) { return rgba(m.clearcoat); }},
+    {gpu::SLOT_clearcoat_roughness, [](const Material& m) { return rgba(0, m.clearcoat_roughness); }},
+    {gpu::SLOT_clearcoat_normal, [](const Material& m) { return bumps(m.clearcoat_normal_scale); }},
+    {gpu::SLOT_anisotropy, [](const Material& m) { return rgba(1, 1, m.anisotropy); }},
+    {gpu::SLOT_sheen_color, [](const Material& m) { return rgbOf(m.sheen_color); }},
+    {gpu::SLOT_sheen_roughness, [](const Material& m) { return rgba(0, 0, 0, m.sheen_roughness); }},
+    {gpu::SLOT_iridescence, [](const Material& m) { return rgba(m.iridescence); }},
+    {gpu::SLOT_iridescence_thickness,
+     [](const Material& m) {
+         return rgba(0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least));
+     }},
+    {gpu::SLOT_transmission, [](const Material& m) { return rgba(m.transmission); }},
+    {gpu::SLOT_thickness, [](const Material& m) { return rgba(0, m.thickness); }},
+    {gpu::SLOT_diffuse_transmission, [](const Material& m) { return rgba(0, 0, 0, m.diffuse_transmission); }},
+    {gpu::SLOT_diffuse_transmission_color,
+     [](const Material& m) { return rgbOf(m.diffuse_transmission_color); }},
+};
 
 // Units of the channel per unit of the components 2 t - 1 of a direction; 1 for other texels.
 double unitsPer(Channel mode) {
@@ -163,7 +154,8 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
 }
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
-    const Factors factors = factorsOf(m, slot);
+    const auto row = std::ranges::find(slotFactors, slot, [](const auto& r) { return r.first; });
+    const Factors factors = row == std::end(slotFactors) ? Factors{} : row->second(m);
     if (m.unlit && slot == gpu::SLOT_base_color)
         return {scaledUse(Channel::emission, Components::rgb, factors)};
     std::vector<Use> uses;
@@ -279,8 +271,9 @@ private:
 // down, by the side with the smallest and by the one with the largest change. Empty if neither side shows
 // the same surface.
 std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& surface,
-                                         const TextureSlot& slot, const TextureImage& image, int x, int y) {
-    const std::size_t here = indexOf(uv, x, y);
+                                         const TextureSlot& slot, const TextureImage& image,
+                                         std::size_t here) {
+    const int x = static_cast<int>(here) % uv.width, y = static_cast<int>(here) / uv.width;
     PixelTexels texels;
     for (const int axis : {0, 1}) {
         double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -314,13 +307,9 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
     for (std::size_t i = 0; i < ids->pixels(); ++i)
         if (const float id = *ids->pixel(i); id >= 0 && static_cast<std::size_t>(id) < pixels.size())
             pixels[static_cast<std::size_t>(id)].push_back(i);
-    const auto steps = [&](unsigned DevicePrecision::*bits) {
-        return std::ldexp(1.0, -static_cast<int>(devices[0].*bits)) +
-               std::ldexp(1.0, -static_cast<int>(devices[1].*bits));
-    };
     const SurfaceAround surface(frame);
-    const double placed = steps(&DevicePrecision::sub_pixel_bits),
-                 weighed = steps(&DevicePrecision::sub_texel_bits);
+    const double placed = stepOf(devices, &DevicePrecision::sub_pixel_bits),
+                 weighed = stepOf(devices, &DevicePrecision::sub_texel_bits);
     for (std::size_t id = 0; id < scene.materials.size(); ++id)
         for (std::size_t s = 0; s < materialSlots.size() && !pixels[id].empty(); ++s) {
             const Material& material = scene.materials[id];
@@ -337,11 +326,8 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
             const TexelRange all = levels.wholeRange();
             tbb::parallel_for(std::size_t{0}, pixels[id].size(), [&](std::size_t k) {
                 const std::size_t i = pixels[id][k];
-                const auto width = static_cast<std::size_t>(ids->width);
                 const std::optional<PixelTexels> texels =
-                    known ? texelsOfPixel(*uv, surface, slot, image, static_cast<int>(i % width),
-                                          static_cast<int>(i / width))
-                          : std::nullopt;
+                    known ? texelsOfPixel(*uv, surface, slot, image, i) : std::nullopt;
                 TexelRange range = all;
                 double weight = 1;
                 if (texels) {

@@ -4,27 +4,20 @@
 #include "compare/metrics/pixel.h"
 #include "compare/reference/channels.h"
 #include "compare/reference/reference.h"
-#include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/encoding_bits.h"
-#include "compare/verdict/environment_cost.h"
-#include "compare/verdict/shadow_edges.h"
+#include "compare/verdict/neighbours.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/contract/gbuffer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
 #include <string_view>
+#include <utility>
 
 namespace diptych {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 // Tolerance of values with an exponent: half a step relative to the value, or half of the smallest step,
 // which is `least`.
@@ -51,35 +44,33 @@ Tolerance indexTolerance(unsigned bits, const DebugMode& mode, const FramePair& 
 
 Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const FramePair& pair) {
     const unsigned bits = field.bits, codes = (1u << bits) - 1;
+    const auto bounded = [&](std::string because) {
+        return Tolerance{field.largestBound(), std::move(because)};
+    };
     switch (field.code) {
         case StoredField::Code::exact:
             break;
         case StoredField::Code::unorm:
-            return {field.largestBound(), fmt::format("half a step of {} bits, 0.5 / {}", bits, codes)};
+            return bounded(fmt::format("half a step of {} bits, 0.5 / {}", bits, codes));
         case StoredField::Code::root:
-            return {
-                field.largestBound(),
-                fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits, codes)};
+            return bounded(
+                fmt::format("square root in {} bits: 2h - h^2 with half a step h = 0.5 / {}", bits, codes));
         case StoredField::Code::octahedral:
-            return {field.largestBound(),
-                    fmt::format("octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees",
-                                bits)};
+            return bounded(fmt::format(
+                "octahedral in {0}+{0} bits: half a step in both at a face's centre, degrees", bits));
         case StoredField::Code::line:
-            return {
-                field.largestBound(),
+            return bounded(
                 fmt::format("its plane turns with the octahedral normal in {0}+{0} bits; across that, half "
                             "a step of an angle in {1} bits, 180 / 2^{2}; degrees",
-                            field.normal_bits, bits, bits + 1)};
+                            field.normal_bits, bits, bits + 1));
         case StoredField::Code::radiance:
             return floatTolerance(
-                mode, pair,
-                {field.largestBound(), "half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"},
+                mode, pair, bounded("half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"),
                 {leastRadianceBound, "half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel"});
         case StoredField::Code::index:
             return indexTolerance(bits, mode, pair);
         case StoredField::Code::half:
-            return floatTolerance(mode, pair,
-                                  {field.largestBound(), "half a step of a half's 10-bit mantissa, 2^-11"},
+            return floatTolerance(mode, pair, bounded("half a step of a half's 10-bit mantissa, 2^-11"),
                                   {leastHalfBound, "half of a half's smallest step, 2^-25"});
     }
     return {};
@@ -103,9 +94,10 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
 // The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.
 const Image* throughGBuffer(const DebugMode& mode, const FramePair& pair) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
-    if (!deferred || !forward || deferred->settings.gbuffer != forward->settings.gbuffer) return nullptr;
-    const auto found = forward->through_gbuffer.find(mode.channel);
-    return found == forward->through_gbuffer.end() ? nullptr : &found->second;
+    if (!isLit(mode.channel) || !deferred || !forward ||
+        deferred->settings.gbuffer != forward->settings.gbuffer)
+        return nullptr;
+    return findChannel(forward->through_gbuffer, mode.channel);
 }
 
 Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
@@ -127,35 +119,25 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
 
 // Why a part of materials that no packed field stores has no error; empty: not for this reason.
 std::string_view unpackedBecause(const DebugMode& mode, const Requirements& needs) {
-    switch (sourceOf(mode.channel).part) {
-        case MaterialPart::none:
-            return {};
-        case MaterialPart::emission:
-            return needs.emission ? "float32: the scene's emission exceeds the range of 9.9.9.e5"
-                                  : "nothing in the scene emits";
-        case MaterialPart::lightmap:
-            return needs.lightmap ? "float32: the scene's lightmaps exceed the range of 9.9.9.e5"
-                                  : "nothing in the scene has a lightmap";
-        case MaterialPart::dielectric:
-            return mode.channel == Channel::dielectric_f90
-                       ? "every dielectric has F90 = 1: nothing is stored"
-                       : "every dielectric has F0 = 0.04: nothing is stored";
-        case MaterialPart::clearcoat:
-            return "nothing in the scene has a clear coat";
-        case MaterialPart::anisotropy:
-            return "nothing in the scene is anisotropic";
-        case MaterialPart::sheen:
-            return "nothing in the scene has a sheen";
-        case MaterialPart::iridescence:
-            return "nothing in the scene has a thin film";
-        case MaterialPart::diffuse_transmission:
-            return "nothing in the scene transmits light diffusely";
-        case MaterialPart::transmission:
-            return "surfaces with transmission are drawn after either path, by the same shader";
-        case MaterialPart::transmitted:
-            return {};
-    }
-    return {};
+    const MaterialPart part = sourceOf(mode.channel).part;
+    if (part == MaterialPart::emission && needs.emission)
+        return "float32: the scene's emission exceeds the range of 9.9.9.e5";
+    if (part == MaterialPart::lightmap && needs.lightmap)
+        return "float32: the scene's lightmaps exceed the range of 9.9.9.e5";
+    if (mode.channel == Channel::dielectric_f90) return "every dielectric has F90 = 1: nothing is stored";
+    static constexpr std::pair<MaterialPart, std::string_view> reasons[] = {
+        {MaterialPart::emission, "nothing in the scene emits"},
+        {MaterialPart::lightmap, "nothing in the scene has a lightmap"},
+        {MaterialPart::dielectric, "every dielectric has F0 = 0.04: nothing is stored"},
+        {MaterialPart::clearcoat, "nothing in the scene has a clear coat"},
+        {MaterialPart::anisotropy, "nothing in the scene is anisotropic"},
+        {MaterialPart::sheen, "nothing in the scene has a sheen"},
+        {MaterialPart::iridescence, "nothing in the scene has a thin film"},
+        {MaterialPart::diffuse_transmission, "nothing in the scene transmits light diffusely"},
+        {MaterialPart::transmission,
+         "surfaces with transmission are drawn after either path, by the same shader"}};
+    const auto found = std::ranges::find(reasons, part, [](const auto& row) { return row.first; });
+    return found == std::end(reasons) ? std::string_view() : found->second;
 }
 
 // Why both paths have equal values of a channel that no field stores.
@@ -194,25 +176,24 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
 // the error falls faster than that.
 constexpr double marchShare = 0.1;
 
+bool isMarched(const DebugMode& mode, const Settings& path) {
+    return path.haze && path.haze_march_steps > 0 &&
+           (mode.channel == Channel::lit || mode.channel == Channel::lit_haze);
+}
+
 // Permitted error of a channel at the pixel by ray-marching haze, W/(sr m^2). Uses lit, which is no less,
 // if the reference's lit_haze is missing.
 double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
-    const bool first = isReferenceFrame(pair.baseline);
-    const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    const bool moved = mode.channel == Channel::lit || mode.channel == Channel::lit_haze;
-    if (!moved || !path.settings.haze || path.settings.haze_march_steps == 0) return 0;
-    const auto scattered = reference.channels.find(Channel::lit_haze);
-    const Image& image =
-        scattered == reference.channels.end() ? reference.channels.at(mode.channel) : scattered->second;
-    return marchShare / path.settings.haze_march_steps *
-           metrics::largestFinite(image.pixel(pixel), image.components);
+    const Settings& path = pair.path().settings;
+    if (!isMarched(mode, path)) return 0;
+    const Image* const scattered = findChannel(pair.reference(), Channel::lit_haze);
+    const Image& image = scattered ? *scattered : pair.reference().channels.at(mode.channel);
+    return marchShare / path.haze_march_steps * metrics::largestFinite(image.pixel(pixel), image.components);
 }
 
 // Tolerance of a path against the reference: the losses of its encoding and of float32.
 Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
-    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
-    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    const bool packed = hasGBuffer(path.settings.path) && path.settings.gbuffer != GBufferEncoding::full;
+    const Frame &reference = pair.reference(), &path = pair.path();
     Tolerance result;
     if (isLit(mode.channel)) {
         result = {shadingRounding, "float32 shading against double, 1e-4"};
@@ -240,27 +221,26 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
             result.because += "; plus the reference's uncertainty at each pixel, at 99.9 % confidence";
     } else {
         // Surfaces come from forward+'s own capture.
-        result = packed ? encodingTolerance(mode, pair, path.settings.gbuffer)
-                        : Tolerance{0, "float32, nothing is packed"};
+        result = isPacked(path.settings) ? encodingTolerance(mode, pair, path.settings.gbuffer)
+                                         : Tolerance{0, "float32, nothing is packed"};
         if (BlendedPixels::isOfGlass(mode))
             result = {shadingRounding,
                       "float32 against double, 1e-4; plus the image's change within two pixels and one code "
                       "of a texture, because the reference traces these surfaces itself"};
-        if (mode.channel == Channel::transmittance)
-            result = {1e-6, "float32 against quadrature in double, 1e-6"};
-        if (mode.channel == Channel::lit_haze)
-            result = {shadingRounding, "float32 against quadrature in double, 1e-4"};
-        if (mode.channel == Channel::shadow_visibility)
-            result = {
-                0,
-                "farther than the filter radius and one texel from a shadow boundary, visibility is 0 or 1"};
-        if (mode.channel == Channel::local_visibility)
-            result = {shadingRounding,
-                      "float32 weights against double, 1e-4; farther than the filter radius and one texel "
-                      "from a shadow boundary, a light's visibility is 0 or 1"};
+        static const std::pair<Channel, Tolerance> others[] = {
+            {Channel::transmittance, {1e-6, "float32 against quadrature in double, 1e-6"}},
+            {Channel::lit_haze, {shadingRounding, "float32 against quadrature in double, 1e-4"}},
+            {Channel::shadow_visibility,
+             {0,
+              "farther than the filter radius and one texel from a shadow boundary, visibility is 0 or 1"}},
+            {Channel::local_visibility,
+             {shadingRounding,
+              "float32 weights against double, 1e-4; farther than the filter radius and one texel from a "
+              "shadow boundary, a light's visibility is 0 or 1"}}};
+        for (const auto& [channel, tolerance] : others)
+            if (mode.channel == channel) result = tolerance;
     }
-    if (path.settings.haze && path.settings.haze_march_steps > 0 &&
-        (mode.channel == Channel::lit || mode.channel == Channel::lit_haze))
+    if (isMarched(mode, path.settings))
         result.because +=
             fmt::format("; plus the error of {} steps through haze, {:.2g} % of its light",
                         path.settings.haze_march_steps, 100 * marchShare / path.settings.haze_march_steps);
@@ -272,12 +252,11 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 
 const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.channel) || !isPathAgainstReference(pair)) return nullptr;
-    const bool first = isReferenceFrame(pair.baseline);
-    const Frame &reference = first ? pair.baseline : pair.test, &path = first ? pair.test : pair.baseline;
-    if (!hasGBuffer(path.settings.path) || path.settings.gbuffer == GBufferEncoding::full) return nullptr;
-    if (reference.through_gbuffer.contains(mode.channel)) return &reference;
+    const Settings& path = pair.path().settings;
+    if (!isPacked(path)) return nullptr;
+    if (pair.reference().through_gbuffer.contains(mode.channel)) return &pair.reference();
     const Frame* const forward = pair.explaining;
-    return forward && forward->settings.gbuffer == path.settings.gbuffer &&
+    return forward && forward->settings.gbuffer == path.gbuffer &&
                    forward->through_gbuffer.contains(mode.channel)
                ? forward
                : nullptr;
@@ -296,7 +275,7 @@ double gpuSlack(const DebugMode& mode, const Image& baseline) {
         }
         case Metric::angular:
         case Metric::axial:
-            return std::sqrt(3.0) * share * degrees;
+            return std::sqrt(3.0) * share * degreesPerRadian;
         case Metric::exact:
             return 0;
     }
@@ -310,7 +289,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
     Tolerance result{0, "one path twice: the same function of the same inputs"};
     if (deferred && pair.of(shadesFragments))
         result = encodingTolerance(mode, pair, deferred->settings.gbuffer);
-    else if (isReferenceFrame(pair.baseline) != isReferenceFrame(pair.test))
+    else if (pair.hasReference())
         result = referenceTolerance(mode, pair);
     else if (pair.baseline.settings.path != pair.test.settings.path)
         result = {0, "no bound is known between these two paths"};
@@ -328,40 +307,25 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
 }
 
 double encodingBound(const DebugMode& mode, const FramePair& pair) {
-    const Frame& path = isReferenceFrame(pair.baseline) ? pair.test : pair.baseline;
-    if (isLit(mode.channel) || path.settings.gbuffer == GBufferEncoding::full) return 0;
-    return hasGBuffer(path.settings.path) ? encodingTolerance(mode, pair, path.settings.gbuffer).max : 0;
+    const Settings& path = pair.path().settings;
+    return isLit(mode.channel) || !isPacked(path) ? 0 : encodingTolerance(mode, pair, path.gbuffer).max;
 }
 
-struct Allowances::State {
-    explicit State(const FramePair& p) : pair(p), edges(p), environment(p), blended(p) {}
-    const FramePair& pair;
-    ShadowEdges edges;
-    EnvironmentCost environment;
-    BlendedPixels blended;
-};
-
-Allowances::Allowances(const FramePair& pair) : state_(std::make_unique<const State>(pair)) {}
-Allowances::~Allowances() = default;
-
 bool Allowances::any() const {
-    const FramePair& pair = state_->pair;
-    const Settings& path = (isReferenceFrame(pair.baseline) ? pair.test : pair.baseline).settings;
-    return state_->edges.any() || state_->environment.any() || state_->blended.any() ||
-           (path.haze && path.haze_march_steps > 0);
+    const Settings& path = pair_.path().settings;
+    return edges_.any() || environment_.any() || blended_.any() || (path.haze && path.haze_march_steps > 0);
 }
 
 std::array<double, approximations> Allowances::at(const DebugMode& mode, std::size_t pixel) const {
-    const State& s = *state_;
-    return {s.edges.any() ? s.edges.allowed(mode, pixel) : 0, s.environment.allowedDiffuse(mode, pixel),
-            s.environment.allowedSpecular(mode, pixel), s.blended.allowed(mode, pixel),
-            marchAllowed(mode, s.pair, pixel)};
+    return {edges_.any() ? edges_.allowed(mode, pixel) : 0, environment_.allowedDiffuse(mode, pixel),
+            environment_.allowedSpecular(mode, pixel), blended_.allowed(mode, pixel),
+            marchAllowed(mode, pair_, pixel)};
 }
 
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair) {
     if (!(isShaded(mode.channel) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
-    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& reference = pair.reference();
     if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingShownBy(mode, pair) &&
         !Allowances(pair).any())
         return {};
@@ -371,7 +335,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
 
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
                                const Image& test) {
-    const Frame& reference = isReferenceFrame(pair.baseline) ? pair.baseline : pair.test;
+    const Frame& reference = pair.reference();
     const Frame* const encoded = encodingShownBy(mode, pair);
     const bool first = isReferenceFrame(pair.baseline);
     const Allowances allowances(pair);
@@ -379,7 +343,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     std::vector<double> errors;
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
-        const float* p = baseline.pixel(i);
+        const float *p = baseline.pixel(i), *q = test.pixel(i);
         double open =
             reference.rounding.empty() ? 0 : reference::roundingOf(mode.channel, reference.rounding.pixel(i));
         for (const double allowed : allowances.at(mode, i)) open += allowed;
@@ -389,39 +353,35 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         // Removes the encoding's effect on light from the path's pixel.
         std::array<float, 3> moved{};
-        const float* q = test.pixel(i);
         if (encoded) {
             const float *before = encoded->channels.at(mode.channel).pixel(i),
                         *after = encoded->through_gbuffer.at(mode.channel).pixel(i);
-            for (std::size_t c = 0; c < 3; ++c) {
-                const float change = after[c] - before[c];
-                moved.at(c) = first ? q[c] - change : p[c] - change;
-            }
+            const float*& path = first ? q : p;
+            for (std::size_t c = 0; c < 3; ++c) moved.at(c) = path[c] - (after[c] - before[c]);
+            path = moved.data();
         }
-        const double e = !encoded ? error(q, p) : first ? error(moved.data(), p) : error(q, moved.data());
+        const double e = error(q, p);
         // An infinite error (NaN against a number) stays infinite, whatever the uncertainty.
         errors.push_back(std::isinf(e) ? e : std::max(0.0, e - open));
     }
     return errors;
 }
 
-std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair) {
-    std::optional<std::vector<double>> errors = certainErrors(mode, pair);
-    if (!errors) return {};
-    if (errors->empty()) return 0;
-    const auto rank = static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(errors->size()))) - 1;
-    std::ranges::nth_element(*errors, errors->begin() + static_cast<std::ptrdiff_t>(rank));
-    return (*errors)[rank];
+double nearestRank(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    std::ranges::nth_element(values, values.begin() + rank);
+    return values.begin()[rank];
 }
 
 std::optional<std::uint64_t> unexplainedPixels(const DebugMode& mode, const FramePair& pair) {
-    const Image* through = isLit(mode.channel) ? throughGBuffer(mode, pair) : nullptr;
+    const Image* through = throughGBuffer(mode, pair);
     if (!through) return {};
     return unequalPixels(pair.of(hasGBuffer)->channels.at(mode.channel), *through, pair.cpu ? 0 : gpuUlps);
 }
 
 std::optional<bool> encodingExplains(const DebugMode& mode, const FramePair& pair, std::size_t pixel) {
-    const Image* through = isLit(mode.channel) ? throughGBuffer(mode, pair) : nullptr;
+    const Image* through = throughGBuffer(mode, pair);
     if (!through) return {};
     const Image& read = pair.of(hasGBuffer)->channels.at(mode.channel);
     return unequalPixels(onePixel(read, pixel), onePixel(*through, pixel), pair.cpu ? 0 : gpuUlps) == 0;

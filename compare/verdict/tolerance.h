@@ -5,13 +5,15 @@
 
 #include "compare/reference/lighting.h"
 #include "compare/reference/sampling.h"
+#include "compare/verdict/blended_pixels.h"
+#include "compare/verdict/environment_cost.h"
 #include "compare/verdict/frame_pair.h"
+#include "compare/verdict/shadow_edges.h"
 #include "shared/frame/debug_modes.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,15 +36,17 @@ inline constexpr std::size_t approximations = 5;
 class Allowances {
 public:
     // `pair`, of a path and the reference, must outlive it.
-    explicit Allowances(const FramePair& pair);
-    ~Allowances();
+    explicit Allowances(const FramePair& pair)
+        : pair_(pair), edges_(pair), environment_(pair), blended_(pair) {}
     bool any() const;
     // Allowed errors of a channel at the pixel, in its unit, by Approximation.
     std::array<double, approximations> at(const DebugMode& mode, std::size_t pixel) const;
 
 private:
-    struct State;
-    std::unique_ptr<const State> state_;
+    const FramePair& pair_;
+    ShadowEdges edges_;
+    EnvironmentCost environment_;
+    BlendedPixels blended_;
 };
 
 // Error of float32 shading against double precision, relative to the pixel's largest component. More where
@@ -74,8 +78,8 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
                                const Image& test);
 
-// Their 99.9th percentile.
-std::optional<double> certainP999(const DebugMode& mode, const FramePair& pair);
+// The least of the values that at least `share` of them, 0 to 1, do not exceed; 0 without values.
+double nearestRank(std::vector<double> values, double share);
 
 // Number of pixels where deferred differs from forward+'s shading of surfaces after the G-buffer's
 // encoding, so that the encoding does not explain the difference. Empty if forward+ has no such image.

@@ -3,7 +3,7 @@
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
-#include "compare/verdict/criterion.h"
+#include "compare/verdict/rules.h"
 #include "shared/text/did_you_mean.h"
 #include "tests/support/report_builder.h"
 

@@ -36,7 +36,7 @@ struct GlassPair {
     double excess() const {
         const DebugMode& mode = debugMode(thickness);
         const FramePair pair{reference, path, needs, covered};
-        return certainP999(mode, pair).value() / derivedTolerance(mode, pair).max;
+        return nearestRank(certainErrors(mode, pair).value(), 0.999) / derivedTolerance(mode, pair).max;
     }
 };
 
