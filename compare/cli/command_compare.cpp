@@ -31,11 +31,10 @@ void checkOnePicture(const Options& options, const std::vector<Settings>& settin
 }
 
 // The Frame that becomes the new baseline: of --path, else of the old baseline's path.
-const Frame& renewing(const Options& options, const Frame* old, const std::vector<Frame>& frames) {
+const Frame& renewing(const Options& options, const Frame* old, const ViewFrames& view) {
     const Path path = old && !options.path_given && !isReference(old->settings.path) ? old->settings.path
                                                                                      : options.settings.path;
-    for (const Frame& frame : frames)
-        if (frame.settings.path == path) return frame;
+    if (const Frame* const drawn = view.by(path)) return *drawn;
     throw std::runtime_error(
         fmt::format("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path)));
 }
@@ -83,7 +82,7 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     std::string updated;
     if (options.update_baseline)
         updated = updateBaseline(options.baseline_file,
-                                 renewing(options, baseline ? &*baseline : nullptr, drawn.frames),
+                                 renewing(options, baseline ? &*baseline : nullptr, drawn.views.front()),
                                  reportDevice(device));
     const Stage stage(progress, folder.string());
     const auto [drawing, comparing] = experiment::sharesOf(render);

@@ -39,19 +39,6 @@ std::optional<TextureSampling> texelsFor(const Compared& compared, const std::ve
     return devices.texels;
 }
 
-// Index of the left panel's Frame in the report. The view's Frames begin at `first`.
-std::size_t leftPanel(const Compared& compared, std::size_t first) {
-    if (compared.from_file) return 0;
-    if (compared.withReference()) return first;
-    const auto path = std::ranges::find(drawn_paths, compared.baseline);
-    return first + static_cast<std::size_t>(path - drawn_paths.begin());
-}
-
-// Index of the Frame by the view's first path.
-std::size_t shownOf(const Compared& compared, std::size_t first) {
-    return first + compared.paths().size() - drawn_paths.size();
-}
-
 // Short device name for Frames and files: "SwiftShader" for "SwiftShader Device (Subzero)".
 std::string shortName(const std::string& device) {
     const auto end =
@@ -59,7 +46,7 @@ std::string shortName(const std::string& device) {
     return std::string(device.begin(), end);
 }
 
-// Inserts the other device's Frames after those of each view, and adds the inputs of their verdicts.
+// Adds the other device's Frames to those of each view, and the inputs of their verdicts.
 void addOtherDevice(SceneViews& views, Devices& devices, std::vector<Frame> there, DrawnScene& drawn) {
     const Scene& scene = views.scene();
     Device& device = devices.device;
@@ -71,32 +58,28 @@ void addOtherDevice(SceneViews& views, Devices& devices, std::vector<Frame> ther
         frame.origin.device = on.info().name;
         frame.origin.driver = on.info().driver;
     };
-    std::vector<Frame> frames;
-    for (std::size_t i = 0; i + 1 < there.size(); i += 2) {
-        const std::size_t forward = shadesFragments(drawn.frames[i].settings.path) ? i : i + 1;
-        AcrossDevices across = acrossDevices(scene, views.at(viewRequest(drawn.frames[forward].settings)),
-                                             against.precision, drawn.frames[forward]);
-        for (const std::size_t k : {i, i + 1}) {
-            Frame &a = drawn.frames[k], &b = there[k];
-            note(a, device);
-            note(b, against.device);
-            b.name += "-on-" + shortName(against.device.info().name);
-            across.relit = relit(device, renderer, b);
-            drawn.across.push_back(across);
+    auto next = there.begin();
+    for (ViewFrames& view : drawn.views) {
+        const Frame& forward = *view.by(unencoded_path);
+        AcrossDevices across =
+            acrossDevices(scene, views.at(viewRequest(forward.settings)), against.precision, forward);
+        for (Frame& frame : view.frames) {
+            Frame& other = view.there.emplace_back(std::move(*next++));
+            note(frame, device);
+            note(other, against.device);
+            other.name += "-on-" + shortName(against.device.info().name);
+            across.relit = relit(device, renderer, other);
+            view.across.emplace(frame.settings.path, across);
         }
-        for (std::vector<Frame>* of : {&drawn.frames, &there})
-            for (const std::size_t k : {i, i + 1}) frames.push_back(std::move((*of)[k]));
     }
-    drawn.frames = std::move(frames);
 }
 
-// Renders a view, whose Frames begin at `first`, with every external renderer. A failed renderer becomes an
-// error of the report.
-void drawExternals(SceneViews& views, const Compared& compared, std::size_t first,
+// Renders a view with every external renderer. A failed renderer becomes an error of the report.
+void drawExternals(SceneViews& views, const Compared& compared, ViewFrames& of,
                    const std::function<void(const std::string&)>& on_step, const Stage& stage,
-                   DrawnScene& drawn) {
+                   std::vector<SceneError>& errors) {
     const Scene& scene = views.scene();
-    const Frame& shown = drawn.frames[shownOf(compared, first)];
+    const Frame& shown = *of.by(drawn_paths[0]);
     const SceneView& view = views.at(viewRequest(shown.settings));
     const auto all = static_cast<double>(compared.renderers.size());
     for (std::size_t i = 0; i < compared.renderers.size(); ++i) {
@@ -106,15 +89,13 @@ void drawExternals(SceneViews& views, const Compared& compared, std::size_t firs
                                 oneLine(fmt::format("{}", fmt::join(renderer.command, " ")))));
         stage.at(static_cast<double>(i) / all, renderer.name);
         external::Attempt attempt = external::drawExternally(renderer, scene, view, shown.settings);
-        if (attempt.frame) {
-            drawn.external.push_back(
-                {std::move(*attempt.frame), view.needs, leftPanel(compared, first), compared.renderer_words});
-        } else {
-            drawn.errors.push_back({scene.name,
-                                    fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
-                                                renderer.file.string(), attempt.problem),
-                                    renderer.name, std::move(attempt.output)});
-        }
+        if (attempt.frame)
+            of.external.push_back(std::move(*attempt.frame));
+        else
+            errors.push_back({scene.name,
+                              fmt::format("{}: renderer {} ({}): {}", scene.name, renderer.name,
+                                          renderer.file.string(), attempt.problem),
+                              renderer.name, std::move(attempt.output)});
     }
 }
 
@@ -148,18 +129,22 @@ DrawnScene drawScene(const Scene& scene, const Compared& compared, const std::ve
                      Devices& devices, const RenderOptions& render, const Stage& outside) {
     DrawnScene drawn;
     SceneViews views(scene);
-    for (const Settings& of : settings) drawn.needs.push_back(views.at(viewRequest(of)).needs);
     RenderOptions first = render, second = render;
     if (devices.against) {
         first.progress = render.progress.part(0, 0.5);
         second.progress = render.progress.part(0.5, 1);
     }
-    drawn.frames = renderAll(devices.device, views, settings, first, devices.pipelines);
-    for (std::size_t k = 0; k < drawn.frames.size(); k += compared.paths().size()) {
-        const Frame& shown = drawn.frames[shownOf(compared, k)];
-        drawn.visual_checks.push_back(visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown));
-        drawn.materials.push_back(materialNames(scene));
-        drawExternals(views, compared, k, render.on_step, outside, drawn);
+    // A path's second Frame begins the next view.
+    for (Frame& frame : renderAll(devices.device, views, settings, first, devices.pipelines)) {
+        if (drawn.views.empty() || drawn.views.back().by(frame.settings.path))
+            drawn.views.push_back({{}, views.at(viewRequest(frame.settings)).needs});
+        drawn.views.back().frames.push_back(std::move(frame));
+    }
+    for (ViewFrames& view : drawn.views) {
+        const Frame& shown = *view.by(drawn_paths[0]);
+        view.checks = visualChecksOf(scene, views.at(viewRequest(shown.settings)), shown);
+        view.materials = materialNames(scene);
+        drawExternals(views, compared, view, render.on_step, outside, drawn.errors);
         letGo(shown);
     }
     if (const auto& other = devices.against)
@@ -169,37 +154,22 @@ DrawnScene drawScene(const Scene& scene, const Compared& compared, const std::ve
     return drawn;
 }
 
-namespace {
-
-Report comparisonsOf(const Compared& compared, const CompareOptions& compare, DrawnScene drawn,
-                     std::optional<Frame> baseline, const Devices& devices) {
-    const ReportDevice device = reportDevice(devices.device);
-    if (devices.against)
-        return makeDeviceReport(std::move(drawn.frames), drawn.needs,
-                                {device, reportDevice(devices.against->device)}, compare,
-                                std::move(drawn.across), std::move(drawn.visual_checks));
-    if (compared.withReference())
-        return makeReferenceReport(std::move(drawn.frames), drawn.needs, device, compare,
-                                   std::move(drawn.visual_checks), drawn.materials);
-    if (!baseline)
-        return makeReport(std::move(drawn.frames), drawn.needs, device, compare,
-                          std::move(drawn.visual_checks));
-    baseline->requested = drawn.frames.front().requested;
-    return makeBaselineReport(std::move(*baseline), std::move(drawn.frames), drawn.needs.front(), device,
-                              compare, baselineMismatches(*baseline, drawn.frames.front(), device));
-}
-
-}  // namespace
-
 Report reportOf(const Compared& compared, CompareOptions compare, DrawnScene drawn,
                 std::optional<Frame> baseline, const Devices& devices, const std::string& again) {
-    compare.rules = rulesOfScene(compare.rules, drawn.frames.front().scene);
+    const Frame& first = drawn.views.front().frames.front();
+    const ReportDevice device = reportDevice(devices.device);
+    compare.rules = rulesOfScene(compare.rules, first.scene);
     compare.texels = drawn.texels;
-    std::vector<ExternalPicture> external = std::move(drawn.external);
-    std::vector<SceneError> errors = std::move(drawn.errors);
-    Report report = comparisonsOf(compared, compare, std::move(drawn), std::move(baseline), devices);
-    addExternalPictures(report, std::move(external), compare);
-    report.errors = std::move(errors);
+    compare.renderer_words = compared.renderer_words;
+    std::vector<std::string> mismatches;
+    if (baseline) {
+        mismatches = baselineMismatches(*baseline, first, device);
+        baseline->requested = first.requested;
+    }
+    Report report = makeReport(std::move(drawn.views), device, compare, std::move(baseline),
+                               devices.against ? reportDevice(devices.against->device) : ReportDevice());
+    report.first_notes = std::move(mismatches);
+    report.errors = std::move(drawn.errors);
     for (Comparison& comparison : report.comparisons)
         comparison.command = withOption(comparison.command, "-o", again);
     return report;

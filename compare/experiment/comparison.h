@@ -43,16 +43,9 @@ Shares sharesOf(const RenderOptions& render);
 
 // The rendered Frames of a scene.
 struct DrawnScene {
-    std::vector<Frame> frames;  // in pairs; in triples if the reference comes first
-    std::vector<Requirements> needs;
-    // Per camera and time: visual inspections, and material names by ID.
-    std::vector<std::vector<FeatureChecks>> visual_checks;
-    std::vector<std::vector<std::string>> materials;
+    std::vector<ViewFrames> views;
     std::optional<TextureSampling> texels{};  // for textured scenes with a reference in mode scene
-    std::vector<ExternalPicture> external{};  // --renderer
     std::vector<SceneError> errors{};         // failed external renderers
-    // With --against-device: one per view and path; frames are then in groups of four.
-    std::vector<AcrossDevices> across{};
 };
 
 // The device that renders, the other one of --against-device, and data that scenes share. Pipelines are

@@ -15,7 +15,6 @@
 #include "shared/frame/sides.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,7 +70,8 @@ struct CompareOptions {
     std::vector<Rule> rules;         // replace the derived tolerances of channels that they name
     SelectionOptions selection;      // pixels
     std::vector<std::string> words;  // words of the command line that set the above; repeated in commands
-    bool allow_noise = false;        // on a GPU: adds the difference of two runs of one path to tolerances
+    std::vector<std::string> renderer_words{};  // likewise, only for images of external renderers
+    bool allow_noise = false;  // on a GPU: adds the difference of two runs of one path to tolerances
     // Fail if only one side has a channel: any channel (`strict`) or those requested by name (`required`).
     // `strict` also fails if the images show hardly anything.
     bool strict = false;

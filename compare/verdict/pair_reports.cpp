@@ -5,11 +5,8 @@
 #include "compare/reference/reference.h"
 #include "compare/run/command_text.h"
 #include "compare/verdict/encoding_bits.h"
-#include "compare/verdict/encoding_use.h"
 #include "compare/verdict/footprint.h"
-#include "compare/verdict/neighbours.h"
 #include "compare/verdict/surface_pixels.h"
-#include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
 
@@ -34,131 +31,21 @@ RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> sett
     if (across) {
         helpers = surfacePixelChannels();
         helpers.insert(helpers.end(), surfaceChannels().begin(), surfaceChannels().end());
-        helpers.push_back(Channel::texcoords);
-        helpers.push_back(Channel::lightmapped);
+        // The shadow filter's radius at a pixel depends on the last two.
+        helpers.insert(helpers.end(), {Channel::texcoords, Channel::lightmapped, Channel::shadow_visibility,
+                                       Channel::local_visibility});
     }
-    // The shadow filter's radius at a pixel depends on these.
-    if (across)
-        for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility})
-            helpers.push_back(mode);
     // Light is compared by the fields from which it is computed (lightingFields()).
-    const auto packed = [](const Settings& of) {
-        return hasGBuffer(of.path) && of.gbuffer != GBufferEncoding::full;
-    };
     const bool shadows =
         std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; });
-    if (std::ranges::any_of(render.channels, isLit) && std::ranges::any_of(settings, packed))
+    if (std::ranges::any_of(render.channels, isLit) && std::ranges::any_of(settings, isPacked))
         std::ranges::copy_if(lightingFields(), std::back_inserter(helpers),
                              [&](Channel mode) { return shadows || mode != Channel::geometric_normal; });
     render.every_sample.assign(lightingFields().begin(), lightingFields().end());
-    if (shadows)
-        for (const Channel mode : {Channel::depth, Channel::cascade, Channel::page_residency})
-            helpers.push_back(mode);
+    if (shadows) helpers.insert(helpers.end(), {Channel::depth, Channel::cascade, Channel::page_residency});
     for (const Channel mode : helpers)
         if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
     return render;
-}
-
-Report makeReport(std::vector<Frame> frames, const std::vector<Requirements>& needs, ReportDevice device,
-                  const CompareOptions& options, std::vector<std::vector<FeatureChecks>> checks) {
-    const auto start = std::chrono::steady_clock::now();
-    Report report;
-    report.device = std::move(device);
-    report.frames = std::move(frames);
-    for (std::size_t i = 0; i + 1 < report.frames.size(); i += 2) {
-        const bool swapped = report.frames[i + 1].settings.path == options.baseline;
-        CompareOptions here = options;
-        const auto all = static_cast<double>(report.frames.size() / 2 * 2), done = static_cast<double>(i);
-        here.progress = options.progress.part(done / all, (done + 2) / all).about(report.frames[i].scene);
-        report.comparisons.push_back(compareFrames(report, i + swapped, i + !swapped, needs.at(i), here));
-        const Frame& left = report.baseline(report.comparisons.back());
-        std::vector<std::string> command =
-            withWords(commandWords("compare", left.scene, left.settings), options.words);
-        if (!hasGBuffer(options.baseline))
-            command = withOption(command, "--baseline", std::string(nameOf(options.baseline)));
-        report.comparisons.back().command = std::move(command);
-        if (!checks.empty()) report.comparisons.back().visual_checks = std::move(checks.at(i / 2));
-    }
-    report.diff_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return report;
-}
-
-Report makeReferenceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
-                           ReportDevice device, const CompareOptions& options,
-                           std::vector<std::vector<FeatureChecks>> checks,
-                           const std::vector<std::vector<std::string>>& materials) {
-    const auto start = std::chrono::steady_clock::now();
-    Report report;
-    report.device = std::move(device);
-    report.frames = std::move(frames);
-    for (std::size_t i = 0; i + 2 < report.frames.size(); i += 3) {
-        const auto all = static_cast<double>(report.frames.size());
-        int pairs = 0;
-        for (const auto& [left, right] : {std::pair{i, i + 1}, {i, i + 2}, {i + 1, i + 2}}) {
-            CompareOptions here = options;
-            const double done = static_cast<double>(i) + pairs++;
-            here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
-            report.comparisons.push_back(compareFrames(report, left, right, needs.at(i), here));
-            const Frame& reference = report.frames[i];
-            const Settings settings = withReferenceOf(report.frames[right].settings, reference.settings);
-            report.comparisons.back().command =
-                withOption(withWords(commandWords("compare", reference.scene, settings), options.words),
-                           "--baseline", "reference");
-        }
-        Comparison& between = report.comparisons.back();
-        if (!checks.empty()) between.visual_checks = std::move(checks.at(i / 3));
-        report.closer_paths.push_back(
-            closerPathOf(report.frames, i, {i + 1, i + 2}, between.coverage, materials.at(i / 3)));
-    }
-    report.diff_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return report;
-}
-
-Report makeDeviceReport(std::vector<Frame> frames, const std::vector<Requirements>& needs,
-                        std::array<ReportDevice, 2> devices, const CompareOptions& options,
-                        std::vector<AcrossDevices> across, std::vector<std::vector<FeatureChecks>> checks) {
-    const auto start = std::chrono::steady_clock::now();
-    Report report;
-    report.device = std::move(devices[0]);
-    report.against = std::move(devices[1]);
-    report.frames = std::move(frames);
-    const auto all = static_cast<double>(report.frames.size());
-    double done = 0;
-    for (std::size_t i = 0; i + 3 < report.frames.size(); i += 4) {
-        const std::size_t view = i / 4;
-        const std::size_t left = shadesFragments(options.baseline) ? 1 : 0;
-        for (std::size_t path = 0; path < 2; ++path)
-            across.at(2 * view + path).texcoords = {findChannel(report.frames[i + 1], Channel::texcoords),
-                                                    findChannel(report.frames[i + 3], Channel::texcoords)};
-        struct Pair {
-            std::size_t baseline, test;
-            const AcrossDevices* across;
-        };
-        for (const Pair& pair : {Pair{i + left, i + 1 - left, nullptr},
-                                 {i, i + 2, &across.at(2 * view)},
-                                 {i + 1, i + 3, &across.at(2 * view + 1)},
-                                 {i + 2 + left, i + 3 - left, nullptr}}) {
-            CompareOptions here = options;
-            here.across = pair.across;
-            here.progress = options.progress.part(done / all, (done + 1) / all).about(report.frames[i].scene);
-            ++done;
-            report.comparisons.push_back(
-                compareFrames(report, pair.baseline, pair.test, needs.at(2 * view), here));
-            const Frame& of = report.frames[i];
-            report.comparisons.back().command =
-                withWords(commandWords("compare", of.scene, of.settings), options.words);
-            if (!hasGBuffer(options.baseline))
-                report.comparisons.back().command = withOption(
-                    report.comparisons.back().command, "--baseline", std::string(nameOf(options.baseline)));
-        }
-        if (!checks.empty())
-            report.comparisons.at(report.comparisons.size() - 4).visual_checks = std::move(checks.at(view));
-    }
-    report.diff_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return report;
 }
 
 namespace {
@@ -170,38 +57,121 @@ void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
     if (!shadesFragments(baseline.settings.path)) return;
     for (const Frame& frame : frames)
         for (const auto& [mode, through] : frame.through_gbuffer) {
-            const auto then = std::as_const(baseline).channels.find(mode), now = frame.channels.find(mode);
-            if (then != baseline.channels.end() && now != frame.channels.end() &&
-                then->second.width == now->second.width && then->second.height == now->second.height &&
-                unequalPixels(then->second, now->second, cpu ? 0 : gpuUlps) == 0) {
+            const Image *then = findChannel(baseline, mode), *now = findChannel(frame, mode);
+            if (then && now && then->width == now->width && then->height == now->height &&
+                unequalPixels(*then, *now, cpu ? 0 : gpuUlps) == 0)
                 baseline.through_gbuffer[mode] = through;
-            }
         }
+}
+
+using ByPath = std::map<Path, std::size_t>;  // indices of a view's Frames in Report::frames
+
+std::size_t addFrame(Report& report, Frame& frame) {
+    report.frames.push_back(std::move(frame));
+    return report.frames.size() - 1;
+}
+ByPath addFrames(Report& report, std::vector<Frame>& frames) {
+    ByPath indices;
+    for (Frame& frame : frames) indices.emplace(frame.settings.path, addFrame(report, frame));
+    return indices;
+}
+
+// A comparison to make, with indices in Report::frames.
+struct Planned {
+    ViewFrames* view;
+    std::size_t baseline, test;
+    std::size_t panel;  // the left panel: of a path, the reference or an earlier Frame
+    std::size_t shown;  // the Frame with the Settings of the comparison's command
+    const AcrossDevices* across = nullptr;
+    bool ofPaths = false;  // of both paths on the report's own device
+};
+
+// The command line that repeats a comparison.
+std::vector<std::string> commandOf(const Frame& shown, const Frame& panel,
+                                   const std::vector<std::string>& words) {
+    const bool drawn = panel.origin.file.empty();  // else `words` have the file
+    const Settings settings =
+        drawn && isReferenceFrame(panel) ? withReferenceOf(shown.settings, panel.settings) : shown.settings;
+    std::vector<std::string> command = withWords(commandWords("compare", shown.scene, settings), words);
+    if (!drawn || hasGBuffer(panel.settings.path)) return command;
+    return withOption(command, "--baseline", std::string(nameOf(panel.settings.path)));
+}
+
+void compareAll(Report& report, const std::vector<Planned>& pairs, const CompareOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto all = static_cast<double>(pairs.size());
+    for (const Planned& pair : pairs) {
+        CompareOptions here = options;
+        here.across = pair.across;
+        const auto done = static_cast<double>(report.comparisons.size());
+        here.progress =
+            options.progress.part(done / all, (done + 1) / all).about(report.frames[pair.shown].scene);
+        Comparison& comparison = report.comparisons.emplace_back(
+            compareFrames(report, pair.baseline, pair.test, pair.view->needs, here));
+        const Frame &shown = report.frames[pair.shown], &panel = report.frames[pair.panel];
+        std::vector<std::string> words = options.words;
+        if (shown.origin.external)
+            words.insert(words.end(), options.renderer_words.begin(), options.renderer_words.end());
+        comparison.command = commandOf(shown, panel, words);
+        if (!pair.ofPaths) continue;
+        comparison.visual_checks = std::move(pair.view->checks);
+        if (isReferenceFrame(panel) && panel.origin.file.empty())
+            report.closer_paths.push_back(closerPathOf(report.frames, pair.panel, {pair.baseline, pair.test},
+                                                       comparison.coverage, pair.view->materials));
+    }
+    report.diff_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
 
-Report makeBaselineReport(Frame baseline, std::vector<Frame> frames, const Requirements& needs,
-                          ReportDevice device, const CompareOptions& options,
-                          const std::vector<std::string>& mismatches) {
-    const auto start = std::chrono::steady_clock::now();
+const Frame* ViewFrames::by(Path path) const {
+    const auto found =
+        std::ranges::find(frames, path, [](const Frame& frame) { return frame.settings.path; });
+    return found == frames.end() ? nullptr : &*found;
+}
+
+Report makeReport(std::vector<ViewFrames> views, ReportDevice device, const CompareOptions& options,
+                  std::optional<Frame> earlier, ReportDevice against) {
     Report report;
     report.device = std::move(device);
-    report.frames.push_back(std::move(baseline));
-    std::ranges::move(frames, std::back_inserter(report.frames));
-    explainAsNow(report.frames[0], report.frames, report.device.bitExact());
-    for (const auto& [left, right] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
-        CompareOptions here = options;
-        const auto done = static_cast<double>(report.comparisons.size());
-        here.progress = options.progress.part(done / 3, (done + 1) / 3);
-        report.comparisons.push_back(compareFrames(report, left, right, needs, here));
-        const Frame& drawn = report.test(report.comparisons.back());
-        report.comparisons.back().command =
-            withWords(commandWords("compare", drawn.scene, drawn.settings), options.words);
+    report.against = std::move(against);
+    if (earlier) {
+        explainAsNow(*earlier, views.front().frames, report.device.bitExact());
+        report.frames.push_back(std::move(*earlier));
     }
-    report.first_notes = mismatches;
-    report.diff_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    std::vector<std::array<ByPath, 2>> indices;  // of each view, here and on the other device
+    for (ViewFrames& view : views)
+        indices.push_back({addFrames(report, view.frames), addFrames(report, view.there)});
+    std::vector<Planned> pairs, external;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        ViewFrames& view = views[i];
+        const auto& [here, there] = indices[i];
+        const auto reference = here.find(Path::reference);
+        const bool byPath = !earlier && reference == here.end();  // whether a path is the left panel
+        const Path left = byPath ? options.baseline : drawn_paths[0], right = otherPath(left);
+        const std::size_t panel = earlier ? 0 : byPath ? here.at(left) : reference->second;
+        if (!byPath)
+            for (const Path path : drawn_paths)
+                pairs.push_back({&view, panel, here.at(path), panel, here.at(path)});
+        pairs.push_back(
+            {&view, here.at(left), here.at(right), panel, byPath ? panel : here.at(right), nullptr, true});
+        for (const auto& [path, index] : there) {
+            AcrossDevices& across = view.across.at(path);
+            for (const std::size_t k : {0, 1})
+                across.texcoords.at(k) =
+                    findChannel(report.frames[indices[i][k].at(unencoded_path)], Channel::texcoords);
+            pairs.push_back({&view, here.at(path), index, panel, panel, &across});
+        }
+        if (!there.empty()) pairs.push_back({&view, there.at(left), there.at(right), panel, panel});
+        for (Frame& frame : view.external) {
+            showOurBackground(frame, report.frames[panel]);
+            const std::size_t index = addFrame(report, frame);
+            external.push_back({&view, panel, index, panel, index});
+        }
+    }
+    pairs.insert(pairs.end(), external.begin(), external.end());
+    compareAll(report, pairs, options);
     return report;
 }
 
@@ -212,57 +182,23 @@ void showOurBackground(Frame& external, const Frame& ours) {
     for (const auto& [mode, image] : external.channels) external.requested.push_back(mode);
     std::size_t shown = 0;  // pixels of lit
     for (auto& [mode, image] : external.channels) {
-        const auto other = ours.channels.find(mode);
-        if (other == ours.channels.end() || other->second.pixels() != image.pixels() ||
-            other->second.components != image.components)
-            continue;
+        const Image* const other = findChannel(ours, mode);
+        if (!other || other->pixels() != image.pixels() || other->components != image.components) continue;
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             if (covered.covered[i]) continue;
             float* const here = image.pixel(i);
             if (mode == Channel::lit)
                 shown += std::any_of(here, here + image.components, [](float v) { return v != 0; });
-            std::copy_n(other->second.pixel(i), image.components, here);
+            std::copy_n(other->pixel(i), image.components, here);
         }
     }
     for (const Channel mode : {Channel::material_id, Channel::depth})
-        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
-            external.channels.try_emplace(mode, found->second);
+        if (const Image* const found = findChannel(ours, mode)) external.channels.try_emplace(mode, *found);
     if (shown > 0)
         external.notes.push_back(
             fmt::format("{} is not black at {} where {} shows no surface: a background or shifted edges; "
                         "these pixels are not compared",
                         external.name, counted(shown, "pixel"), ours.name));
-}
-
-void addExternalPictures(Report& report, std::vector<ExternalPicture> pictures,
-                         const CompareOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto all = static_cast<double>(pictures.size());
-    double done = 0;
-    for (ExternalPicture& picture : pictures) {
-        CompareOptions here = options;
-        here.progress = options.progress.part(done / all, (done + 1) / all).about(picture.frame.scene);
-        ++done;
-        showOurBackground(picture.frame, report.frames.at(picture.baseline));
-        report.frames.push_back(std::move(picture.frame));
-        report.comparisons.push_back(
-            compareFrames(report, picture.baseline, report.frames.size() - 1, picture.needs, here));
-        Comparison& comparison = report.comparisons.back();
-        const Frame& left = report.baseline(comparison);
-        Settings settings = report.test(comparison).settings;
-        settings.path = Settings().path;
-        if (isReferenceFrame(left)) settings = withReferenceOf(settings, left.settings);
-        comparison.command = withWords(
-            withWords(commandWords("compare", report.test(comparison).scene, settings), picture.words),
-            options.words);
-        if (!left.origin.file.empty())
-            comparison.command = withOption(comparison.command, "--baseline", left.origin.file);
-        else if (!hasGBuffer(left.settings.path))
-            comparison.command =
-                withOption(comparison.command, "--baseline", std::string(nameOf(left.settings.path)));
-    }
-    report.diff_ms +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace diptych

@@ -366,22 +366,21 @@ private:
     }
 
     Report judgedReport(std::vector<Frame> pair, Against against, const CompareOptions& compare) {
-        const Requirements& needs = pair_.views().at(viewRequest(pair[0].settings)).needs;
         const ReportDevice here = reportDevice(*pair_.device());
+        std::vector<ViewFrames> views(1);
+        ViewFrames& view = views.front();
+        view.needs = pair_.views().at(viewRequest(pair[0].settings)).needs;
+        view.frames = std::move(pair);
         if (against == Against::reference) {
-            std::vector<Frame> three{*left_.finishedReference()};
-            std::ranges::move(pair, std::back_inserter(three));
-            std::vector<std::string> materials;
-            for (const Material& material : pair_.scene()->materials) materials.push_back(material.name);
-            return makeReferenceReport(std::move(three), {needs, needs, needs}, here, compare, {{}},
-                                       {materials});
+            view.frames.insert(view.frames.begin(), *left_.finishedReference());
+            for (const Material& material : pair_.scene()->materials) view.materials.push_back(material.name);
         }
+        std::optional<Frame> earlier;
         if (against == Against::file) {
-            Frame baseline = *left_.storedFrame(order_.look.file);
-            baseline.requested = pair[0].requested;
-            return makeBaselineReport(std::move(baseline), std::move(pair), needs, here, compare, {});
+            earlier = *left_.storedFrame(order_.look.file);
+            earlier->requested = view.frames[0].requested;
         }
-        return makeReport(std::move(pair), {needs, needs}, here, compare, {});
+        return makeReport(std::move(views), here, compare, std::move(earlier));
     }
 
     void judge() {

@@ -16,11 +16,9 @@ Settings beforeBlendingPicture(GBufferEncoding gbuffer = GBufferEncoding::full) 
 
 Report afterBlendingReport(std::vector<Frame> frames) {
     const Scene& scene = uploaded("builtin:glass").scene;
-    const std::vector<Requirements> needs(frames.size(), requirements(scene, poseAt(scene, 0)));
     const DeviceInfo& info = device().info();
-    const ReportDevice on{info.name, info.driver, info.type};
-    return frames.size() == 2 ? makeReport(std::move(frames), needs, on)
-                              : makeReferenceReport(std::move(frames), needs, on, {}, {{}}, {{}});
+    return makeReport({{std::move(frames), requirements(scene, poseAt(scene, 0))}},
+                      {info.name, info.driver, info.type});
 }
 
 std::size_t namedFailures(const Comparison& comparison) {

@@ -42,8 +42,7 @@ inline std::vector<std::string> failedChannels(const Scene& scene, Renderer& ren
     for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));
     const Requirements needs = requirements(scene, poseAt(scene, 0));
     const DeviceInfo& info = device().info();
-    const Report report = makeReferenceReport(std::move(frames), {needs, needs, needs},
-                                              {info.name, info.driver, info.type}, {}, {{}}, {{}});
+    const Report report = makeReport({{std::move(frames), needs}}, {info.name, info.driver, info.type});
     std::vector<std::string> failed;
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
         for (const ChannelDiff& channel : report.comparisons.at(i).channels)

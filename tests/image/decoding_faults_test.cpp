@@ -47,7 +47,7 @@ Report withDecoded(std::vector<Frame> frames, const Requirements& needs, const D
     if (fault)
         for (float& value : frames[0].channels.at(fault->channel).data) value = fault->plant(value);
     const DeviceInfo& info = device().info();
-    return makeReport(std::move(frames), {needs, needs}, {info.name, info.driver, info.type});
+    return makeReport({{std::move(frames), needs}}, {info.name, info.driver, info.type});
 }
 
 class DecodingFaults : public testing::TestWithParam<DecodingFault> {

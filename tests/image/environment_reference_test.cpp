@@ -48,8 +48,7 @@ public:
         }
         const Requirements needs = requirements(scene_, poseAt(scene_, 0));
         const DeviceInfo& info = device().info();
-        return makeReferenceReport(std::move(frames), {needs, needs, needs},
-                                   {info.name, info.driver, info.type}, {}, {{}}, {{}});
+        return makeReport({{std::move(frames), needs}}, {info.name, info.driver, info.type});
     }
     Report verdict() const { return verdict(scene_, settings_); }
     const Scene& scene() const { return scene_; }

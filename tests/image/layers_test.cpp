@@ -114,8 +114,8 @@ TEST(Layers, PackedPassesByItsBits) {
     Renderer renderer(device(), scene, pipelines());
     for (const GBufferEncoding gbuffer : {GBufferEncoding::standard, GBufferEncoding::compact}) {
         const Report report =
-            makeReport(bothPaths(renderer, inAllLight(gbuffer)), {needs, needs},
-                       {device().info().name, device().info().driver, device().info().type}, {});
+            makeReport({{bothPaths(renderer, inAllLight(gbuffer)), needs}},
+                       {device().info().name, device().info().driver, device().info().type});
         for (const ChannelDiff& channel : report.comparisons[0].channels)
             EXPECT_NE(channel.verdict, Verdict::fail) << channel.mode->name << ": " << channel.reason;
     }
@@ -150,8 +150,8 @@ void expectExactByForward(int msaa) {
     if (msaa == 1) {
         EXPECT_EQ(differing, 0u);
     }
-    const Report report = makeReport(
-        packed, {needs, needs}, {device().info().name, device().info().driver, device().info().type}, {});
+    const Report report =
+        makeReport({{packed, needs}}, {device().info().name, device().info().driver, device().info().type});
     for (const ChannelDiff& channel : report.comparisons[0].channels)
         EXPECT_NE(channel.verdict, Verdict::fail) << channel.mode->name << ": " << channel.reason;
 }

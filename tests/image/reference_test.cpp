@@ -196,8 +196,8 @@ protected:
                           const Scene& scene) {
         const Requirements needs = requirements(scene, poseAt(scene, 0));
         const DeviceInfo& info = device().info();
-        return makeReferenceReport({referenceFrames[0], drawn[1], drawn[2]}, {needs, needs, needs},
-                                   {info.name, info.driver, info.type}, {}, {{}}, {{}});
+        return makeReport({{{referenceFrames[0], drawn[1], drawn[2]}, needs}},
+                          {info.name, info.driver, info.type});
     }
     static bool litFails(const Report& report, std::size_t comparison) {
         for (const ChannelDiff& channel : report.comparisons.at(comparison).channels)

@@ -37,8 +37,8 @@ std::set<std::string> failuresAgainst(const Frame& reference, const std::vector<
     const DeviceInfo& info = device().info();
     CompareOptions options;
     options.texels = texels;
-    const Report report = makeReferenceReport({reference, drawn[0], drawn[1]}, {needs, needs, needs},
-                                              {info.name, info.driver, info.type}, options, {}, {{}});
+    const Report report =
+        makeReport({{{reference, drawn[0], drawn[1]}, needs}}, {info.name, info.driver, info.type}, options);
     std::set<std::string> failures;
     for (const std::size_t i : {0u, 1u})
         for (const ChannelDiff& channel : report.comparisons.at(i).channels) {

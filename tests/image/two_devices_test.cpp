@@ -61,20 +61,16 @@ Report against(const std::function<void(Scene&)>& plant, const std::function<voi
     Scene scene = here.uploaded.scene;
     if (plant) plant(scene);
     Renderer there(device(), scene, pipelines());
-    std::vector<Frame> frames = here.frames, other = drawn(there);
-    std::vector<AcrossDevices> across;
-    for (std::size_t path = 0; path < 2; ++path) {
-        if (after) after(other[path]);
-        other[path].name += "-there";
-        across.push_back(experiment::acrossDevices(here.uploaded.scene,
-                                                   here.views.at(viewRequest(frames[path].settings)),
-                                                   here.precision, frames[1]));
-        across.back().relit = experiment::relit(device(), here.uploaded.renderer, other[path]);
-        frames.push_back(std::move(other[path]));
+    ViewFrames view{here.frames, here.views.at(viewRequest(drawnSettings()[0])).needs};
+    view.there = drawn(there);
+    for (Frame& other : view.there) {
+        if (after) after(other);
+        other.name += "-there";
+        AcrossDevices& across = view.across[other.settings.path] = experiment::acrossDevices(
+            here.uploaded.scene, here.views.at(viewRequest(other.settings)), here.precision, view.frames[1]);
+        across.relit = experiment::relit(device(), here.uploaded.renderer, other);
     }
-    const std::vector<Requirements> needs(2, here.views.at(viewRequest(drawnSettings()[0])).needs);
-    return makeDeviceReport(std::move(frames), needs, {reportDevice(device()), reportDevice(device())}, {},
-                            std::move(across));
+    return makeReport({view}, reportDevice(device()), {}, {}, reportDevice(device()));
 }
 
 // The failures of each path across both devices: deferred, forward+.

@@ -15,7 +15,7 @@ namespace diptych::tests {
 inline Report verdictOn(std::vector<Frame> frames, const Scene& scene) {
     const Requirements needs = requirements(scene, poseAt(scene, 0));
     const DeviceInfo& info = device().info();
-    return makeReport(std::move(frames), {needs, needs}, {info.name, info.driver, info.type});
+    return makeReport({{std::move(frames), needs}}, {info.name, info.driver, info.type});
 }
 
 inline std::string failuresOf(const Report& report) {

@@ -84,8 +84,10 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
 }
 
 inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureChecks>> checks = {}) {
-    const std::vector<Requirements> needs(frames.size());
-    return makeReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, std::move(checks));
+    std::vector<ViewFrames> views(frames.size() / 2);
+    for (std::size_t i = 0; i < frames.size(); ++i) views[i / 2].frames.push_back(std::move(frames[i]));
+    for (std::size_t i = 0; i < checks.size(); ++i) views[i].checks = std::move(checks[i]);
+    return makeReport(std::move(views), {"a CPU", "1.0", "cpu"});
 }
 // Void elements of HTML.
 inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br", "wbr"};

@@ -165,12 +165,9 @@ TEST(ReportChecks, OneLineOnATerminal) {
 
 // A pair keeps its checks, whichever path is the left image.
 TEST(ReportChecks, TheyStandWithTheirPair) {
-    const std::vector<Requirements> needs(4);
-    std::vector<Frame> frames = bothFrames("one.glb");
-    for (Frame& frame : bothFrames("two.glb")) frames.push_back(std::move(frame));
-    const Report report = makeReport(
-        std::move(frames), needs, {},
-        {.baseline = Path::forward_plus, .rules = {}, .selection = {}, .words = {}}, {{}, someChecks()});
+    const Report report =
+        makeReport({{bothFrames("one.glb")}, {bothFrames("two.glb"), {}, someChecks()}}, {},
+                   {.baseline = Path::forward_plus, .rules = {}, .selection = {}, .words = {}});
     EXPECT_TRUE(report.comparisons[0].visual_checks.empty());
     ASSERT_EQ(report.comparisons[1].visual_checks.size(), 2u);
     EXPECT_EQ(report.baseline(report.comparisons[1]).name, "forward_plus");

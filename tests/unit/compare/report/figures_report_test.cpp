@@ -151,8 +151,7 @@ TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
     std::vector<Frame> frames{spreadFrame(Path::reference, s.reference, rough),
                               spreadFrame(Path::deferred, s.test, rough),
                               spreadFrame(Path::forward_plus, nearer, rough)};
-    const Report report = makeReferenceReport(frames, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"},
-                                              {}, {}, {{"a", "b", "c", "d"}});
+    const Report report = makeReport({{frames, {}, {}, {"a", "b", "c", "d"}}}, {"a CPU", "1.0", "cpu"});
     const std::vector<double> deferred = errorsOf(s).relative;
     std::vector<double> forward, between;
     for (std::size_t i = 0; i < counted; ++i) {

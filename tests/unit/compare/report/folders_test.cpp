@@ -129,8 +129,7 @@ TEST(ReportFolders, OneSceneStandsOnTopAndItsPairsInside) {
     reference.name = "reference";
     reference.settings.path = Path::reference;
     frames.insert(frames.begin(), reference);
-    const Report report =
-        makeReferenceReport(frames, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"}, {}, {}, {{}});
+    const Report report = makeReport({{frames}}, {"a CPU", "1.0", "cpu"});
     writeReport(report, out, {});
     for (const char* file :
          {"reference.exr", "deferred.exr", "forward_plus.exr", "lit.nearer.png",

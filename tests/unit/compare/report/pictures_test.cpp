@@ -98,8 +98,8 @@ TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
         for (const bool single : {false, true}) {
             CompareOptions options;
             options.baseline = baseline;
-            const Report report = makeReport(greyFrames(0.25f, 0.75f, "builtin:one"),
-                                             std::vector<Requirements>(2), {"a CPU", "1.0", "cpu"}, options);
+            const Report report =
+                makeReport({{greyFrames(0.25f, 0.75f, "builtin:one")}}, {"a CPU", "1.0", "cpu"}, options);
             ReportOptions how;
             how.single_file = single;
             const fs::path out = folder() / "report";
@@ -138,9 +138,7 @@ TEST(ReportPictures, EveryPairHasItsOwnPictures) {
     reference.settings.path = Path::reference;
     std::vector<Frame> three{reference, frames[0], frames[1]};
     for (Frame& frame : three) frame.scene = "builtin:one";
-    writeReport(
-        makeReferenceReport(three, std::vector<Requirements>(3), {"a CPU", "1.0", "cpu"}, {}, {}, {{}}), out,
-        {});
+    writeReport(makeReport({{three}}, {"a CPU", "1.0", "cpu"}), out, {});
     page = contentsOf(out / "index.html");
     for (const auto& [card, left, right, first, second] :
          {std::tuple{"c0-roughness", black, quarter, "reference", "deferred"},

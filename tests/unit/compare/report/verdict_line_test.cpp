@@ -26,8 +26,7 @@ const ChannelDiff& channelIn(const Report& report, Channel mode) {
 }
 
 Report reportWith(std::vector<Frame> frames, const CompareOptions& options) {
-    const std::vector<Requirements> needs(frames.size());
-    return makeReport(std::move(frames), needs, lineDevice, options);
+    return makeReport({{std::move(frames)}}, lineDevice, options);
 }
 
 TEST(Criterion, SaysHowMuchOfItsLimitIsUsed) {

@@ -37,7 +37,7 @@ struct PackedPair {
     Report report(const std::vector<Channel>& requested = {}, const CompareOptions& options = {}) const {
         std::vector<Frame> drawn = frames;
         for (Frame& frame : drawn) frame.requested = requested;
-        return makeReport(drawn, {needs, needs}, {"a CPU", "1.0", "cpu"}, options);
+        return makeReport({{drawn, needs}}, {"a CPU", "1.0", "cpu"}, options);
     }
 
     std::vector<Frame> frames = bothFrames();

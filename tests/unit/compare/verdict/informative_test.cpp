@@ -20,7 +20,7 @@ Report informedReport(const std::vector<Channel>& wrong, std::vector<Rule> rules
     CompareOptions options;
     options.rules = std::move(rules);
     if (told) options.light_differs = lightDifferences(frames[0].settings, frames[1].settings);
-    return makeReport(std::move(frames), std::vector<Requirements>(2), {"a CPU", "1.0", "cpu"}, options);
+    return makeReport({{std::move(frames)}}, {"a CPU", "1.0", "cpu"}, options);
 }
 
 const ChannelDiff& informedChannel(const Report& report, Channel mode) {

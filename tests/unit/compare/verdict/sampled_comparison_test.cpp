@@ -32,8 +32,7 @@ std::vector<Frame> sampledFrames(int samples) {
 }
 
 Report against(std::vector<Frame> frames) {
-    const std::vector<Requirements> needs(frames.size());
-    return makeReferenceReport(std::move(frames), needs, {"a CPU", "1.0", "cpu"}, {}, {}, {{}});
+    return makeReport({{std::move(frames)}}, {"a CPU", "1.0", "cpu"});
 }
 
 TEST(SampledComparison, IsOfLitAlone) {

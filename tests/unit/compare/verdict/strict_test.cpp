@@ -46,7 +46,7 @@ Report againstBaseline(const std::vector<Channel>& without, const std::string& m
     baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
     if (!more.empty()) baseline.origin.left_out = {more};
     for (const Channel mode : without) baseline.channels.erase(mode);
-    return makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+    return makeReport({{fewChannels()}}, strictDevice, strictly(strict), baseline);
 }
 
 TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
@@ -88,7 +88,7 @@ TEST(Strict, AChannelOfOneSideIsSaidAndFailsOnlyWhereAsked) {
 TEST(Strict, EitherSideMayLackIt) {
     std::vector<Frame> frames = fewChannels();
     frames[1].channels.erase(Channel::metallic);
-    const Report report = makeReport(frames, std::vector<Requirements>(2), strictDevice, strictly(true));
+    const Report report = makeReport({{frames}}, strictDevice, strictly(true));
     EXPECT_EQ(report.comparisons[0].failures,
               Lines{"metallic is in deferred only, but --strict requires the same channels on both sides"});
     EXPECT_FALSE(report.passed());
@@ -96,8 +96,7 @@ TEST(Strict, EitherSideMayLackIt) {
 
 // Channels that only forward+ supports are not a difference between the paths.
 TEST(Strict, ForwardOnlyIsNoFailure) {
-    const Report report =
-        makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, strictly(true));
+    const Report report = makeReport({{fewChannels()}}, strictDevice, strictly(true));
     EXPECT_TRUE(report.passed());
     EXPECT_TRUE(againstBaseline({}, "", true).passed()) << "an earlier deferred Frame lacks it by nature";
 }
@@ -111,8 +110,7 @@ TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
         baseline.origin = {"b.exr", ours ? "a CPU" : "", "", ""};
         for (const DebugMode& mode : debugModes())
             if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.channel);
-        const Report report =
-            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(true), {});
+        const Report report = makeReport({{fewChannels()}}, strictDevice, strictly(true), baseline);
         Lines said, pathsOnly;
         for (const DebugMode& mode : debugModes())
             if (mode.maker == MadeBy::paths_only) pathsOnly.emplace_back(mode.name);
@@ -137,7 +135,7 @@ TEST(Strict, OnlyChannelsThatWereAskedForCount) {
         if (asked)
             for (Frame* frame : {&baseline, &frames[0], &frames[1]})
                 frame->requested.push_back(Channel::albedo);
-        const Report report = makeBaselineReport(baseline, frames, {}, strictDevice, strictly(true), {});
+        const Report report = makeReport({{frames}}, strictDevice, strictly(true), baseline);
         EXPECT_EQ(report.passed(), !asked);
     }
 }
@@ -150,8 +148,7 @@ TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
     Frame baseline = frameFromExr(file);
     EXPECT_EQ(baseline.origin.left_out, Lines{"mystery"});
     for (const bool strict : {false, true}) {
-        const Report report =
-            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {});
+        const Report report = makeReport({{fewChannels()}}, strictDevice, strictly(strict), baseline);
         const Comparison& c = report.comparisons[0];
         EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
                                      "mystery of baseline: not compared, Diptych has no such channel"),
@@ -215,7 +212,7 @@ TEST(Strict, WhatIsNamedIsDemanded) {
         if (!pattern.empty())
             options.rules = rulesFromJson(
                 R"({"rules": [{"channel": ")" + pattern + R"(", "max": 9, "because": "any"}]})", "t.json");
-        const Report report = makeBaselineReport(baseline, fewChannels(), {}, strictDevice, options, {});
+        const Report report = makeReport({{fewChannels()}}, strictDevice, options, baseline);
         return report.comparisons[0].failures;
     };
     EXPECT_EQ(failures("", {}), Lines{});
@@ -234,7 +231,7 @@ TEST(Strict, ARuleOnWhatForwardAloneHasIsNeverMet) {
     CompareOptions options;
     options.rules =
         rulesFromJson(R"({"rules": [{"channel": "texcoords", "max": 9, "because": "any"}]})", "t.json");
-    const Report report = makeReport(fewChannels(), std::vector<Requirements>(2), strictDevice, options);
+    const Report report = makeReport({{fewChannels()}}, strictDevice, options);
     EXPECT_EQ(report.comparisons[0].failures,
               Lines{"texcoords is in forward_plus only, but t.json, rule 1 needs both sides"});
 }
@@ -298,8 +295,7 @@ TEST(Strict, FailsOverWhatABaselineSaysOfItsPixels) {
         baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
         baseline.origin.not_applied = {"its white luminance of 100 cd/m2 is not applied"};
         const Comparison c =
-            makeBaselineReport(baseline, fewChannels(), {}, strictDevice, strictly(strict), {})
-                .comparisons.at(0);
+            makeReport({{fewChannels()}}, strictDevice, strictly(strict), baseline).comparisons.at(0);
         EXPECT_EQ(std::ranges::count(strict ? c.failures : c.notes,
                                      baseline.name + ": " + baseline.origin.not_applied[0]),
                   1);

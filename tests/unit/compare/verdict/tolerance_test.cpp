@@ -435,7 +435,7 @@ TEST(Diff, OtherSizesAndNoCommonChannelAreErrors) {
 TEST(Diff, TheBaselineIsOnTheLeft) {
     for (const Path baseline : {Path::deferred, Path::forward_plus}) {
         const Pair p;
-        const Report report = makeReport({p.forward, p.deferred}, {p.needs, p.needs}, {},
+        const Report report = makeReport({{{p.forward, p.deferred}, p.needs}}, {},
                                          {.baseline = baseline, .rules = {}, .selection = {}, .words = {}});
         ASSERT_EQ(report.comparisons.size(), 1u);
         EXPECT_EQ(report.baseline(report.comparisons[0]).settings.path, baseline);
