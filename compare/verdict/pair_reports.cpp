@@ -83,7 +83,7 @@ struct Planned {
     std::size_t panel;  // the left panel: of a path, the reference or an earlier Frame
     std::size_t shown;  // the Frame with the Settings of the comparison's command
     const AcrossDevices* across = nullptr;
-    bool ofPaths = false;  // of both paths on the report's own device
+    bool inspected = false;  // whether it has the view's visual checks, and its closer path
 };
 
 // The command line that repeats a comparison.
@@ -113,9 +113,9 @@ void compareAll(Report& report, const std::vector<Planned>& pairs, const Compare
         if (shown.origin.external)
             words.insert(words.end(), options.renderer_words.begin(), options.renderer_words.end());
         comparison.command = commandOf(shown, panel, words);
-        if (!pair.ofPaths) continue;
+        if (!pair.inspected) continue;
         comparison.visual_checks = std::move(pair.view->checks);
-        if (isReferenceFrame(panel) && panel.origin.file.empty())
+        if (isReferenceFrame(panel))
             report.closer_paths.push_back(closerPathOf(report.frames, pair.panel, {pair.baseline, pair.test},
                                                        comparison.coverage, pair.view->materials));
     }
@@ -154,8 +154,8 @@ Report makeReport(std::vector<ViewFrames> views, ReportDevice device, const Comp
         if (!byPath)
             for (const Path path : drawn_paths)
                 pairs.push_back({&view, panel, here.at(path), panel, here.at(path)});
-        pairs.push_back(
-            {&view, here.at(left), here.at(right), panel, byPath ? panel : here.at(right), nullptr, true});
+        pairs.push_back({&view, here.at(left), here.at(right), panel, byPath ? panel : here.at(right),
+                         nullptr, !earlier});
         for (const auto& [path, index] : there) {
             AcrossDevices& across = view.across.at(path);
             for (const std::size_t k : {0, 1})
