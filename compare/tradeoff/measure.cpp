@@ -27,10 +27,6 @@ constexpr int widestThumbnail = 480;  // pixels; width of a card on the page
 
 using Clock = std::chrono::steady_clock;
 
-double msSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 // The first timing block from one camera.
 experiment::Row timed(experiment::PreparedPool& pool, const Settings& seen, int runs) {
     experiment::Row camera;
@@ -106,6 +102,10 @@ void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame
 }
 
 }  // namespace
+
+double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};

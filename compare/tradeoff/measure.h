@@ -7,6 +7,7 @@
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/row.h"
 
+#include <chrono>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,8 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFr
 // Adds a timing block of `runs` frames per camera to each row, with the rows interleaved.
 void timeAgain(experiment::PreparedPool& pool, std::span<TradeoffRow* const> rows,
                const experiment::ReferenceFrames& references, int runs, const Stage& progress);
+
+double msSince(std::chrono::steady_clock::time_point start);
 
 // lit as an 8-bit image, at most as wide as a card of the page.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);

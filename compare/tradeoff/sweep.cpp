@@ -22,12 +22,6 @@ namespace diptych::tradeoff {
 
 namespace {
 
-using SweepClock = std::chrono::steady_clock;
-
-double elapsedMs(SweepClock::time_point start) {
-    return std::chrono::duration<double, std::milli>(SweepClock::now() - start).count();
-}
-
 // Relative cost of a row, pixels, for the progress line.
 double weightOf(const Settings& settings) {
     return static_cast<double>(settings.size.width) * settings.size.height;
@@ -94,14 +88,14 @@ double Sweep::referenced() const {
 }
 
 experiment::ReferenceFrames Sweep::drawReferences() {
-    tradeoff_.cost.reading = elapsedMs(question_.start);
-    const SweepClock::time_point uploaded = SweepClock::now();
+    tradeoff_.cost.reading = msSince(question_.start);
+    const auto uploaded = std::chrono::steady_clock::now();
     RenderOptions drawing = question_.drawing;
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
     drawing.keep = kept_references_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
         renderer_, tradeoff_.given, question_.cameras, question_.picture, drawing);
-    tradeoff_.cost.reference = elapsedMs(uploaded);
+    tradeoff_.cost.reference = msSince(uploaded);
     experiment::addNotes(tradeoff_.notes, references, rows(),
                          views_.at(viewRequest(question_.settings)).needs);
     return references;
@@ -223,7 +217,7 @@ std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer
 
 std::string Sweep::write(bool force) {
     stage_.at(0.98, "write");
-    tradeoff_.cost.whole = elapsedMs(question_.start);
+    tradeoff_.cost.whole = msSince(question_.start);
     std::string json = writeTradeoff(tradeoff_, question_.folder, state_ / "",
                                      thumbnail(references_.frames.front(), references_.exposure), force);
     kept_references_.remove();
