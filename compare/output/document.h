@@ -151,10 +151,13 @@ template <class One, class... All>
 concept among = (std::same_as<One, All> || ...);
 
 struct Block {
+    enum Where { everywhere, page, terminal };
+
     template <among<Heading, Paragraph, List, Terms, Table, Drawing, Box> One>
-    Block(One of) : content(std::move(of)) {}
+    Block(One of, Where its_where = everywhere) : content(std::move(of)), where(its_where) {}
 
     std::variant<Heading, Paragraph, List, Terms, Table, Drawing, Box> content;
+    Where where;
 };
 
 // A page.

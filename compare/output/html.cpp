@@ -166,7 +166,8 @@ std::string inHtml(const Block& block) {
 
 std::string inHtml(const std::vector<Block>& blocks) {
     std::string out;
-    for (const Block& block : blocks) out += inHtml(block);
+    for (const Block& block : blocks)
+        if (block.where != Block::terminal) out += inHtml(block);
     return out;
 }
 

@@ -61,7 +61,35 @@ std::string groupLine(const Table& table, const std::vector<std::size_t>& widths
     return line + "\n";
 }
 
+// The lines of each kind of block.
+struct Lines {
+    std::string operator()(const Heading& heading) const { return wordsOf(heading.text) + "\n"; }
+    std::string operator()(const Paragraph& paragraph) const { return wordsOf(paragraph.text) + "\n"; }
+    std::string operator()(const List& list) const {
+        std::string out;
+        for (const Text& item : list.items) out += "  " + wordsOf(item) + "\n";
+        return out;
+    }
+    std::string operator()(const Terms& terms) const {
+        std::string out;
+        for (const auto& [term, meaning] : terms.items) out += wordsOf(term) + ": " + wordsOf(meaning) + "\n";
+        return out;
+    }
+    std::string operator()(const Table& table) const { return inText(table); }
+    std::string operator()(const Drawing&) const { return {}; }
+    std::string operator()(const Box& box) const {
+        return box.summary.empty() ? inText(box.blocks) : std::string();
+    }
+};
+
 }  // namespace
+
+std::string inText(const std::vector<Block>& blocks) {
+    std::string out;
+    for (const Block& block : blocks)
+        if (block.where != Block::page) out += std::visit(Lines(), block.content);
+    return out;
+}
 
 std::string inText(const Table& table, std::size_t first, std::size_t last) {
     std::vector<std::size_t> columns;

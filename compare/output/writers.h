@@ -13,6 +13,10 @@ namespace diptych::output {
 // Lines [first, last) of a table for a terminal; line 0 has the heads. Widths are those of all lines.
 std::string inText(const Table& table, std::size_t first = 0, std::size_t last = ~std::size_t{0});
 
+// For a terminal: a line for each heading, paragraph and term, items of lists indented by two spaces. Boxes
+// that open at a click, and drawings, are left out.
+std::string inText(const std::vector<Block>& blocks);
+
 // RFC 4180: fields with a comma, a quote or a line break are quoted.
 std::string inCsv(const Table& table);
 

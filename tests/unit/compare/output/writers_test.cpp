@@ -116,5 +116,18 @@ TEST(OutputHtml, APageHasItsBlocksInOrder) {
     }
 }
 
+TEST(OutputText, ATerminalShowsTheSentencesOfThePage) {
+    const std::vector<Block> blocks{Heading{2, "Head"},
+                                    Box{"box", {List{{"one", Text{"t", Span("wo", Span::strong)}}}}},
+                                    Terms{{{"term", "meaning"}}},
+                                    Drawing{"<svg/>"},
+                                    Box{"", {Paragraph{"folded"}}, "", "open"},
+                                    {Paragraph{"on the page"}, Block::page},
+                                    {Paragraph{"in the terminal"}, Block::terminal}};
+    EXPECT_EQ(inText(blocks), "Head\n  one\n  two\nterm: meaning\nin the terminal\n");
+    EXPECT_EQ(inHtml(blocks).find("in the terminal"), std::string::npos);
+    EXPECT_NE(inHtml(blocks).find("on the page"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace diptych::output
