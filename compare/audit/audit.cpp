@@ -73,8 +73,9 @@ const std::array<Criterion, criterionCount> criteria{{
     {"1e-3", "error below 1e-3", 1e-3, [](const Outcome& outcome) { return outcome.error(); }},
     {"1e-2", "error below 1e-2", 1e-2, [](const Outcome& outcome) { return outcome.error(); }},
     {"visible", "not visible (HDR-FLIP below 0.05)", 0.05,
-     [](const Outcome& outcome) { return outcome.flip; }},
-    {"finite", "every pixel finite", 0.5, [](const Outcome& outcome) { return double(outcome.nonfinite); }},
+     [](const Outcome& outcome) { return outcome[Measure::flip]; }},
+    {"finite", "every pixel finite", 0.5,
+     [](const Outcome& outcome) { return outcome[Measure::nonfinite_pixels]; }},
 }};
 
 bool passes(const Criterion& criterion, const Outcome& outcome) {
@@ -144,7 +145,7 @@ Requirement evaluate(const QuantityAudit& audit, double magnitude) {
         requirement.because = "not varied: " + audit.lacks;
         return requirement;
     }
-    if (std::ranges::all_of(audit.steps, [](const Step& step) { return step.covered == 0; })) {
+    if (std::ranges::all_of(audit.steps, [](const Step& step) { return !step.isCovered(); })) {
         requirement.because = "no surface is in view";
         return requirement;
     }

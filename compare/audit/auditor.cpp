@@ -81,6 +81,7 @@ Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, d
         return *step;
     }
     Step step = measurer_.measure(quantity, series, magnitude);
+    for (Outcome& outcome : step.outcomes) outcome.scene = audit_.scene;
     kept_.keep(name, toJson(step));
     return step;
 }

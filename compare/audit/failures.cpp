@@ -55,7 +55,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         const Step step = measurer.measure(candidate, std::span(&series, 1));
         const Outcome& outcome = step.outcomes.front();
         // An empty image shows no failure.
-        const bool drawn = outcome.failed.empty() && step.covered > 0;
+        const bool drawn = outcome.failed.empty() && step.isCovered();
         return FailingPixel{drawn && !passes(criterion, outcome), outcome.worst_x, outcome.worst_y,
                             outcome.error()};
     };

@@ -59,9 +59,6 @@ output::Table stepsOf(const QuantityAudit& of) {
                         {},
                         true};
     table.box = "scroll rows";
-    const auto countCell = [](std::uint64_t count) {
-        return output::sorted(static_cast<double>(count), std::to_string(count));
-    };
     for (const Step& step : of.steps)
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const Outcome& outcome = step.outcomes[s];
@@ -69,8 +66,9 @@ output::Table stepsOf(const QuantityAudit& of) {
                 {{output::sorted(step.magnitude, magnitudeInWords(step.magnitude)),
                   seriesText(of.series[s],
                              of.series[s].words() + (outcome.failed.empty() ? "" : ": " + outcome.failed)),
-                  numberCell(outcome.light), numberCell(outcome.depth), numberCell(outcome.flip),
-                  countCell(outcome.misplaced), countCell(outcome.nonfinite)}});
+                  cellOf(outcome, Measure::light_p99), cellOf(outcome, Measure::depth_p99),
+                  cellOf(outcome, Measure::flip), cellOf(outcome, Measure::misplaced_pixels),
+                  cellOf(outcome, Measure::nonfinite_pixels)}});
         }
     return table;
 }
@@ -151,13 +149,14 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
                    "and double should hold if Settings add no other rounding. A prediction agrees with a "
                    "measurement within a factor of 2.",
                    "soft small"},
-         Heading{2, "Error by magnitude"}, sections},
+         Heading{2, "Error by magnitude"}, sections, experiment::rowsBox(allRows(audit))},
         files);
 }
 
 std::string writeAudit(const Audit& audit, const std::filesystem::path& path, bool force) {
     ListedFolder folder(path, auditManifest, force);
     folder.put("audit.csv", toCsv(audit));
+    folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(allRows(audit))));
     for (const QuantityAudit& quantity : audit.quantities)
         if (!quantity.steps.empty())
             folder.put(std::string(quantity.quantity->name) + ".svg", auditPlot(quantity, PlotPlace::file));

@@ -91,7 +91,9 @@ RenderOptions drawing(std::vector<Channel> channels) {
 
 Outcome failedOutcome(const std::string& why) {
     Outcome outcome;
-    outcome.light = outcome.light_999 = outcome.depth = outcome.flip = infinity;
+    for (const Measure error : {Measure::light_p99, Measure::light_p999, Measure::depth_p99, Measure::flip})
+        outcome.measured[error] = infinity;
+    outcome.measured[Measure::misplaced_pixels] = outcome.measured[Measure::nonfinite_pixels] = 0;
     outcome.failed = why;
     return outcome;
 }
@@ -194,21 +196,22 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     Coverage opaque = coverage(truth.lit, truth.lit);
     remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i, blendedReach); });
     const ChannelStats light = statsOf(Channel::lit, truth.lit, lit, opaque);
-    outcome.light = knownOrInfinite(light.p99);
-    outcome.light_999 = knownOrInfinite(light.p999);
+    outcome.measured[Measure::light_p99] = knownOrInfinite(light.p99);
+    outcome.measured[Measure::light_p999] = knownOrInfinite(light.p999);
     outcome.worst_x = light.worst_x;
     outcome.worst_y = light.worst_y;
-    if (exposure > 0) outcome.light = pictureError(truth.lit, lit, opaque, exposure);
+    if (exposure > 0) outcome.measured[Measure::light_p99] = pictureError(truth.lit, lit, opaque, exposure);
     const Image &there = truth.rays.channels.at(Channel::material_id),
                 &here = rays.channels.at(Channel::material_id);
     Coverage alike = coverage(truth.rays, truth.rays);
     const std::size_t before = alike.count;
     remove(alike, [&](std::size_t i) { return there.data[i] != here.data[i]; });
-    outcome.misplaced = before - alike.count;
-    outcome.depth = knownOrInfinite(statsOf(Channel::depth, truth.rays, rays, alike).p99);
-    outcome.flip =
+    outcome.measured[Measure::misplaced_pixels] = static_cast<double>(before - alike.count);
+    outcome.measured[Measure::depth_p99] =
+        knownOrInfinite(statsOf(Channel::depth, truth.rays, rays, alike).p99);
+    outcome.measured[Measure::flip] =
         knownOrInfinite(hdrFlip(truth.lit.channels.at(Channel::lit), lit.channels.at(Channel::lit)).mean);
-    outcome.nonfinite = lit.counters.nonfinite_pixels;
+    outcome.measured.set(lit.counters);
     if (const auto repaired = lit.repaired.find(Channel::lit); repaired != lit.repaired.end()) {
         const auto width = static_cast<std::uint32_t>(lit.settings.size.width);
         outcome.worst_x = static_cast<int>(repaired->second.front() % width);
@@ -267,8 +270,7 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
 
 Step Measurer::measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity,
                        double magnitude) {
-    Step step;
-    step.magnitude = magnitude;
+    Step step{magnitude, std::vector<Outcome>(series.size())};
     try {
         // A quantity that only changes images is rendered once.
         const bool kept = quantity && quantity->of_pictures && !fault_.scene && !fault_.picture;
@@ -276,21 +278,31 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
         Drawn& drawn = kept ? pictures_ : own;
         if (drawn.frames.empty() || drawn.frames.size() != series.size()) drawn = draw(pushed, series);
         std::optional<Truth> same;
+        std::optional<double> moved;
         if (quantity && quantity->same_picture) {
             same = original(pushed.settings.size);
             if (quantity->light) multiply(same->lit.channels.at(Channel::lit), magnitude);
             if (quantity->lengths) multiply(same->rays.channels.at(Channel::depth), magnitude);
-            step.reference_moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
+            moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
         const Truth& truth = same ? *same : drawn.truth;
-        step.covered = coverage(truth.rays, truth.rays).count;
-        for (std::size_t i = 0; i < series.size(); ++i)
-            step.outcomes.push_back(drawn.failed[i].empty()
-                                        ? outcomeOf(truth, drawn.frames[i], drawn.frames[i], pushed.exposure)
-                                        : failedOutcome(drawn.failed[i]));
+        for (std::size_t i = 0; i < series.size(); ++i) {
+            Outcome& outcome = step.outcomes[i];
+            outcome = drawn.failed[i].empty()
+                          ? outcomeOf(truth, drawn.frames[i], drawn.frames[i], pushed.exposure)
+                          : failedOutcome(drawn.failed[i]);
+            if (moved) outcome.measured[Measure::reference_moved] = *moved;
+            outcome.measured[Measure::compared_pixels] =
+                static_cast<double>(coverage(truth.rays, truth.rays).count);
+        }
     } catch (const std::exception& error) {
-        step.failed = error.what();
         step.outcomes.assign(series.size(), failedOutcome(error.what()));
+    }
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        Outcome& outcome = step.outcomes[i];
+        outcome.settings = series[i].applied(pushed.settings);
+        if (quantity) outcome.varied = quantity->name;
+        outcome.measured[Measure::magnitude] = magnitude;
     }
     return step;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/audit/quantities.h"
+#include "compare/experiment/row.h"
 #include "compare/render/renderer.h"
 
 #include <algorithm>
@@ -42,34 +43,33 @@ ChosenSeries chosenOf(const std::vector<Series>& wanted,
 // rounds no more than arithmetic does; and the quantity's variants.
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject);
 
-struct Outcome {
-    // 99th percentiles (nearest rank) of relative errors (PixelError) over pixels that show a surface. At
-    // edges, rounding alone may make a path and the reference see different surfaces.
-    // `light`: of lit, against the reference's shading of the surfaces that forward+ captures in float32.
-    // For 8-bit images (Case::exposure), the largest component difference as a fraction of white.
-    // `depth`: of view depth, against rays that the reference traces in double.
-    double light = 0, depth = 0;
-    double flip = 0;                 // mean HDR-FLIP of the image; reference as for `light`
-    std::uint64_t misplaced = 0;     // pixels with another material than the traced rays, or none
-    std::uint64_t nonfinite = 0;     // pixels of lit that are NaN or infinite
+using experiment::Measure;
+
+// Errors are 99th percentiles (nearest rank) of relative errors (PixelError) over pixels that show a surface.
+// At edges, rounding alone may make a path and the reference see different surfaces.
+// light_p99: of lit, against the reference's shading of the surfaces that forward+ captures in float32. For
+// 8-bit images (Case::exposure), the largest component difference as a fraction of white. flip: the same
+// reference. depth_p99: of view depth, against rays that the reference traces in double. They are infinite
+// if nothing was rendered.
+// reference_moved: with Quantity::same_picture, whose truth is then the image of the original scene.
+// Measures how far the reference can be trusted.
+struct Outcome : experiment::Row {
     int worst_x = -1, worst_y = -1;  // first non-finite pixel, or the one with the largest error of lit
-    std::string failed;              // why nothing was rendered; the errors are then infinite
-    double light_999 = 0;            // `light` at 99.9 % of pixels; only for the current measurement
 
     // The larger of both; infinite if a pixel is not finite.
     double error() const {
-        return nonfinite > 0 ? std::numeric_limits<double>::infinity() : std::max(light, depth);
+        return whole(Measure::nonfinite_pixels) > 0
+                   ? std::numeric_limits<double>::infinity()
+                   : std::max(measured[Measure::light_p99], measured[Measure::depth_p99]);
     }
 };
 
 struct Step {
     double magnitude = 0;
     std::vector<Outcome> outcomes;  // one for each series
-    // Quantity::same_picture: error() of the reference itself against its image of the original scene,
-    // which is then the truth. Measures how far the reference can be trusted.
-    std::optional<double> reference_moved{};
-    std::uint64_t covered = 0;  // pixels of the reference that show a surface
-    std::string failed;         // why there is no reference
+
+    // Whether the reference shows a surface.
+    bool isCovered() const { return outcomes.front().whole(Measure::compared_pixels) > 0; }
 };
 
 // Whether a blended surface (W x H x 1) is within this many pixels, or in the pixel; empty: nowhere.

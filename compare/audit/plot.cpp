@@ -88,10 +88,11 @@ private:
             const std::string words = page::markup(
                 fmt::format("{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
                             audit_.series[s].words(), magnitudeInWords(step.magnitude), audit_.quantity->unit,
-                            outcome.error(), outcome.light, outcome.depth, outcome.flip,
-                            outcome.nonfinite > 0
+                            outcome.error(), outcome[Measure::light_p99], outcome[Measure::depth_p99],
+                            outcome[Measure::flip],
+                            outcome.whole(Measure::nonfinite_pixels) > 0
                                 ? fmt::format(", {} NaN or infinite",
-                                              counted(static_cast<std::uint64_t>(outcome.nonfinite), "pixel"))
+                                              counted(outcome.whole(Measure::nonfinite_pixels), "pixel"))
                                 : ""));
             const bool number = std::isfinite(outcome.error());
             marks += number ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3\"><title>{}</title></circle>",

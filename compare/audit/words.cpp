@@ -16,8 +16,11 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-double numberFrom(const Json& json) {
-    return json.is_number() ? json.get<double>() : std::numeric_limits<double>::infinity();
+Json jsonOf(const Outcome& outcome) {
+    Json json = experiment::jsonOf(outcome);
+    json["error"] = numberOf(outcome.error());
+    json["worst"] = {outcome.worst_x, outcome.worst_y};
+    return json;
 }
 
 Json jsonOf(const BreakingPoint& point) {
@@ -60,8 +63,6 @@ Json jsonOf(const QuantityAudit& audit) {
     for (const Failure& failure : audit.failures)
         json["failures"].push_back(
             {{"words", failure.words}, {"scene", failure.scene}, {"command", failure.command}});
-    json["steps"] = Json::array();
-    for (const Step& step : audit.steps) json["steps"].push_back(toJson(step));
     return json;
 }
 
@@ -143,9 +144,10 @@ std::string inWords(const QuantityAudit& audit) {
     }
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         for (const Step& step : audit.steps)
-            if (const Outcome& outcome = step.outcomes[s]; outcome.nonfinite > 0) {
+            if (const Outcome& outcome = step.outcomes[s]; outcome.whole(Measure::nonfinite_pixels) > 0) {
                 out += fmt::format("    {}: {} NaN or infinite at {}{}, the first at {},{}\n",
-                                   audit.series[s].words(), counted(outcome.nonfinite, "pixel"),
+                                   audit.series[s].words(),
+                                   counted(outcome.whole(Measure::nonfinite_pixels), "pixel"),
                                    magnitudeInWords(step.magnitude), unit, outcome.worst_x, outcome.worst_y);
                 break;
             }
@@ -171,47 +173,26 @@ std::string inWords(const Requirement& requirement) {
 }
 
 Json toJson(const Step& step) {
-    Json json{{"magnitude", step.magnitude}, {"covered", step.covered}};
-    if (step.reference_moved) json["truth_moved"] = numberOf(*step.reference_moved);
-    if (!step.failed.empty()) json["failed"] = step.failed;
-    json["outcomes"] = Json::array();
-    for (const Outcome& outcome : step.outcomes) {
-        Json one{{"error", numberOf(outcome.error())},
-                 {"light", numberOf(outcome.light)},
-                 {"depth", numberOf(outcome.depth)},
-                 {"flip", numberOf(outcome.flip)},
-                 {"misplaced", outcome.misplaced},
-                 {"nonfinite", outcome.nonfinite},
-                 {"worst", {outcome.worst_x, outcome.worst_y}}};
-        if (!outcome.failed.empty()) one["failed"] = outcome.failed;
-        json["outcomes"].push_back(std::move(one));
-    }
+    Json json{{"magnitude", step.magnitude}, {"rows", Json::array()}};
+    for (const Outcome& outcome : step.outcomes) json["rows"].push_back(jsonOf(outcome));
     return json;
 }
 
-Step stepFromJson(const Json& json) {
-    Step step;
-    step.magnitude = json.at("magnitude");
-    step.covered = json.at("covered");
-    if (json.contains("truth_moved")) step.reference_moved = numberFrom(json["truth_moved"]);
-    step.failed = json.value("failed", "");
-    for (const Json& one : json.at("outcomes")) {
-        Outcome outcome;
-        outcome.light = numberFrom(one.at("light"));
-        outcome.depth = numberFrom(one.at("depth"));
-        outcome.flip = numberFrom(one.at("flip"));
-        outcome.misplaced = one.at("misplaced");
-        outcome.nonfinite = one.at("nonfinite");
-        outcome.worst_x = one.at("worst").at(0);
-        outcome.worst_y = one.at("worst").at(1);
-        outcome.failed = one.value("failed", "");
-        step.outcomes.push_back(std::move(outcome));
+Step stepFromJson(const Json& given) {
+    const JsonAt<Json> json(given);
+    Step step{json.at("magnitude").number(), {}};
+    for (const JsonAt<Json>& one : json.at("rows").each()) {
+        Outcome& outcome = step.outcomes.emplace_back(Outcome{experiment::rowFrom(one)});
+        outcome.varied = one.at("varied").json().is_null() ? "" : one.at("varied").text();
+        outcome.failed = one.at("failed").json().is_null() ? "" : one.at("failed").text();
+        outcome.worst_x = one.at("worst")[0].whole<int>(-1, 1 << 20);
+        outcome.worst_y = one.at("worst")[1].whole<int>(-1, 1 << 20);
     }
     return step;
 }
 
 Json toJson(const Audit& audit) {
-    Json json{{"schema", 1}};
+    Json json{{"schema", 2}};
     addAudited(json, audit);
     json["steps_kept"] = audit.kept;
     json["to_come"] = audit.to_come;
@@ -222,7 +203,26 @@ Json toJson(const Audit& audit) {
                                         {"magnitude", requirement.magnitude},
                                         {"met", requirement.met},
                                         {"because", requirement.because}});
+    // Of a row's Settings, those that differ from the audit's.
+    json["rows"] = Json::array();
+    for (const QuantityAudit& quantity : audit.quantities)
+        for (const Step& step : quantity.steps)
+            for (const Outcome& outcome : step.outcomes) {
+                Json& row = json["rows"].emplace_back(jsonOf(outcome));
+                Json differing = Json::object();
+                for (const auto& [key, value] : row["settings"].items())
+                    if (json["settings"].value(key, Json()) != value) differing[key] = value;
+                row["settings"] = std::move(differing);
+            }
     return json;
+}
+
+std::vector<const experiment::Row*> allRows(const Audit& audit) {
+    std::vector<const experiment::Row*> rows;
+    for (const QuantityAudit& quantity : audit.quantities)
+        for (const Step& step : quantity.steps)
+            for (const Outcome& outcome : step.outcomes) rows.push_back(&outcome);
+    return rows;
 }
 
 std::string toCsv(const Audit& audit) {
@@ -241,8 +241,10 @@ std::string toCsv(const Audit& audit) {
                 table.rows.push_back(
                     {{of.quantity->name, digits(step.magnitude), of.quantity->unit, nameOf(of.series[s].path),
                       fmt::format("{}", fmt::join(changes, " ")), digits(outcome.error()),
-                      digits(outcome.light), digits(outcome.depth), digits(outcome.flip),
-                      std::to_string(outcome.misplaced), std::to_string(outcome.nonfinite), outcome.failed}});
+                      digits(outcome[Measure::light_p99]), digits(outcome[Measure::depth_p99]),
+                      digits(outcome[Measure::flip]),
+                      std::to_string(outcome.whole(Measure::misplaced_pixels)),
+                      std::to_string(outcome.whole(Measure::nonfinite_pixels)), outcome.failed}});
             }
     return inCsv(table);
 }

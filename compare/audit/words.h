@@ -53,10 +53,12 @@ std::string inWords(const Requirement& requirement);
 
 nlohmann::ordered_json toJson(const Audit& audit);
 nlohmann::ordered_json toJson(const Step& step);
-// Inverse of toJson(); throws nlohmann::json::exception on invalid JSON.
+// Inverse of toJson(); throws std::runtime_error on invalid JSON.
 Step stepFromJson(const nlohmann::ordered_json& json);
 
-// A line for each magnitude and series: quantity, magnitude, unit, path, settings, error, light, depth,
+// A row for each quantity, magnitude and series.
+std::vector<const experiment::Row*> allRows(const Audit& audit);
+// A line for each of them: quantity, magnitude, unit, path, settings, error, light, depth,
 // flip, misplaced, nonfinite, failed.
 std::string toCsv(const Audit& audit);
 

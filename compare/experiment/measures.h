@@ -50,7 +50,9 @@ struct NamedMeasure {
       "light lists in which every light was evaluated")                                                      \
     X(unsorted_fragments, "counters", "unsorted_fragments", "count", sum, "unsorted",                        \
       "blended fragments that overflowed their list")                                                        \
-    X(unsorted_pixels, "counters", "unsorted_pixels", "count", sum, "unsorted pixels", "of these fragments")\
+    X(unsorted_pixels, "counters", "unsorted_pixels", "count", sum, "unsorted pixels", "of these fragments") \
+    X(misplaced_pixels, "counters", "misplaced_pixels", "count", sum, "misplaced",                           \
+      "pixels with another material than traced rays, or none")                                              \
     X(registers, "registers", "most", "count", largest, "registers",                                         \
       "vector registers of the largest shading pipeline")                                                    \
     X(flip, "errors", "flip", "", apart, "FLIP", "mean HDR-FLIP, 0 to 1")                                    \
@@ -58,6 +60,13 @@ struct NamedMeasure {
       "root mean square of the relative error")                                                              \
     X(relative_p99, "errors", "relative_p99", "", apart, "relative p99",                                     \
       "99th percentile of the relative error, nearest rank")                                                 \
+    X(light_p99, "errors", "light_p99", "", apart, "light",                                                  \
+      "99th percentile of lit's relative error where a surface shows; of 8-bit images, fraction of white")   \
+    X(light_p999, "errors", "light_p999", "", apart, "light p99.9", "the same at 99.9 % of the pixels")      \
+    X(depth_p99, "errors", "depth_p99", "", apart, "depth",                                                  \
+      "99th percentile of the relative error of view depth")                                                 \
+    X(reference_moved, "errors", "reference_moved", "", apart, "reference",                                  \
+      "error of the reference itself against its image of the unvaried scene")                               \
     X(shadow_error, "shadow", "error", "", mean, "error",                                                    \
       "sum of |V - R| E divided by the sum of R E; ranks the paths")                                         \
     X(false_lit, "shadow", "false_lit", "", mean, "false lit",                                               \

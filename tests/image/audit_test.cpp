@@ -32,7 +32,7 @@ std::vector<Outcome> errorsAt(Measurer& measurer, const std::string& name, doubl
     EXPECT_EQ(step.failed, "") << name;
     for (const Outcome& outcome : step.outcomes) {
         EXPECT_EQ(outcome.failed, "") << name << " " << magnitude;
-        EXPECT_EQ(outcome.nonfinite, 0u) << name << " " << magnitude;
+        EXPECT_EQ(outcome.whole(audit::Measure::nonfinite_pixels), 0u) << name << " " << magnitude;
     }
     return step.outcomes;
 }
@@ -44,10 +44,10 @@ void expectHolds(Measurer& measurer, const std::string& name, std::initializer_l
     constexpr double most = 1e-4;
     for (const double magnitude : magnitudes)
         for (const Outcome& outcome : errorsAt(measurer, name, magnitude)) {
-            EXPECT_LE(outcome.light, most)
+            EXPECT_LE(outcome[audit::Measure::light_p99], most)
                 << name << " " << magnitude << " worst at " << outcome.worst_x << "," << outcome.worst_y;
-            EXPECT_LE(outcome.depth, most) << name << " " << magnitude;
-            EXPECT_LE(outcome.light_999, 1e-2) << name << " " << magnitude;
+            EXPECT_LE(outcome[audit::Measure::depth_p99], most) << name << " " << magnitude;
+            EXPECT_LE(outcome[audit::Measure::light_p999], 1e-2) << name << " " << magnitude;
         }
 }
 
@@ -110,9 +110,10 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
              {std::pair("offset", 1e7), {"scale", 1e-4}, {"scale", 1e5}, {"intensity", 1e9}}) {
             const std::vector<Outcome> pushed = errorsAt(measurer, name, magnitude);
             for (std::size_t path = 0; path < 2; ++path)
-                EXPECT_LE(pushed[path].light, rest[path].light + 1e-2)
+                EXPECT_LE(pushed[path][audit::Measure::light_p99],
+                          rest[path][audit::Measure::light_p99] + 1e-2)
                     << what << ", " << name << " " << magnitude << ", path " << path << ": "
-                    << rest[path].light << " at rest";
+                    << rest[path][audit::Measure::light_p99] << " at rest";
         }
     }
 }
@@ -141,7 +142,8 @@ TEST(AuditImages, AScene30OrdersTooSmallIsLitByNumbers) {
     settings.haze = true;
     const Subject subject = audit::makeSubject(scene, settings);
     Measurer measurer(device(), subject, {});
-    for (const Outcome& outcome : errorsAt(measurer, "exposure", 1)) EXPECT_LE(outcome.light, 1e-2);
+    for (const Outcome& outcome : errorsAt(measurer, "exposure", 1))
+        EXPECT_LE(outcome[audit::Measure::light_p99], 1e-2);
 }
 
 }  // namespace
