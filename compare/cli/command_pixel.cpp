@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/explain/pixel_words.h"
+#include "compare/explain/pixel_breakdown.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
 

@@ -11,33 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 namespace diptych {
-
-namespace {
-
-std::vector<AblationCause> ablatedSettings(const Settings& baseline, const Settings& test,
-                                           std::span<const UndeclaredSetting> undeclared) {
-    const std::span<const std::string_view> in_channels = settingsInChannels();
-    std::vector<AblationCause> settings;
-    for (const Field& field : settingFields()) {
-        const std::string_view option = field.option;
-        if (std::ranges::count(in_channels, option) > 0 || baseline.valueOf(option) == test.valueOf(option))
-            continue;
-        const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
-        settings.push_back({AblationCause::Kind::setting, 0, std::string(option),
-                            found != undeclared.end() ? found->shows
-                                                      : fmt::format("{} instead of {}", test.valueOf(option),
-                                                                    baseline.valueOf(option))});
-    }
-    return settings;
-}
-
-}  // namespace
 
 Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
                    std::span<const UndeclaredSetting> undeclared)
@@ -52,8 +29,15 @@ Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const
         causes_.push_back({AblationCause::Kind::exposure, 0, "exposure",
                            fmt::format("a factor of {:.4g} on all of lit", double{sides.exposure()})});
     // Last, so that subsets with equal Settings are consecutive: each change needs a frame.
-    std::ranges::move(ablatedSettings(sides.settings(0), sides.settings(1), undeclared),
-                      std::back_inserter(causes_));
+    for (const Field& field : settingFields()) {
+        const std::string_view option = field.option;
+        const std::string before = sides.settings(0).valueOf(option), now = sides.settings(1).valueOf(option);
+        if (before == now || std::ranges::count(settingsInChannels(), option) > 0) continue;
+        const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
+        causes_.push_back(
+            {AblationCause::Kind::setting, 0, std::string(option),
+             found != undeclared.end() ? found->shows : fmt::format("{} instead of {}", now, before)});
+    }
     if (causes_.size() > static_cast<std::size_t>(mostCauses))
         throw std::runtime_error(
             fmt::format("{} causes exceed the limit of {}: explain two images with more similar Settings",
@@ -100,13 +84,9 @@ void Ablation::findComponents(const Scene& scene) {
     // Afterwards, because they need another frame.
     const bool blended = std::ranges::any_of(scene.materials, blends);
     for (std::size_t side = 0; side < 2; ++side) {
-        if (!blended) {
-            own.at(side).unblended = own.at(side).lit;
-            continue;
-        }
         Settings bare = sides_.settings(side);
         bare.transparency = Transparency::off;
-        own.at(side).unblended = lighting_.lit(bare, allChannelsOf(side));
+        own.at(side).unblended = blended ? lighting_.lit(bare, allChannelsOf(side)) : own.at(side).lit;
     }
     components_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
     for (std::size_t i = 0; i < components_->components().size(); ++i)
@@ -135,9 +115,11 @@ Image Ablation::lit(Subset subset) {
             settings.set(cause.name, sides_.settings(0).valueOf(cause.name));
         if (cause.kind == AblationCause::Kind::exposure) exposure = 1;
     }
-    Image lit = components_ ? components_->lit(lighting_.surfaces(settings, channels), components)
-                            : lighting_.lit(settings, channels);
-    if (!components_) {
+    Image lit;
+    if (components_) {
+        lit = components_->lit(lighting_.surfaces(settings, channels), components);
+    } else {
+        lit = lighting_.lit(settings, channels);
         const Image& added = sides_.residual(residual);
         for (std::size_t i = 0; i < lit.data.size(); ++i) lit.data[i] += added.data[i];
     }

@@ -38,6 +38,8 @@ public:
     Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
              std::span<const UndeclaredSetting> undeclared);
 
+    const ExplainedSides& sides() const { return sides_; }
+    ChannelLighting& lighting() const { return lighting_; }
     const std::vector<AblationCause>& causes() const { return causes_; }
     // Channels that differ and change no pixel, alone or after all others: not causes.
     const std::vector<std::string>& without_effect() const { return without_effect_; }

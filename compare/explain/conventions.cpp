@@ -2,16 +2,20 @@
 #include "compare/explain/conventions.h"
 
 #include "compare/explain/frame_images.h"
+#include "shared/contract/debug_mode.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace diptych {
 
 namespace {
 
+// Values of one option are adjacent.
 constexpr std::array knownConventions{
     Convention{"base-layer", "component",
                "a base layer that loses, per component, what its coating reflects"},
@@ -23,18 +27,60 @@ constexpr std::array knownConventions{
 // The same threshold as for other undeclared Settings (undeclared_settings.cpp).
 constexpr double worthHaving = 0.5;
 
-bool hasTwice(const std::vector<Convention>& some) {
-    for (std::size_t i = 0; i < some.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
-            if (some[i].option == some[k].option) return true;
-    return false;
+// Surface conventions that another renderer may use without declaring them. At most one change per row is
+// accepted.
+using SurfaceChange = void (*)(Settings&);
+template <SpecularKernel kernel>
+void widenRoughness(Settings& s) {
+    if (!s.spec_aa) s.spec_aa_kernel = kernel;
+    s.spec_aa = true;
+}
+void turnNormalsOtherwise(Settings& s) {
+    s.skin_normals = s.skin_normals == SkinNormals::joints ? SkinNormals::blended : SkinNormals::joints;
+}
+const std::vector<std::vector<SurfaceChange>> otherSurfaces{
+    {turnNormalsOtherwise},
+    {widenRoughness<SpecularKernel::variance>, widenRoughness<SpecularKernel::slope>}};
+
+// Renders the view of `plain` with the accepted changes; empty if there are none. A change is accepted if
+// it brings lit closer to the other renderer by at least half of its effect, the criterion of
+// undeclared_settings.h.
+std::optional<Frame> drawnNearer(const Frame& external, const Frame& plain, Renderer& renderer,
+                                 const RenderOptions& options) {
+    const auto lit = [](const Frame& frame) -> const Image& { return frame.channels.at(Channel::lit); };
+    const auto distance = [&](const Frame& a, const Frame& b) { return meanOf(errorsOf(lit(a), lit(b))); };
+    // Find the renderer's lighting conventions first: their effect would hide that of the surfaces.
+    RenderOptions light = options;
+    light.channels = {Channel::lit};
+    const ConventionTrial trial{[&](const Settings& settings) { return lit(renderer.draw(settings, light)); },
+                                [&](const Image& ours) { return meanOf(errorsOf(ours, lit(external))); }};
+    Frame shown =
+        renderer.draw(withConventions(plain.settings, nearestConventions(plain.settings, trial)), light);
+    Settings surfaces = plain.settings;
+    for (const std::vector<SurfaceChange>& changes : otherSurfaces) {
+        std::optional<Frame> nearest;
+        SurfaceChange believed = nullptr;
+        for (const SurfaceChange change : changes) {
+            Settings settings = shown.settings;
+            change(settings);
+            if (settings == shown.settings || settings.problem()) continue;
+            Frame tried = renderer.draw(settings, light);
+            if (!(distance(tried, external) < distance(nearest ? *nearest : shown, external))) continue;
+            nearest = std::move(tried);
+            believed = change;
+        }
+        if (!nearest) continue;
+        const double nearer = distance(shown, external) - distance(*nearest, external);
+        if (!(nearer > worthHaving * distance(*nearest, shown))) continue;
+        believed(surfaces);
+        shown = std::move(*nearest);
+    }
+    if (surfaces == plain.settings) return {};
+    // Surface channels do not depend on the lighting conventions.
+    return renderer.draw(surfaces, options);
 }
 
 }  // namespace
-
-bool isForeign(const Frame& frame) {
-    return frame.origin.external || (!frame.origin.file.empty() && frame.origin.commit.empty());
-}
 
 Settings withConventions(Settings said, const std::vector<Convention>& conventions) {
     for (const Convention& each : conventions) said.set(each.option, std::string(each.value));
@@ -55,7 +101,7 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         std::vector<Convention> some;
         for (std::size_t i = 0; i < effective.size(); ++i)
             if ((subset >> i & 1) != 0) some.push_back(effective[i]);
-        if (hasTwice(some)) continue;
+        if (std::ranges::adjacent_find(some, {}, &Convention::option) != some.end()) continue;
         Image picture = trial.draw(withConventions(said, some));
         const double distance = trial.distance(picture);
         if (!(distance < least)) continue;
@@ -79,6 +125,20 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         i = 0;
     }
     return best;
+}
+
+Frame substituteChannels(const Frame& external, const Frame& plain, Renderer& renderer,
+                         const RenderOptions& options) {
+    const std::optional<Frame> nearer = drawnNearer(external, plain, renderer, options);
+    const Frame& ours = nearer ? *nearer : plain;
+    Frame frame = external;
+    frame.settings = ours.settings;
+    frame.requested.clear();
+    // Only explained channels: our lighting sums describe our own image.
+    for (const Channel mode : options.channels)
+        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
+            frame.channels.try_emplace(mode, found->second);
+    return frame;
 }
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 // (shared/material/README.md). The image's conventions are found by trial.
 #pragma once
 
+#include "compare/render/renderer.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"
@@ -18,9 +19,6 @@ struct Convention {
     std::string_view shows;  // description of the cause
 };
 
-// Whether an image is from another renderer: its Settings are the request, not necessarily what it does.
-bool isForeign(const Frame& frame);
-
 // Renders and compares trials with another renderer's image.
 struct ConventionTrial {
     std::function<Image(const Settings&)> draw;      // lit under Settings, W x H x 3
@@ -34,5 +32,12 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
 
 // `said` with these conventions.
 Settings withConventions(Settings said, const std::vector<Convention>& conventions);
+
+// Another renderer's image of the view of `ours`, as input of explain(). Settings and channels that it
+// does not declare come from `ours`, so lit differences are attributed to lighting. Tries other skin
+// normals (--skin-normals) and widened roughness (--spec-aa), and takes the channels that bring lit
+// closer. `options`: of `ours`, with explainedChannels().
+Frame substituteChannels(const Frame& external, const Frame& ours, Renderer& renderer,
+                         const RenderOptions& options);
 
 }  // namespace diptych

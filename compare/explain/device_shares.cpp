@@ -14,7 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <iterator>
 #include <string>
 
 namespace diptych {
@@ -22,16 +22,21 @@ namespace {
 
 enum Part { edges, textures, vertices, shadows, lists, rounding, partCount };
 
-Part partOf(const std::string& cause, bool textured) {
-    static const std::set<std::string> places{"position", "geometric_normal"},
-        seen{"shadow_visibility", "local_visibility"};
-    if (places.contains(cause)) return vertices;
-    if (seen.contains(cause)) return shadows;
-    if (cause == "light_count") return lists;
-    const DebugMode* const mode = findDebugMode(cause);
-    if (mode && std::ranges::count(surfaceChannels(), mode->channel) > 0)
-        return textured ? textures : vertices;
-    return rounding;
+Part partOf(const DebugMode* cause, bool textured) {
+    if (!cause) return rounding;
+    switch (cause->channel) {
+        case Channel::position:
+        case Channel::geometric_normal:
+            return vertices;
+        case Channel::shadow_visibility:
+        case Channel::local_visibility:
+            return shadows;
+        case Channel::light_count:
+            return lists;
+        default:
+            if (std::ranges::count(surfaceChannels(), cause->channel) == 0) return rounding;
+            return textured ? textures : vertices;
+    }
 }
 
 // The measured precision of both devices' textures, as text; empty: not measured.
@@ -52,9 +57,8 @@ std::string measured(const AcrossDevices& across) {
 
 std::vector<Channel> deviceShareChannels() {
     std::vector<Channel> modes = surfacePixelChannels();
-    for (const Channel term : termChannels()) modes.push_back(term);
-    for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count})
-        modes.push_back(mode);
+    std::ranges::copy(termChannels(), std::back_inserter(modes));
+    modes.insert(modes.end(), {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count});
     return modes;
 }
 
@@ -72,7 +76,7 @@ std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Fram
         const auto texels = mode ? across.texels.find(mode->channel) : across.texels.end();
         for (std::size_t i = 0; i < map.pixels(); ++i) {
             const bool textured = texels != across.texels.end() && *texels->second.pixel(i) > 0;
-            sums[surfaces.others[i] != 0 ? edges : partOf(cause, textured)] +=
+            sums[surfaces.others[i] != 0 ? edges : partOf(mode, textured)] +=
                 double{*map.pixel(i)} / static_cast<double>(map.pixels());
         }
     };

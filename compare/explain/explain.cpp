@@ -10,6 +10,7 @@
 #include "compare/explain/undeclared_settings.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/metrics/flip.h"
+#include "compare/metrics/pixel.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -58,13 +59,8 @@ void checkExplained(const Frame& baseline, const Frame& test) {
 // The number of pixels where either image is not finite.
 std::size_t nonfinitePixels(const Image& a, const Image& b) {
     std::size_t count = 0;
-    for (std::size_t p = 0; p < a.pixels(); ++p) {
-        const auto finite = [p](const Image& image) {
-            const float* c = image.pixel(p);
-            return std::isfinite(c[0]) && std::isfinite(c[1]) && std::isfinite(c[2]);
-        };
-        count += !finite(a) || !finite(b);
-    }
+    for (std::size_t p = 0; p < a.pixels(); ++p)
+        count += !metrics::finite(a.pixel(p), 3) || !metrics::finite(b.pixel(p), 3);
     return count;
 }
 
@@ -77,23 +73,22 @@ Image imageOf(const std::vector<double>& values, const Image& like) {
 }
 
 // Each material's part of a cause's share, by channel material_id. `map`: the cause's.
-std::vector<MaterialShare> byMaterial(const std::vector<double>& map, const Image& ids, const Scene& scene) {
+std::vector<CausePart> byMaterial(const std::vector<double>& map, const Image& ids, const Scene& scene) {
     std::map<int, double> sums;
     for (std::size_t p = 0; p < map.size(); ++p)
         sums[materialOf(ids.pixel(p), scene)] += map[p] / static_cast<double>(map.size());
-    std::vector<MaterialShare> shares;
+    std::vector<CausePart> shares;
     for (const auto& [id, sum] : sums)
         shares.push_back(
             {id, id >= 0 ? scene.materials[static_cast<std::size_t>(id)].name : std::string(), sum});
     return shares;
 }
 
-// Sorts shares of materials or lights, the largest in the sign of the cause's share first.
-template <class Share>
-std::vector<Share> descending(std::vector<Share> shares, double sign) {
-    std::ranges::stable_sort(
-        shares, [sign](const Share& a, const Share& b) { return sign * a.share > sign * b.share; });
-    return shares;
+// Sorts parts, the largest in the sign of the cause's share first.
+std::vector<CausePart> descending(std::vector<CausePart> parts, double sign) {
+    std::ranges::stable_sort(parts, std::ranges::greater(),
+                             [sign](const CausePart& part) { return sign * part.share; });
+    return parts;
 }
 
 // The results of taking the causes.
@@ -140,33 +135,6 @@ AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progre
     return results;
 }
 
-// A cause with its share.
-Cause sharedCause(const AblationCause& cause, const AblationResults& results, std::size_t i,
-                  const Scene& scene, const ExplainedSides& sides, LightShares& lights) {
-    const Shares& shares = results.shares;
-    const std::vector<double>& map = results.maps[i];
-    const Image& lit = sides.lit(0);
-    // For a negative share, the pixel where it is most negative.
-    const double sign = shares.share[i] < 0 ? -1 : 1;
-    const auto worst = static_cast<std::size_t>(
-        std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
-    const auto width = static_cast<std::size_t>(lit.width);
-    const Image& ids = channelOf(sides.frame(0), Channel::material_id);
-    return {cause.title(),
-            cause.shows,
-            shares.share[i],
-            shares.interval[i],
-            shares.alone[i],
-            shares.last[i],
-            map[worst],
-            static_cast<int>(worst % width),
-            static_cast<int>(worst / width),
-            results.flip[i],
-            descending(byMaterial(map, ids, scene), sign),
-            descending(lights.of(cause, map), sign),
-            imageOf(map, lit)};
-}
-
 // Pairs of causes that interact. `order`: the causes with an effect, descending by share.
 std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size_t>& order, double distance) {
     std::vector<CausePair> pairs;
@@ -188,21 +156,39 @@ std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size
 }
 
 // Stores the causes, the dominant one at each pixel, and interacting pairs in `found`.
-void rank(const AblationResults& results, const Ablation& ablation, const Scene& scene,
-          const ExplainedSides& sides, LightShares& lights, Explanation& found) {
+void rank(const AblationResults& results, const Ablation& ablation, const Scene& scene, Explanation& found) {
     const Shares& shares = results.shares;
     std::vector<std::size_t> order(ablation.causes().size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order,
-                             [&](std::size_t a, std::size_t b) { return shares.share[a] > shares.share[b]; });
+    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return shares.share[i]; });
     // Removes Settings without effect.
     std::erase_if(order, [&](std::size_t i) {
         const bool has_effect = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
         if (!has_effect) found.without_effect.push_back(ablation.causes()[i].title());
         return !has_effect;
     });
-    for (const std::size_t i : order)
-        found.causes.push_back(sharedCause(ablation.causes()[i], results, i, scene, sides, lights));
+    const Image& ids = channelOf(ablation.sides().frame(0), Channel::material_id);
+    for (const std::size_t i : order) {
+        const AblationCause& cause = ablation.causes()[i];
+        const std::vector<double>& map = results.maps[i];
+        // For a negative share, the pixel where it is most negative.
+        const double sign = shares.share[i] < 0 ? -1 : 1;
+        const auto worst = static_cast<int>(
+            std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
+        found.causes.push_back({.name = cause.title(),
+                                .shows = cause.shows,
+                                .share = shares.share[i],
+                                .interval = shares.interval[i],
+                                .alone = shares.alone[i],
+                                .last = shares.last[i],
+                                .worst = map[static_cast<std::size_t>(worst)],
+                                .worst_x = worst % ids.width,
+                                .worst_y = worst / ids.width,
+                                .flip = results.flip[i],
+                                .materials = descending(byMaterial(map, ids, scene), sign),
+                                .lights = descending(lightParts(cause, map, ablation, found), sign),
+                                .map = imageOf(map, ids)});
+    }
     for (std::size_t p = 0; p < found.dominant.pixels(); ++p) {
         double best = 0;
         for (std::size_t k = 0; k < order.size(); ++k)
@@ -211,6 +197,11 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
                 found.dominant.data[p] = static_cast<float>(k);
             }
     }
+    const auto& places = found.dominant.data;
+    const auto with_cause = std::ranges::count_if(places, [](float place) { return place >= 0; });
+    for (std::size_t k = 0; with_cause > 0 && k < order.size(); ++k)
+        found.causes[k].dominates = static_cast<double>(std::ranges::count(places, static_cast<float>(k))) /
+                                    static_cast<double>(with_cause);
     found.pairs = pairsOf(shares, order, found.distance);
 }
 
@@ -244,10 +235,7 @@ Explanation explain(Device& device, Renderer& renderer, const Scene& scene, cons
         if (!undeclared.empty()) sides.believe(undeclared.back().settings, lighting);
         Ablation ablation(sides, lighting, scene, undeclared);
         found.without_effect = ablation.without_effect();
-        LightShares lights(sides, lighting, ablation);
-        rank(ablate(ablation, a, progress, found), ablation, scene, sides, lights, found);
-        found.lights_drawn = lights.drawn();
-        found.lights_left_out = lights.leftOut();
+        rank(ablate(ablation, a, progress, found), ablation, scene, found);
     }
     found.subsets = lighting.shaded();
     found.frames = lighting.drawn();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/explained_sides.h"
 
-#include "compare/explain/exposure.h"
 #include "compare/explain/frame_images.h"
 #include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -39,15 +39,19 @@ bool ExplainedSides::residualsDiffer() const {
 }
 
 std::string ExplainedSides::residualName() const {
-    const auto either = [&](const auto& is) { return is(frame(0).settings) || is(frame(1).settings); };
-    if (either([](const Settings& s) { return s.msaa > 1; })) return "samples of a pixel";
-    if (either([](const Settings& s) { return s.assign == Assignment::per_object; }))
-        return "lights per object";
+    for (const Frame* const frame : frames_)
+        if (frame->settings.msaa > 1) return "samples of a pixel";
+    for (const Frame* const frame : frames_)
+        if (frame->settings.assign == Assignment::per_object) return "lights per object";
     return {};
 }
 
 bool ExplainedSides::haveTerms() const {
-    return diptych::haveTerms(frame(0), frame(1));
+    return std::ranges::all_of(termChannels(), [&](Channel mode) {
+        const Image *const a = findChannel(frame(0), mode), *const b = findChannel(frame(1), mode);
+        return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
+               b->components == 3;
+    });
 }
 
 void ExplainedSides::findExposure() {

@@ -11,18 +11,11 @@
 
 namespace diptych {
 
-// A material's part of a cause's share.
-struct MaterialShare {
-    int material = -1;  // -1: the background
-    std::string name;   // may be empty
-    double share = 0;   // W/(sr m^2), as Cause::share
-};
-
-// A light's part of a cause's share.
-struct LightShare {
-    std::size_t light = 0;  // index into SceneView::lights
-    std::string name;       // "Lamp"; else its type
-    double share = 0;       // W/(sr m^2), as Cause::share
+// A material's or a light's part of a cause's share.
+struct CausePart {
+    int index = -1;    // of the material in the scene, -1: the background; or in SceneView::lights
+    std::string name;  // a material's may be empty; without a name, a light has that of its type
+    double share = 0;  // W/(sr m^2), as Cause::share
 };
 
 struct Cause {
@@ -33,13 +26,14 @@ struct Cause {
     double alone = 0, last = 0;  // effect of swapping it alone; effect of swapping it last
     double worst = 0;            // the largest share of a pixel, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
+    double dominates = 0;  // fraction, 0 to 1, of the pixels with any cause where this one is the largest
     // Its share of the mean HDR-FLIP, by the same orders. All shares and
     // Explanation::flip_unexplained sum to Explanation::flip.
     double flip = 0;
-    std::vector<MaterialShare> materials;  // of the baseline's pixels; descending
+    std::vector<CausePart> materials;  // of the baseline's pixels; descending
     // For direct light and shadows; descending. Excludes change that no light accounts for, and lights
     // that were not rendered.
-    std::vector<LightShare> lights;
+    std::vector<CausePart> lights;
     // W x H x 1: the pixel's contribution to the share times the number of pixels, W/(sr m^2). The mean is
     // the share; negative where the cause compensates for others.
     Image map;

@@ -7,6 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -15,12 +16,27 @@
 
 namespace diptych {
 
-const Image& channelOf(const Frame& frame, Channel mode) {
+namespace {
+
+constexpr double sameFactor = 1e-3;
+constexpr double darkest = 1e-3;  // fraction of the mean
+
+}  // namespace
+
+const Image* findChannel(const Frame& frame, Channel mode) {
     const auto found = frame.channels.find(mode);
-    if (found == frame.channels.end())
-        throw std::runtime_error(fmt::format("{} has no channel {}, which an explanation needs", frame.name,
-                                             debugMode(mode).name));
-    return found->second;
+    return found == frame.channels.end() ? nullptr : &found->second;
+}
+
+const Image& channelOf(const Frame& frame, Channel mode) {
+    if (const Image* const image = findChannel(frame, mode)) return *image;
+    throw std::runtime_error(
+        fmt::format("{} has no channel {}, which an explanation needs", frame.name, debugMode(mode).name));
+}
+
+glm::dvec3 colorAt(const Image& image, std::size_t pixel) {
+    const float* const p = image.pixel(pixel);
+    return {p[0], p[1], p[2]};
 }
 
 int materialOf(const float* pixel, const Scene& scene) {
@@ -59,6 +75,35 @@ double meanOf(const std::vector<double>& values) {
     return values.empty()
                ? 0.0
                : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<double> commonFactor(const Image& lit, const Image& expected) {
+    double sum = 0;
+    std::size_t finite = 0;
+    for (const float value : expected.data)
+        if (std::isfinite(value)) sum += std::abs(double{value}), ++finite;
+    if (finite == 0 || !(sum > 0)) return {};
+    const double least = darkest * sum / static_cast<double>(finite);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < lit.data.size(); ++i) {
+        const double a = lit.data[i], b = expected.data[i];
+        if (std::isfinite(a) && std::isfinite(b) && b > least) ratios.push_back(a / b);
+    }
+    if (ratios.empty()) return {};
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::ranges::nth_element(ratios, middle);
+    const double factor = *middle;
+    const auto alike = std::ranges::count_if(
+        ratios, [factor](double ratio) { return std::abs(ratio - factor) <= sameFactor * factor; });
+    if (!(factor > 0) || 2 * static_cast<std::size_t>(alike) < ratios.size()) return {};
+    return factor;
+}
+
+std::optional<double> exposureBetween(std::optional<double> baseline, std::optional<double> test) {
+    if (!baseline || !test) return {};
+    const double factor = *test / *baseline;
+    if (std::abs(factor - 1) <= 2 * sameFactor) return {};
+    return factor;
 }
 
 }  // namespace diptych

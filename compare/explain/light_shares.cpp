@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/light_shares.h"
 
-#include "compare/explain/by_light.h"
 #include "compare/explain/frame_images.h"
-#include "compare/explain/lighting_components.h"
 #include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/lights_json.h"
 #include "shared/scene/model/luminance.h"
 
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 namespace diptych {
 
@@ -22,22 +26,10 @@ bool isOfLights(std::string_view option) {
            option == "light-cutoff" || option == "area-lights";
 }
 
-const char* kindName(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::point:
-            return "point";
-        case LightKind::spot:
-            return "spot";
-        case LightKind::rect:
-            return "rectangle";
-        case LightKind::disc:
-            return "disc";
-        case LightKind::tube:
-            return "tube";
-    }
-    return "light";
+// "Lamp"; else the light's type.
+std::string titleOf(const Light& light) {
+    if (!light.name.empty()) return light.name;
+    return light.kind == LightKind::rect ? "rectangle" : std::string(nameOf(light.kind));
 }
 
 // Each light's fraction of the sum of all lights' differences, at each pixel.
@@ -57,51 +49,11 @@ std::vector<std::vector<float>> partsOfDifference(const std::vector<Image>& a, c
     return parts;
 }
 
-}  // namespace
-
-std::vector<LightShare> LightShares::of(const AblationCause& cause, const std::vector<double>& map) {
-    const LightingComponents::Component* const component = ablation_.componentOf(cause);
-    if (component ? !component->lights
-                  : cause.kind != AblationCause::Kind::setting || !isOfLights(cause.name))
-        return {};
-    const Settings& test = sides_.settings(1);
-    const std::vector<Light> lights = lighting_.under(test).lights();
-    const std::vector<std::size_t> places = drawnLights(lights, cause.name, map.size());
-    if (places.empty()) return {};
-    std::vector<std::vector<float>> parts;
-    if (component) {
-        Settings lit_by = test;
-        if (*component->lights == LightChange::seen) lit_by.shadows = Shadows::off;
-        const std::vector<Image> alone = lightsAlone(lit_by, places, component);
-        const Image change =
-            LightingComponents::directLight(*component, LightingComponents::change(*component));
-        parts = lightsOfChange(change, alone, *component->lights);
-    } else {
-        Settings without = test;
-        without.set(cause.name, sides_.settings(0).valueOf(cause.name));
-        const std::vector<Image> ablated = lightsAlone(without, places, nullptr);
-        // Last, so that the next cause can use its frame.
-        parts = partsOfDifference(lightsAlone(test, places, nullptr), ablated);
-    }
-    std::vector<LightShare> shares;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        double sum = 0;
-        for (std::size_t p = 0; p < map.size(); ++p) sum += map[p] * double{parts[i][p]};
-        if (sum == 0) continue;
-        const Light& of = lights[places[i]];
-        shares.push_back({places[i], of.name.empty() ? kindName(of.kind) : of.name,
-                          sum / static_cast<double>(map.size())});
-    }
-    return shares;
-}
-
-// The indices of the lights to render alone, the brightest first. `of`: name of the cause. For shadow
+// The indices of the lights that a cause may change, the brightest first. `of`: name of the cause. For shadow
 // channels only suns, or only other lights; of these the shadow-casting ones, if there are any.
-std::vector<std::size_t> LightShares::drawnLights(const std::vector<Light>& lights, std::string_view of,
-                                                  std::size_t pixels) {
+std::vector<std::size_t> lightsOf(std::string_view of, const std::vector<Light>& lights, int shadow_lights) {
     const bool suns = of == "shadow_visibility", locals = of == "local_visibility";
-    const std::vector<std::size_t> casting =
-        castingLights(lights, std::max(sides_.settings(0).shadow_lights, sides_.settings(1).shadow_lights));
+    const std::vector<std::size_t> casting = castingLights(lights, shadow_lights);
     const auto fits = [&](std::size_t place) {
         const bool is_sun = lights[place].kind == LightKind::directional;
         return suns ? is_sun : !locals || !is_sun;
@@ -111,30 +63,201 @@ std::vector<std::size_t> LightShares::drawnLights(const std::vector<Light>& ligh
     for (std::size_t place = 0; place < lights.size(); ++place)
         if (fits(place) && (!(suns || locals) || !any_casts || std::ranges::count(casting, place) > 0))
             places.push_back(place);
-    const auto sends = [&](std::size_t place) {
-        const Light& light = lights[place];
-        return double{light.intensity} * luminance(glm::dvec3(light.color));
-    };
-    std::ranges::stable_sort(places, [&](std::size_t a, std::size_t b) { return sends(a) > sends(b); });
-    const std::size_t room = mostLightBytes / (2 * 3 * sizeof(float) * pixels);
-    const std::size_t most = std::clamp<std::size_t>(room, 1, mostLightsDrawn);
-    const std::size_t left_out = places.size() - std::min(places.size(), most);
-    places.resize(places.size() - left_out);
-    drawn_ = std::max(drawn_, places.size());
-    left_out_ = std::max(left_out_, left_out);
+    std::ranges::stable_sort(places, std::ranges::greater(), [&](std::size_t place) {
+        return double{lights[place].intensity} * luminance(glm::dvec3(lights[place].color));
+    });
     return places;
 }
 
-// Each light's own contribution on the test's surfaces under some Settings.
-std::vector<Image> LightShares::lightsAlone(const Settings& settings, const std::vector<std::size_t>& places,
-                                            const LightingComponents::Component* component) {
-    ChannelShading& shading = lighting_.under(settings);
-    std::vector<Image> alone;
-    for (const std::size_t place : places) {
-        const LightChannels adds = shading.light(allChannelsOf(1), place);
-        alone.push_back(component ? LightingComponents::directLight(*component, adds) : sumOfLobes(adds));
+constexpr int blockSide = 8;
+constexpr std::size_t mostLightsOfBlock = 3;
+constexpr double leastAccount = 0.05, equalAccounts = 0.02;
+constexpr double mostLeft = 0.1;
+
+double sumOf(const glm::dvec3& c) {
+    return c.x + c.y + c.z;
+}
+
+// One block: the remaining change, and each light's part of it.
+class LightBlock {
+public:
+    LightBlock(const Image& change, std::span<const Image> terms, LightChange how, int x, int y)
+        : terms_(terms), how_(how) {
+        for (int v = y; v < std::min(y + blockSide, change.height); ++v)
+            for (int u = x; u < std::min(x + blockSide, change.width); ++u) {
+                pixels_.push_back(static_cast<std::size_t>(v) * static_cast<std::size_t>(change.width) +
+                                  static_cast<std::size_t>(u));
+                left_.push_back(colorAt(change, pixels_.back()));
+            }
     }
-    return alone;
+
+    void divide(std::vector<std::vector<float>>& shares) {
+        const std::vector<glm::dvec3> change = left_;
+        const double all = squares();
+        std::vector<std::vector<double>> sizes = taken(all);
+        if (how_ == LightChange::factor && squares() > mostLeft * all) {
+            left_ = change;
+            each_color_ = true;
+            sizes = taken(all);
+        }
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            double sum = 0;
+            for (const std::vector<double>& light : sizes) sum += light[i];
+            for (std::size_t light = 0; sum > 0 && light < sizes.size(); ++light)
+                shares[light][pixels_[i]] = static_cast<float>(sizes[light][i] / sum);
+        }
+    }
+
+private:
+    // The sum of squares of the remaining change.
+    double squares() const {
+        double sum = 0;
+        for (const glm::dvec3& c : left_) sum += glm::dot(c, c);
+        return sum;
+    }
+
+    // Subtracts lights as long as each accounts for enough. Returns each light's magnitude at each pixel.
+    std::vector<std::vector<double>> taken(double all) {
+        std::vector<std::vector<double>> sizes(terms_.size(), std::vector<double>(pixels_.size()));
+        for (std::size_t count = 0; all > 0 && count < mostLightsOfBlock; ++count) {
+            std::vector<double> accounts(terms_.size());
+            for (std::size_t light = 0; light < terms_.size(); ++light) accounts[light] = account(light);
+            const auto best = std::ranges::max_element(accounts);
+            if (best == accounts.end() || !(*best >= leastAccount * all)) break;
+            std::vector<std::size_t> alike;
+            for (std::size_t light = 0; light < accounts.size(); ++light)
+                if (accounts[light] >= (1 - equalAccounts) * *best) alike.push_back(light);
+            take(static_cast<std::size_t>(best - accounts.begin()), alike, sizes);
+        }
+        return sizes;
+    }
+
+    // A light's part of the change as multiples of its term: one factor for the block (grey, or per
+    // colour), or one per pixel.
+    std::vector<glm::dvec3> factors(std::size_t light) const {
+        glm::dvec3 along(0), size(0);
+        std::vector<glm::dvec3> of(pixels_.size(), glm::dvec3(0));
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            const glm::dvec3 term = colorAt(terms_[light], pixels_[i]);
+            along += left_[i] * term;
+            size += term * term;
+            const double s = glm::dot(term, term);
+            if (how_ == LightChange::seen && s > 0)
+                of[i] = glm::dvec3(std::clamp(glm::dot(left_[i], term) / s, -1.0, 1.0));
+        }
+        if (how_ == LightChange::factor) {
+            if (!each_color_) along = glm::dvec3(sumOf(along)), size = glm::dvec3(sumOf(size));
+            glm::dvec3 factor(0);
+            for (int c = 0; c < 3; ++c)
+                if (size[c] > 0) factor[c] = along[c] / size[c];
+            std::ranges::fill(of, factor);
+        }
+        const glm::dvec3 sign(std::copysign(1.0, sumOf(along)));
+        if (how_ == LightChange::whole)
+            // A light present on both sides changes nothing.
+            for (std::size_t i = 0; i < pixels_.size(); ++i)
+                if (reduction(light, i, sign) > 0) of[i] = sign;
+        return of;
+    }
+
+    // The decrease of the squared change at a pixel by subtracting that part.
+    double reduction(std::size_t light, std::size_t i, const glm::dvec3& factor) const {
+        const glm::dvec3 of = factor * colorAt(terms_[light], pixels_[i]);
+        return 2 * glm::dot(left_[i], of) - glm::dot(of, of);
+    }
+
+    double account(std::size_t light) const {
+        const std::vector<glm::dvec3> of = factors(light);
+        double sum = 0;
+        for (std::size_t i = 0; i < of.size(); ++i) sum += reduction(light, i, of[i]);
+        return sum;
+    }
+
+    void take(std::size_t best, const std::vector<std::size_t>& alike,
+              std::vector<std::vector<double>>& sizes) {
+        const std::vector<glm::dvec3> of = factors(best);
+        for (std::size_t i = 0; i < pixels_.size(); ++i) {
+            const glm::dvec3 taken = of[i] * colorAt(terms_[best], pixels_[i]);
+            const auto size = [&](std::size_t light) {
+                return glm::length(colorAt(terms_[light], pixels_[i]));
+            };
+            double sum = 0;
+            for (const std::size_t light : alike) sum += size(light);
+            for (const std::size_t light : alike)
+                if (sum > 0) sizes[light][i] += glm::length(taken) * size(light) / sum;
+            left_[i] -= taken;
+        }
+    }
+
+    std::span<const Image> terms_;
+    LightChange how_;
+    bool each_color_ = false;  // one factor per colour
+    std::vector<std::size_t> pixels_;
+    std::vector<glm::dvec3> left_;
+};
+
+}  // namespace
+
+std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<double>& map,
+                                  const Ablation& ablation, Explanation& found) {
+    const LightingComponents::Component* const component = ablation.componentOf(cause);
+    if (component ? !component->lights
+                  : cause.kind != AblationCause::Kind::setting || !isOfLights(cause.name))
+        return {};
+    const Settings &baseline = ablation.sides().settings(0), &test = ablation.sides().settings(1);
+    const std::vector<Light> lights = ablation.lighting().under(test).lights();
+    std::vector<std::size_t> places =
+        lightsOf(cause.name, lights, std::max(baseline.shadow_lights, test.shadow_lights));
+    if (places.empty()) return {};
+    const std::size_t room = mostLightBytes / (2 * 3 * sizeof(float) * map.size()), all = places.size();
+    places.resize(std::min(all, std::clamp<std::size_t>(room, 1, mostLightsDrawn)));
+    found.lights_drawn = std::max(found.lights_drawn, places.size());
+    found.lights_left_out = std::max(found.lights_left_out, all - places.size());
+    // Each light's own contribution under some Settings.
+    const auto alone = [&](const Settings& settings) {
+        ChannelShading& shading = ablation.lighting().under(settings);
+        std::vector<Image> images;
+        for (const std::size_t place : places) {
+            const LightChannels adds = shading.light(allChannelsOf(1), place);
+            images.push_back(component ? LightingComponents::directLight(*component, adds)
+                                       : sumOfLobes(adds));
+        }
+        return images;
+    };
+    std::vector<std::vector<float>> parts;
+    Settings settings = test;
+    if (component) {
+        if (*component->lights == LightChange::seen) settings.shadows = Shadows::off;
+        parts = lightsOfChange(
+            LightingComponents::directLight(*component, LightingComponents::change(*component)),
+            alone(settings), *component->lights);
+    } else {
+        settings.set(cause.name, baseline.valueOf(cause.name));
+        const std::vector<Image> ablated = alone(settings);
+        // Last, so that the next cause can use its frame.
+        parts = partsOfDifference(alone(test), ablated);
+    }
+    std::vector<CausePart> shares;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        double sum = 0;
+        for (std::size_t p = 0; p < map.size(); ++p) sum += map[p] * double{parts[i][p]};
+        if (sum != 0)
+            shares.push_back({static_cast<int>(places[i]), titleOf(lights[places[i]]),
+                              sum / static_cast<double>(map.size())});
+    }
+    return shares;
+}
+
+std::vector<std::vector<float>> lightsOfChange(const Image& change, std::span<const Image> terms,
+                                               LightChange how) {
+    std::vector<std::vector<float>> shares(terms.size(), std::vector<float>(change.pixels()));
+    const int columns = (change.width + blockSide - 1) / blockSide,
+              rows = (change.height + blockSide - 1) / blockSide;
+    tbb::parallel_for(0, columns * rows, [&](int block) {
+        LightBlock(change, terms, how, block % columns * blockSide, block / columns * blockSide)
+            .divide(shares);
+    });
+    return shares;
 }
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/lighting_components.h"
 
+#include "compare/explain/frame_images.h"
 #include "shared/contract/debug_mode.h"
 
 #include <tbb/blocked_range.h>
@@ -33,11 +34,6 @@ Terms termsOf(const Frame& frame) {
     return terms;
 }
 
-const Image* channelIn(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    return found == frame.channels.end() ? nullptr : &found->second;
-}
-
 // The sum of terms, in the order of lit(Radiance) in shaders/lib/shading/radiance.glsl, so that another order
 // is detected.
 float sumOf(const std::array<float, 5>& t, float emission) {
@@ -57,6 +53,13 @@ void forEach(std::size_t count, const auto& what) {
     });
 }
 
+Image sumOf(const Terms& terms, const Image& emission) {
+    Image sum(emission.width, emission.height, 3);
+    float* const out = sum.data.data();
+    forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(terms, i), emission.data[i]); });
+    return sum;
+}
+
 // The part of a direct term's `change` due to a visibility change from `test` to `baseline`, where the
 // test's term is `value`. It scales the term by the ratio, and is never more than the whole change.
 float shadowPart(float change, float value, float baseline, float test) {
@@ -67,74 +70,21 @@ float shadowPart(float change, float value, float baseline, float test) {
     return std::abs(scaled) < std::abs(change) ? scaled : change;
 }
 
-// Pixels where our lighting of either side blends surfaces.
-std::vector<std::uint8_t> blendedIn(const std::array<LitSurfaces, 2>& own) {
-    std::vector<std::uint8_t> blended(own[0].lit.pixels());
-    for (const LitSurfaces& side : own)
-        for (std::size_t i = 0; i < side.lit.data.size(); ++i)
-            if (side.lit.data[i] != side.unblended.data[i]) blended[i / 3] = 1;
-    return blended;
-}
-
-// Components where a change beyond the sum of terms may come from adding emission differently: it is at
-// most a side's emission. Empty unless these are 99 % of the change at pixels without blending; if other
-// surfaces change too, emission is not the cause.
-std::vector<std::uint8_t> changesWithEmission(const Image& change, const std::vector<std::uint8_t>& blended,
-                                              const std::array<LitSurfaces, 2>& own,
-                                              const std::array<Terms, 2>& terms) {
-    constexpr float rounding = 1.001f;
-    std::vector<std::uint8_t> with(change.data.size());
-    double all = 0, part = 0;
-    for (std::size_t i = 0; i < with.size(); ++i) {
-        if (blended[i / 3] != 0 || change.data[i] == 0) continue;
-        float emitted = 0;
-        for (std::size_t side = 0; side < 2; ++side)
-            emitted = std::max(emitted, std::as_const(*own.at(side).emission).data[i] *
-                                            terms.at(side).at(transmittanceTerm)->data[i]);
-        const float size = std::abs(change.data[i]);
-        all += double{size};
-        with[i] = emitted > 0 && size <= rounding * emitted ? 1 : 0;
-        if (with[i] != 0) part += double{size};
-    }
-    if (!(part > 0) || part < 0.99 * all) with.clear();
-    return with;
-}
-
 // The residual of each term, and of lit. The latter is `seen` minus the sum of a side's terms, minus the same
 // for our lighting: the background and blended surfaces.
 TermImages residualOf(const Image& seen, const Terms& terms, const LitSurfaces& own) {
-    TermImages residual;
-    std::array<float*, 6> out{};
-    for (std::size_t t = 0; t < out.size(); ++t) {
-        residual.at(t) = Image(seen.width, seen.height, 3);
-        out.at(t) = residual.at(t).data.data();
-    }
     const Terms ours = termsOf(own.terms);
+    TermImages residual;
+    for (std::size_t t = 0; t < terms.size(); ++t) residual.at(t) = differenceOf(*terms.at(t), *ours.at(t));
+    residual[wholeTerm] = Image(seen.width, seen.height, 3);
+    float* const out = residual[wholeTerm].data.data();
     forEach(seen.data.size(), [&](std::size_t i) {
-        const auto theirs = termsAt(terms, i), mine = termsAt(ours, i);
-        const float emission = std::as_const(*own.emission).data[i];
-        const float beyond = seen.data[i] - sumOf(theirs, emission);
-        const float our_beyond = std::as_const(own.lit).data[i] - sumOf(mine, emission);
-        for (std::size_t t = 0; t < theirs.size(); ++t) {
-            const float left = theirs.at(t) - mine.at(t);
-            out.at(t)[i] = std::isfinite(left) ? left : 0.0f;
-        }
-        const float left = beyond - our_beyond;
-        out.at(wholeTerm)[i] = std::isfinite(left) ? left : 0.0f;
+        const float emission = own.emission->data[i];
+        const float beyond = seen.data[i] - sumOf(termsAt(terms, i), emission);
+        const float left = beyond - (own.lit.data[i] - sumOf(termsAt(ours, i), emission));
+        if (std::isfinite(left)) out[i] = left;
     });
     return residual;
-}
-
-// The change of each term, and of lit, when taken from the baseline.
-TermImages changeOf(const TermImages& baseline, const TermImages& test) {
-    TermImages change;
-    for (std::size_t t = 0; t < change.size(); ++t) {
-        const Image &a = baseline.at(t), &b = test.at(t);
-        change.at(t) = Image(a.width, a.height, 3);
-        float* const out = change.at(t).data.data();
-        forEach(a.data.size(), [&](std::size_t i) { out[i] = a.data[i] - b.data[i]; });
-    }
-    return change;
 }
 
 // Moves from `change` the direct light that changes with the channel of `a` and `b`. `value`: the test's
@@ -155,29 +105,38 @@ TermImages takeDirectLight(TermImages& change, const Terms& value, const Image* 
     return taken;
 }
 
-// The change beyond the sum of terms, by where it is.
-struct ChangeBeyond {
-    Image background, blended, emitting, other;
-};
+enum class Place : std::uint8_t { background, blended, emitting, other };
 
-ChangeBeyond changeBeyond(const Image& change, const std::array<const Image*, 2>& ids,
-                          const std::vector<std::uint8_t>& blended, const std::vector<std::uint8_t>& emits) {
-    const Image blank(change.width, change.height, 3);
-    ChangeBeyond parts{blank, blank, blank, blank};
-    for (std::size_t i = 0; i < change.data.size(); ++i) {
-        const bool surface =
-            ids[0]->pixel(i / 3)[0] >= 0 || ids[1]->pixel(i / 3)[0] >= 0 || blended[i / 3] != 0;
-        Image& part = !surface                          ? parts.background
-                      : blended[i / 3] != 0             ? parts.blended
-                      : !emits.empty() && emits[i] != 0 ? parts.emitting
-                                                        : parts.other;
-        part.data[i] = change.data[i];
+// Where each component of a change beyond the sum of terms is. blended: our lighting of either side blends
+// surfaces there. emitting: it may come from adding emission differently, because it is at most a side's
+// emission, and so is 99 % of the change without blending. If other surfaces change too, emission is not the
+// cause.
+std::vector<Place> placesOf(const Image& change, const std::array<const Image*, 2>& ids,
+                            const std::array<LitSurfaces, 2>& own, const std::array<Terms, 2>& terms) {
+    constexpr float rounding = 1.001f;
+    std::vector<Place> places(change.data.size(), Place::other);
+    for (const LitSurfaces& side : own)
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (side.lit.data[i] != side.unblended.data[i])
+                std::fill_n(places.begin() + static_cast<std::ptrdiff_t>(i - i % 3), 3, Place::blended);
+    double all = 0, part = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i] == Place::blended) continue;
+        float emitted = 0;
+        for (std::size_t side = 0; side < 2; ++side)
+            emitted = std::max(
+                emitted, own.at(side).emission->data[i] * terms.at(side).at(transmittanceTerm)->data[i]);
+        const float size = std::abs(change.data[i]);
+        const bool emits = size > 0 && emitted > 0 && size <= rounding * emitted;
+        all += double{size};
+        if (emits) part += double{size};
+        if (!(ids[0]->pixel(i / 3)[0] >= 0) && !(ids[1]->pixel(i / 3)[0] >= 0))
+            places[i] = Place::background;
+        else if (emits)
+            places[i] = Place::emitting;
     }
-    return parts;
-}
-
-bool isNothing(const Image& image) {
-    return std::ranges::all_of(image.data, [](float value) { return value == 0; });
+    if (!(part > 0) || part < 0.99 * all) std::ranges::replace(places, Place::emitting, Place::other);
+    return places;
 }
 
 }  // namespace
@@ -186,52 +145,40 @@ std::vector<Channel> termChannels() {
     return {termModes.begin(), termModes.end()};
 }
 
-bool haveTerms(const Frame& baseline, const Frame& test) {
-    return std::ranges::all_of(termModes, [&](Channel mode) {
-        const Image *a = channelIn(baseline, mode), *b = channelIn(test, mode);
-        return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
-               b->components == 3;
-    });
-}
-
 Image sumOfLobes(const LightChannels& of) {
     Image sum = of.diffuse;
-    for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += std::as_const(of.specular).data[i];
+    for (std::size_t i = 0; i < sum.data.size(); ++i) sum.data[i] += of.specular.data[i];
     return sum;
 }
 
 Image sumOfTerms(const Frame& frame) {
-    const Terms terms = termsOf(frame);
-    const Image &emission = *channelIn(frame, Channel::emission),
-                &ids = *channelIn(frame, Channel::material_id);
-    Image sum(terms[0]->width, terms[0]->height, 3);
-    float* const out = sum.data.data();
-    forEach(sum.data.size(), [&](std::size_t i) {
-        if (ids.pixel(i / 3)[0] >= 0) out[i] = sumOf(termsAt(terms, i), emission.data[i]);
-    });
+    const Image& ids = channelOf(frame, Channel::material_id);
+    Image sum = sumOf(termsOf(frame), channelOf(frame, Channel::emission));
+    for (std::size_t i = 0; i < sum.data.size(); ++i)
+        if (!(ids.pixel(i / 3)[0] >= 0)) sum.data[i] = 0;
     return sum;
 }
 
+// Without a surface all terms are 0, including transmittance.
 Image sumOfTerms(const ChannelTerms& terms, const Image& emission) {
-    const Terms all = termsOf(terms);
-    Image sum(emission.width, emission.height, 3);
-    float* const out = sum.data.data();
-    // Without a surface all terms are 0, including transmittance.
-    forEach(sum.data.size(), [&](std::size_t i) { out[i] = sumOf(termsAt(all, i), emission.data[i]); });
-    return sum;
+    return sumOf(termsOf(terms), emission);
 }
 
 LightingComponents::LightingComponents(const Frame& baseline, const Frame& test, const Image& lit,
                                        const std::array<LitSurfaces, 2>& own) {
     const std::array<Terms, 2> terms{termsOf(baseline), termsOf(test)};
     residual_ = residualOf(lit, terms[1], own[1]);
-    TermImages change = changeOf(residualOf(*channelIn(baseline, Channel::lit), terms[0], own[0]), residual_);
+    const TermImages baselines = residualOf(channelOf(baseline, Channel::lit), terms[0], own[0]);
+    TermImages change;
+    for (std::size_t t = 0; t < change.size(); ++t)
+        change.at(t) = differenceOf(baselines.at(t), residual_.at(t));
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
     const auto share = [&](std::string name, std::string shows, Channel mode, LightChange how,
                            const auto& part) {
         add({std::move(name), std::move(shows),
-             takeDirectLight(change, terms[1], channelIn(baseline, mode), channelIn(test, mode), part), how});
+             takeDirectLight(change, terms[1], findChannel(baseline, mode), findChannel(test, mode), part),
+             how});
     };
     share("shadow_visibility", "direct light that changes with the visibility of the sun",
           Channel::shadow_visibility, LightChange::seen, shadowPart);
@@ -251,28 +198,29 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
          LightChange::factor);
     term("ambient light", "ambient and environment light, reflected or transmitted", {ambientTerm});
     term("haze in the air", "transmittance and scattered light of the haze", {hazeTerm, transmittanceTerm});
-    const std::vector<std::uint8_t> blended = blendedIn(own);
-    ChangeBeyond beyond =
-        changeBeyond(change.at(wholeTerm),
-                     {channelIn(baseline, Channel::material_id), channelIn(test, Channel::material_id)},
-                     blended, changesWithEmission(change.at(wholeTerm), blended, own, terms));
-    const auto whole = [&](std::string name, std::string shows, Image& of) {
-        change.at(wholeTerm) = std::move(of);
+    const Image beyond = std::move(change.at(wholeTerm));
+    const std::vector<Place> places =
+        placesOf(beyond, {&channelOf(baseline, Channel::material_id), &channelOf(test, Channel::material_id)},
+                 own, terms);
+    const auto whole = [&](Place place, std::string name, std::string shows) {
+        Image& part = change.at(wholeTerm) = Image(beyond.width, beyond.height, 3);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (places[i] == place) part.data[i] = beyond.data[i];
         term(std::move(name), std::move(shows), {wholeTerm});
     };
-    whole("background", "pixels without a surface and without blending", beyond.background);
-    whole("transparency", "fragments blended over surfaces and background, and transmission through surfaces",
-          beyond.blended);
-    whole("sum with emission", "difference between lit and the sum of its terms, only where surfaces emit",
-          beyond.emitting);
-    whole("sum of terms", "difference between lit and the sum of its terms: another order or an unknown term",
-          beyond.other);
+    whole(Place::background, "background", "pixels without a surface and without blending");
+    whole(Place::blended, "transparency",
+          "fragments blended over surfaces and background, and transmission through surfaces");
+    whole(Place::emitting, "sum with emission",
+          "difference between lit and the sum of its terms, only where surfaces emit");
+    whole(Place::other, "sum of terms",
+          "difference between lit and the sum of its terms: another order or an unknown term");
 }
 
 void LightingComponents::add(Component component) {
     bool nothing = true;
     for (Image& image : component.adds) {
-        if (!image.empty() && isNothing(image)) image = Image();
+        if (std::ranges::all_of(image.data, [](float value) { return value == 0; })) image = Image();
         nothing = nothing && image.empty();
     }
     if (!nothing) components_.push_back(std::move(component));
@@ -303,8 +251,8 @@ Image LightingComponents::lit(const LitSurfaces& surfaces, const std::vector<boo
         std::array<float, 5> theirs = mine;
         for (std::size_t t = 0; t < theirs.size(); ++t)
             for (const float* const more : added.at(t)) theirs.at(t) += more[i];
-        const float emission = std::as_const(*surfaces.emission).data[i];
-        float value = sumOf(theirs, emission) + (std::as_const(surfaces.lit).data[i] - sumOf(mine, emission));
+        const float emission = surfaces.emission->data[i];
+        float value = sumOf(theirs, emission) + (surfaces.lit.data[i] - sumOf(mine, emission));
         for (const float* const more : added.at(wholeTerm)) value += more[i];
         out[i] = value;
     });

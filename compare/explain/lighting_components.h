@@ -3,7 +3,6 @@
 // channels, as files of external renderers may.
 #pragma once
 
-#include "compare/explain/by_light.h"
 #include "compare/render/channel_shading.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
@@ -16,9 +15,12 @@
 
 namespace diptych {
 
+// How a light may have changed. factor: its intensity is scaled; whole: it exists in one image only; seen:
+// its visibility changes, at each pixel independently.
+enum class LightChange { factor, whole, seen };
+
 // Channels that both Frames must have: lit_diffuse, lit_specular, lit_ambient, lit_haze and transmittance.
 std::vector<Channel> termChannels();
-bool haveTerms(const Frame& baseline, const Frame& test);
 // Direct light of both lobes, W x H x 3.
 Image sumOfLobes(const LightChannels& of);
 // The sum of a Frame's terms at surfaces, W x H x 3; 0 elsewhere.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/pictures.h"
 
-#include "compare/picture/picture.h"
+#include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 namespace diptych {
@@ -41,10 +42,6 @@ Image sumOfMaps(const Explanation& explanation) {
 
 Color8 causeColor(std::size_t place) {
     return place < ownColors ? palette[place] : otherColor;
-}
-
-std::string cssColor(const Color8& color) {
-    return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
 }
 
 std::string shareFile(const Explanation& explanation, std::size_t cause) {
@@ -97,6 +94,14 @@ Image8 sharePicture(const Image& shares, double top) {
             {byteOf(t * negativeColor[0]), byteOf(t * negativeColor[1]), byteOf(t * negativeColor[2])});
     }
     return picture;
+}
+
+Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice) {
+    const DebugMode& lit = debugMode(Channel::lit);
+    const Exposure exposure =
+        exposureFor(choice, &baseline.channels.at(lit.channel), coverage(baseline, baseline));
+    const Frame* const shown = &frame;
+    return channelPicture(lit, frame, scaleFor(lit, exposure, std::span(&shown, 1)));
 }
 
 std::vector<NamedPicture> explanationMaps(const Explanation& explanation) {

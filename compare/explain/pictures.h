@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/explain/explanation.h"
+#include "compare/picture/picture.h"
 #include "shared/image/png.h"
 
 #include <array>
@@ -19,9 +20,6 @@ using Color8 = std::array<std::uint8_t, 3>;  // sRGB
 // and Ito 2008, "Color Universal Design", as in plots; all others are pale grey.
 Color8 causeColor(std::size_t place);
 inline constexpr std::size_t ownColors = 7;
-
-// "#56b4e9".
-std::string cssColor(const Color8& color);
 
 struct NamedPicture {
     std::string name;  // of its file
@@ -44,6 +42,9 @@ double topOfMaps(const Explanation& explanation);
 
 // W x H x 1 shares in the colours of errorPicture(); green where negative.
 Image8 sharePicture(const Image& shares, double top);
+
+// Both sides' lit as an image, with one exposure: channelPicture().
+Image8 litPicture(const Frame& frame, const Frame& baseline, const PictureChoice& choice);
 
 // The difference of both images, each cause's share of it, and the unexplained remainder, all on one
 // scale.

@@ -11,11 +11,15 @@
 #include "shared/frame/frame.h"
 #include "shared/scene/scene_view.h"
 
+#include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -40,13 +44,12 @@ using PixelValue = std::vector<double>;
 // A channel at the pixel.
 struct PixelStep {
     const DebugMode* mode = nullptr;
-    std::array<PixelValue, 2> values;  // baseline, test
-    PixelValue reference;
-    double difference = 0;            // of the two paths, in the channel's metric
-    bool differs = false;             // beyond rounding: any bit on a CPU device, over 16 ULP on a GPU
-    Tolerance tolerance;              // at this pixel; infinite if a rule does not bound single pixels
-    bool beyond = false;              // out of tolerance, or not explained by the encoding
-    std::optional<bool> explained{};  // lit channels: deferred equals forward+ shading decoded surfaces
+    std::array<PixelValue, 3> values;  // baseline, test, reference
+    double difference = 0;             // of the two paths, in the channel's metric
+    bool differs = false;              // beyond rounding: any bit on a CPU device, over 16 ULP on a GPU
+    Tolerance tolerance;               // at this pixel; infinite if a rule does not bound single pixels
+    bool beyond = false;               // out of tolerance, or not explained by the encoding
+    std::optional<bool> explained{};   // lit channels: deferred equals forward+ shading decoded surfaces
 
     bool isCompared() const { return !values[0].empty() && !values[1].empty(); }
 };
@@ -67,14 +70,13 @@ struct PixelTerm {
         residual        // lit minus the sum
     };
     Kind kind = Kind::light;
-    std::vector<std::size_t> lights{};  // its lights, as indices in SceneView::lights
-    std::array<std::array<double, 3>, 2> values{};
-    std::optional<std::array<double, 3>> reference{};
+    std::vector<std::size_t> lights{};   // its lights, as indices in SceneView::lights
+    std::array<glm::dvec3, 3> values{};  // baseline, test, reference
+    bool has_reference = true;
     double uncertainty = 0;  // of the reference: half the 95 % confidence interval, largest component
     double difference = 0;   // of the two paths, in the metric of lit
     bool differs = false;    // as PixelStep::differs; always false for sum and residual
 };
-std::string_view nameOf(PixelTerm::Kind kind);  // "other_lights"
 
 // Description of a light of the scene.
 struct PixelLightFacts {
@@ -83,25 +85,23 @@ struct PixelLightFacts {
     double distance = 0;  // m, from the pixel's position; infinite for a directional light
     double range = 0;     // m; may be infinite
     bool casts = false;   // whether it casts a shadow
-    std::array<bool, 2> listed{false, false};
 };
 
 struct PixelBreakdown {
     std::string scene, camera;
     int x = 0, y = 0;
-    Size size;
     std::array<Settings, 2> settings;  // baseline, test
     ReferenceMode mode = ReferenceMode::surface;
-    std::array<std::string, 2> names;  // "deferred"
-    bool shown = false;                // either path shows an opaque surface; else the background
-    bool blended = false;              // a blended surface changes lit in either path
-    int material = -1;                 // the baseline's, or else the test's
-    std::string material_name;         // for one line; may be empty
-    std::array<double, 3> position{};  // of the same surface, world, m
-    std::vector<PixelStep> steps;      // in order of computation
-    // By index in SceneView::lights. `lists_known`: by path, whether `listed` is valid.
-    std::vector<PixelLightFacts> lights;
-    std::array<bool, 2> lists_known{false, false};
+    std::array<std::string, 2> names;     // "deferred"
+    bool shown = false;                   // either path shows an opaque surface; else the background
+    bool blended = false;                 // a blended surface changes lit in either path
+    int material = -1;                    // the baseline's, or else the test's
+    std::string material_name;            // for one line; may be empty
+    glm::dvec3 position{0};               // of the same surface, world, m
+    std::vector<PixelStep> steps;         // in order of computation
+    std::vector<PixelLightFacts> lights;  // by index in SceneView::lights
+    // The lights that each path evaluates, ascending indices; empty optional: unknown.
+    std::array<std::optional<std::vector<std::size_t>>, 2> lists{};
     std::vector<PixelTerm> terms;  // empty in the background; ends with sum, lit and residual
     // Largest difference of the sums from those in double: float32 rounding for baseline and test,
     // uncertainty for the reference.
@@ -109,12 +109,8 @@ struct PixelBreakdown {
     std::size_t drawn_alone = 0;  // number of lights
 
     // The first difference, in order: `steps` before the light terms, `terms`, then the remaining `steps`.
-    struct First {
-        const PixelStep* step = nullptr;
-        const PixelTerm* term = nullptr;
-    };
-    First first() const;            // neither set: no difference
-    std::size_t differing() const;  // number of steps and terms that differ
+    // Both nullptr: no difference.
+    std::pair<const PixelStep*, const PixelTerm*> first() const;
 };
 
 // Whether a channel is computed after the light terms: from them, or from what is in front of the surface.
@@ -125,5 +121,15 @@ std::span<const Channel> pixelSteps();
 // Renders the view by both paths, the pixel by the reference, and up to `lightsDrawnAlone` lights alone.
 // `views`: those of the renderer. Throws std::runtime_error, one line, like Renderer.
 PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const PixelQuery& query);
+
+// The largest absolute component.
+double largest(const glm::dvec3& value);
+
+std::string inWords(const PixelBreakdown& breakdown);
+nlohmann::ordered_json toJson(const PixelBreakdown& breakdown);
+
+// "the first step that differs by more than rounding: roughness (0.301 against 0.298, 0.003 in its metric,
+// absolute, tolerance 0.002: ...)", or that there is none. One line without a newline.
+std::string firstDifference(const PixelBreakdown& breakdown);
 
 }  // namespace diptych

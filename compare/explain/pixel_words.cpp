@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/pixel_words.h"
-
+#include "compare/explain/pixel_breakdown.h"
 #include "compare/files/frame_json.h"
 #include "compare/output/writers.h"
 #include "shared/contract/debug_mode.h"
@@ -22,24 +21,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of one row, with enough digits to show that they differ; at least 6.
+using Numbers = std::span<const double>;
+
+Numbers numbersOf(const glm::dvec3& value) {
+    return {&value.x, 3};
+}
+
+// Numbers of one row, with enough digits to show that they differ from the first; at least 6.
 class Digits {
 public:
-    explicit Digits(std::span<const std::span<const double>> values) {
-        for (; digits_ < 9; ++digits_) {
-            bool told = true;
-            for (std::size_t i = 1; i < values.size() && told; ++i)
-                for (std::size_t c = 0; c < values[i].size() && told; ++c)
-                    told = values[0].size() != values[i].size() || values[0][c] == values[i][c] ||
-                           one(values[0][c]) != one(values[i][c]);
-            if (told) break;
-        }
+    explicit Digits(std::span<const Numbers> values) {
+        const auto told = [&](double a, double b) { return a == b || one(a) != one(b); };
+        while (digits_ < 9 && !std::ranges::all_of(values, [&](Numbers other) {
+                   return values[0].size() != other.size() || std::ranges::equal(values[0], other, told);
+               }))
+            ++digits_;
     }
-    std::string operator()(std::span<const double> value) const {
-        if (value.empty()) return "-";
+    std::string operator()(Numbers value) const {
         std::string text;
         for (const double v : value) text += fmt::format("{}{}", text.empty() ? "" : " ", one(v));
-        return text;
+        return text.empty() ? "-" : text;
     }
 
 private:
@@ -65,120 +66,93 @@ std::string differenceText(double difference, bool differs) {
 }
 
 output::Row stepRow(const PixelStep& step) {
-    std::vector<std::span<const double>> values;
-    for (const PixelValue* value : {&step.values[0], &step.values[1], &step.reference})
-        values.emplace_back(*value);
+    const std::array<Numbers, 3> values{step.values[0], step.values[1], step.values[2]};
     // Uses the digits of the paths if both have a value: the reference is in double.
-    const std::span all(values);
-    const Digits digits(all.first(step.isCompared() ? 2 : 3));
+    const Digits digits({values.data(), step.isCompared() ? 2u : 3u});
     std::string because = step.tolerance.because;
     if (step.explained == false)
         because = fmt::format(
             "FAIL: the encoding does not explain it: forward+ shades the decoded surface differently; {}",
-            step.tolerance.because);
+            because);
     else if (step.beyond)
-        because = fmt::format("FAIL: beyond tolerance: {}", step.tolerance.because);
+        because = fmt::format("FAIL: beyond tolerance: {}", because);
     return {{step.mode->name, digits(values[0]), digits(values[1]), digits(values[2]),
              step.isCompared() ? differenceText(step.difference, step.differs) : "-", toleranceText(step),
              because}};
 }
 
-std::string lightTitle(const PixelBreakdown& breakdown, std::size_t light) {
-    const PixelLightFacts& facts = breakdown.lights.at(light);
-    return fmt::format("light {}, {}{}", light, facts.kind,
-                       facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
+// The name in JSON and the title of each PixelTerm::Kind; titleOf() names lights.
+constexpr std::array<std::array<std::string_view, 2>, 11> kinds{
+    {{"light"},
+     {"other_lights"},
+     {"environment", "environment"},
+     {"ambient", "ambient, lightmap"},
+     {"emission", "emission"},
+     {"transmittance", "times transmittance"},
+     {"haze", "haze"},
+     {"blended", "blended fragments, transmission"},
+     {"sum", "sum of the terms"},
+     {"lit", "lit"},
+     {"residual", "lit minus the sum"}}};
+
+std::string_view nameOf(PixelTerm::Kind kind) {
+    return kinds.at(static_cast<std::size_t>(kind))[0];
 }
 
 std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
-    switch (term.kind) {
-        case PixelTerm::Kind::light:
-            return lightTitle(breakdown, term.lights.front());
-        case PixelTerm::Kind::other_lights:
-            return counted(term.lights.size(),
-                           term.lights.size() == breakdown.lights.size() ? "light" : "other light");
-        case PixelTerm::Kind::environment:
-            return "environment";
-        case PixelTerm::Kind::ambient:
-            return "ambient, lightmap";
-        case PixelTerm::Kind::emission:
-            return "emission";
-        case PixelTerm::Kind::transmittance:
-            return "times transmittance";
-        case PixelTerm::Kind::haze:
-            return "haze";
-        case PixelTerm::Kind::blended:
-            return "blended fragments, transmission";
-        case PixelTerm::Kind::sum:
-            return "sum of the terms";
-        case PixelTerm::Kind::lit:
-            return "lit";
-        case PixelTerm::Kind::residual:
-            return "lit minus the sum";
-    }
-    return {};
-}
-
-bool isNothing(const PixelTerm& term) {
-    const auto dark = [](const std::array<double, 3>& v) {
-        return std::ranges::all_of(v, [](double c) { return c == 0; });
-    };
-    return dark(term.values[0]) && dark(term.values[1]) && (!term.reference || dark(*term.reference));
-}
-
-std::string lightWords(const PixelBreakdown& breakdown, const PixelTerm& term) {
+    if (term.kind == PixelTerm::Kind::other_lights)
+        return counted(term.lights.size(),
+                       term.lights.size() == breakdown.lights.size() ? "light" : "other light");
+    if (term.kind != PixelTerm::Kind::light)
+        return std::string(kinds.at(static_cast<std::size_t>(term.kind))[1]);
     const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
-    std::string words;
-    const auto say = [&](const std::string& what) {
-        words += fmt::format("{}{}", words.empty() ? "" : ", ", what);
-    };
-    if (std::isfinite(facts.distance))
-        say(fmt::format("{:.4g} m away{}", facts.distance,
-                        std::isfinite(facts.range) ? fmt::format(" (range {:.4g} m)", facts.range) : ""));
-    if (facts.casts) say("casts a shadow");
-    for (std::size_t side = 0; side < 2; ++side)
-        if (breakdown.lists_known.at(side) && !facts.listed.at(side))
-            say(fmt::format("not in the list of {}", breakdown.names.at(side)));
-    return words;
+    return fmt::format("light {}, {}{}", term.lights.front(), facts.kind,
+                       facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
+}
+
+std::string notesOn(const PixelBreakdown& breakdown, const PixelTerm& term) {
+    std::vector<std::string> words;
+    if (term.kind == PixelTerm::Kind::light) {
+        const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
+        if (std::isfinite(facts.distance))
+            words.push_back(
+                fmt::format("{:.4g} m away{}", facts.distance,
+                            std::isfinite(facts.range) ? fmt::format(" (range {:.4g} m)", facts.range) : ""));
+        if (facts.casts) words.emplace_back("casts a shadow");
+        for (std::size_t side = 0; side < 2; ++side)
+            if (const auto& list = breakdown.lists.at(side);
+                list && !std::ranges::binary_search(*list, term.lights.front()))
+                words.push_back("not in the list of " + breakdown.names.at(side));
+    }
+    if (term.uncertainty > 0)
+        words.push_back(fmt::format("uncertainty of the reference {:.2g}", term.uncertainty));
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 output::Row termRow(const PixelBreakdown& breakdown, const PixelTerm& term) {
-    std::vector<std::span<const double>> values{term.values[0], term.values[1]};
-    if (term.reference) values.emplace_back(*term.reference);
+    std::array<Numbers, 3> values;
+    std::ranges::transform(term.values, values.begin(), numbersOf);
+    if (!term.has_reference) values[2] = {};
     // The residual is computed here, so more digits would be meaningless.
     const bool derived = term.kind == PixelTerm::Kind::residual;
-    const Digits digits(derived ? std::span(values).first(1) : std::span(values).first(2));
-    std::string words = term.kind == PixelTerm::Kind::light ? lightWords(breakdown, term) : "";
-    if (term.uncertainty > 0)
-        words +=
-            fmt::format("{}uncertainty of the reference {:.2g}", words.empty() ? "" : ", ", term.uncertainty);
+    const Digits digits({values.data(), derived ? 1u : 2u});
     return {
-        {titleOf(breakdown, term), digits(values[0]), digits(values[1]),
-         values.size() > 2 ? digits(values[2]) : "-",
+        {titleOf(breakdown, term), digits(values[0]), digits(values[1]), digits(values[2]),
          derived ? "" : differenceText(term.difference, term.differs || term.kind == PixelTerm::Kind::sum),
-         words}};
-}
-
-std::vector<std::size_t> listOf(const PixelBreakdown& breakdown, std::size_t side) {
-    std::vector<std::size_t> listed;
-    for (std::size_t i = 0; i < breakdown.lights.size(); ++i)
-        if (breakdown.lights[i].listed.at(side)) listed.push_back(i);
-    return listed;
+         notesOn(breakdown, term)}};
 }
 
 std::string listWords(const PixelBreakdown& breakdown) {
-    const std::array known{breakdown.lists_known[0], breakdown.lists_known[1]};
-    const std::array lists{listOf(breakdown, 0), listOf(breakdown, 1)};
-    const bool same = known[0] && known[1] && lists[0] == lists[1];
+    const bool same = breakdown.lists[0] && breakdown.lists[0] == breakdown.lists[1];
     std::string text;
     for (std::size_t side = 0; side < (same ? 1u : 2u); ++side) {
-        const Settings& settings = breakdown.settings.at(side);
-        if (known.at(side))
+        const Assignment assign = breakdown.settings.at(side).assign;
+        if (const auto& list = breakdown.lists.at(side))
             text += fmt::format("{} {} of {} (--assign {}){}{}\n",
                                 same ? "both paths evaluate" : breakdown.names.at(side) + " evaluates",
-                                lists.at(side).size(), counted(breakdown.lights.size(), "light"),
-                                nameOf(settings.assign), lists.at(side).empty() ? "" : ": ",
-                                fmt::join(lists.at(side), ", "));
-        else if (settings.assign == Assignment::per_object)
+                                list->size(), counted(breakdown.lights.size(), "light"), nameOf(assign),
+                                list->empty() ? "" : ": ", fmt::join(*list, ", "));
+        else if (assign == Assignment::per_object)
             text += fmt::format("{} evaluates the object's lights (--assign per_object)\n",
                                 breakdown.names.at(side));
         else
@@ -193,7 +167,8 @@ std::string termsText(const PixelBreakdown& breakdown) {
         {"term, W/(sr m^2)", breakdown.names[0], breakdown.names[1], "reference", "difference", ""});
     std::vector<std::size_t> dark;
     for (const PixelTerm& term : breakdown.terms) {
-        if (term.kind == PixelTerm::Kind::light && isNothing(term))
+        if (term.kind == PixelTerm::Kind::light &&
+            std::ranges::all_of(term.values, [](const glm::dvec3& v) { return v == glm::dvec3(0); }))
             dark.push_back(term.lights.front());
         else
             table.rows.push_back(termRow(breakdown, term));
@@ -207,13 +182,9 @@ std::string termsText(const PixelBreakdown& breakdown) {
     return text;
 }
 
-double worstOf(const std::array<double, 3>& v) {
-    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-}
-
 // Why lit is not the sum of its terms, for a path (0, 1) or the reference (2).
-std::string residualReason(const PixelBreakdown& breakdown, std::size_t side, const PixelTerm& residual) {
-    const double left = worstOf(side < 2 ? residual.values.at(side) : residual.reference.value());
+std::string residualReason(const PixelBreakdown& breakdown, std::size_t side) {
+    const double left = largest(breakdown.terms.back().values.at(side));
     if (left == 0) return "0";
     if (left <= breakdown.residual_rounding.at(side))
         return fmt::format("{:.2g}, within {} ({:.2g} at most)", left,
@@ -229,10 +200,9 @@ std::string residualReason(const PixelBreakdown& breakdown, std::size_t side, co
 }
 
 std::string residualText(const PixelBreakdown& breakdown) {
-    const PixelTerm& residual = breakdown.terms.back();
     return fmt::format("lit minus the sum: {}: {}; {}: {}; reference: {}\n", breakdown.names[0],
-                       residualReason(breakdown, 0, residual), breakdown.names[1],
-                       residualReason(breakdown, 1, residual), residualReason(breakdown, 2, residual));
+                       residualReason(breakdown, 0), breakdown.names[1], residualReason(breakdown, 1),
+                       residualReason(breakdown, 2));
 }
 
 std::string howTermsWereMade(const PixelBreakdown& breakdown) {
@@ -251,66 +221,60 @@ std::string howTermsWereMade(const PixelBreakdown& breakdown) {
     return text + (alone < all ? fmt::format("; the other {} together\n", all - alone) : "\n");
 }
 
-const PixelStep* stepOf(const PixelBreakdown& breakdown, Channel mode) {
-    for (const PixelStep& step : breakdown.steps)
-        if (step.mode->channel == mode) return &step;
-    return nullptr;
-}
-
 std::string headline(const PixelBreakdown& breakdown) {
-    std::string text =
-        fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", breakdown.scene,
-                    breakdown.camera.empty() ? "" : ", ", breakdown.camera, breakdown.x, breakdown.y,
-                    breakdown.size.width, breakdown.size.height, breakdown.names[1], breakdown.names[0]);
+    std::string text = fmt::format("{}{}{}: pixel {},{} of {}x{}, {} against {}\n", breakdown.scene,
+                                   breakdown.camera.empty() ? "" : ", ", breakdown.camera, breakdown.x,
+                                   breakdown.y, breakdown.settings[0].size.width,
+                                   breakdown.settings[0].size.height, breakdown.names[1], breakdown.names[0]);
     if (!breakdown.shown)
         return text + (breakdown.blended ? "background: no opaque surface, only blended fragments\n"
                                          : "background: no surface\n");
-    const PixelStep* const ids = stepOf(breakdown, Channel::material_id);
+    const auto ids = std::ranges::find(breakdown.steps, Channel::material_id,
+                                       [](const PixelStep& step) { return step.mode->channel; });
     text +=
         fmt::format("material {}{}", breakdown.material,
                     breakdown.material_name.empty() ? "" : fmt::format(", \"{}\"", breakdown.material_name));
-    if (ids && ids->differs) text += fmt::format(" (missing or different in {})", breakdown.names[1]);
-    const auto& p = breakdown.position;
+    if (ids != breakdown.steps.end() && ids->differs)
+        text += fmt::format(" (missing or different in {})", breakdown.names[1]);
+    const glm::dvec3& p = breakdown.position;
     return text + fmt::format("; at {:.6g}, {:.6g}, {:.6g} m\n", p[0], p[1], p[2]);
 }
 
 // "0.301 against 0.298"
-std::string against(std::span<const double> a, std::span<const double> b) {
-    const std::array values{a, b};
-    const Digits digits(values);
+std::string against(Numbers a, Numbers b) {
+    const Digits digits(std::array{a, b});
     return fmt::format("{} against {}", digits(b), digits(a));
 }
 
+std::vector<std::string_view> namesOf(const PixelBreakdown& breakdown, bool PixelStep::*is) {
+    std::vector<std::string_view> names;
+    for (const PixelStep& step : breakdown.steps)
+        if (step.*is) names.push_back(step.mode->name);
+    return names;
+}
+
 std::string verdictLine(const PixelBreakdown& breakdown) {
-    std::vector<std::string> beyond;
-    std::size_t compared = 0;
-    for (const PixelStep& step : breakdown.steps) {
-        compared += step.isCompared();
-        if (step.isCompared() && step.beyond) beyond.emplace_back(step.mode->name);
-    }
+    const std::vector<std::string_view> beyond = namesOf(breakdown, &PixelStep::beyond);
     return beyond.empty()
-               ? fmt::format("pass: at this pixel all {} shared channels are within tolerance\n", compared)
+               ? fmt::format("pass: at this pixel all {} shared channels are within tolerance\n",
+                             std::ranges::count_if(breakdown.steps, &PixelStep::isCompared))
                : fmt::format("FAIL: at this pixel beyond tolerance: {}\n", fmt::join(beyond, ", "));
 }
 
-Json numbersJson(std::span<const double> values) {
+// null without values.
+Json numbersJson(Numbers values) {
+    if (values.empty()) return nullptr;
     Json list = Json::array();
     for (const double v : values) list.push_back(finiteOrNull(v));
     return list;
 }
 
 Json stepsJson(const PixelBreakdown& breakdown) {
-    const auto orNull = [](const PixelValue& value) {
-        return value.empty() ? Json(nullptr) : numbersJson(value);
-    };
     Json steps = Json::array();
     for (const PixelStep& step : breakdown.steps) {
-        Json one{{"number", channelNumber(step.mode->channel)},
-                 {"name", step.mode->name},
-                 {"metric", nameOf(step.mode->metric)},
-                 {"baseline", orNull(step.values[0])},
-                 {"test", orNull(step.values[1])},
-                 {"reference", orNull(step.reference)}};
+        Json one{{"number", channelNumber(step.mode->channel)}, {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->metric)},         {"baseline", numbersJson(step.values[0])},
+                 {"test", numbersJson(step.values[1])},         {"reference", numbersJson(step.values[2])}};
         if (step.isCompared()) {
             one["difference"] = finiteOrNull(step.difference);
             one["differs"] = step.differs;
@@ -334,9 +298,11 @@ Json lightsJson(const PixelBreakdown& breakdown) {
                  {"distance", finiteOrNull(facts.distance)},
                  {"range", finiteOrNull(facts.range)},
                  {"casts", facts.casts}};
-        for (std::size_t side = 0; side < 2; ++side)
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto& list = breakdown.lists.at(side);
             one[side == 0 ? "in_baseline_list" : "in_test_list"] =
-                breakdown.lists_known.at(side) ? Json(facts.listed.at(side)) : Json(nullptr);
+                list ? Json(std::ranges::binary_search(*list, i)) : Json(nullptr);
+        }
         lights.push_back(std::move(one));
     }
     return lights;
@@ -345,14 +311,15 @@ Json lightsJson(const PixelBreakdown& breakdown) {
 Json termsJson(const PixelBreakdown& breakdown) {
     Json terms = Json::array();
     for (const PixelTerm& term : breakdown.terms)
-        terms.push_back({{"kind", nameOf(term.kind)},
-                         {"lights", term.lights},
-                         {"baseline", numbersJson(term.values[0])},
-                         {"test", numbersJson(term.values[1])},
-                         {"reference", term.reference ? numbersJson(*term.reference) : Json(nullptr)},
-                         {"uncertainty", term.uncertainty},
-                         {"difference", finiteOrNull(term.difference)},
-                         {"differs", term.differs}});
+        terms.push_back(
+            {{"kind", nameOf(term.kind)},
+             {"lights", term.lights},
+             {"baseline", numbersJson(numbersOf(term.values[0]))},
+             {"test", numbersJson(numbersOf(term.values[1]))},
+             {"reference", numbersJson(term.has_reference ? numbersOf(term.values[2]) : Numbers())},
+             {"uncertainty", term.uncertainty},
+             {"difference", finiteOrNull(term.difference)},
+             {"differs", term.differs}});
     return terms;
 }
 
@@ -370,7 +337,8 @@ std::string firstDifference(const PixelBreakdown& breakdown) {
         return fmt::format(
             "the first step that differs by more than rounding: {} ({} W/(sr m^2), relative difference "
             "{:.3g}; the surfaces are the same)",
-            titleOf(breakdown, *term), against(term->values[0], term->values[1]), term->difference);
+            titleOf(breakdown, *term), against(numbersOf(term->values[0]), numbersOf(term->values[1])),
+            term->difference);
     return "no step differs by more than rounding";
 }
 
@@ -390,9 +358,7 @@ std::string inWords(const PixelBreakdown& breakdown) {
         text += listWords(breakdown) + howTermsWereMade(breakdown) + termsText(breakdown) +
                 residualText(breakdown);
     text += inText(steps, before);
-    std::vector<std::string_view> differing;
-    for (const PixelStep& step : breakdown.steps)
-        if (step.differs) differing.push_back(step.mode->name);
+    const std::vector<std::string_view> differing = namesOf(breakdown, &PixelStep::differs);
     text += fmt::format("{}\n", firstDifference(breakdown));
     if (differing.size() > 1)
         text += fmt::format("{} channels differ: {}\n", differing.size(), fmt::join(differing, ", "));
@@ -411,7 +377,7 @@ nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
         {"scene", breakdown.scene},
         {"camera", breakdown.camera},
         {"pixel", {breakdown.x, breakdown.y}},
-        {"size", {breakdown.size.width, breakdown.size.height}},
+        {"size", {breakdown.settings[0].size.width, breakdown.settings[0].size.height}},
         {"baseline", breakdown.names[0]},
         {"test", breakdown.names[1]},
         {"settings",
@@ -420,7 +386,7 @@ nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
         {"blended", breakdown.blended},
         {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
                                      : Json(nullptr)},
-        {"position", breakdown.shown ? numbersJson(breakdown.position) : Json(nullptr)},
+        {"position", numbersJson(breakdown.shown ? numbersOf(breakdown.position) : Numbers())},
         {"steps", stepsJson(breakdown)},
         {"lights", lightsJson(breakdown)},
         {"drawn_alone", breakdown.drawn_alone},

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 namespace diptych {
@@ -27,20 +26,17 @@ double factorial(int n) {
     return std::tgamma(n + 1.0);
 }
 
-// Caches evaluated subsets.
-class Asked {
-public:
-    explicit Asked(const SubsetValue& value) : value_(value) {}
-    double operator()(Subset subset) {
-        const auto found = known_.find(subset);
-        return found != known_.end() ? found->second : known_.emplace(subset, value_(subset)).first->second;
-    }
-    std::size_t size() const { return known_.size(); }
+// Weight of a subset of `size` other causes in one cause's share: the probability that exactly these
+// precede it, |S|! (n - |S| - 1)! / n!.
+double shareWeight(int causes, int size) {
+    return factorial(size) * factorial(causes - size - 1) / factorial(causes);
+}
 
-private:
-    const SubsetValue& value_;
-    std::unordered_map<Subset, double> known_;
-};
+Subset countOfSubsets(int causes) {
+    if (causes < 0 || causes > mostExactCauses)
+        throw std::invalid_argument("exact shares are of at most 8 causes");
+    return Subset{1} << causes;
+}
 
 // The orders of sampledShares(), each followed by its reverse.
 std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_t seed) {
@@ -60,7 +56,7 @@ std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_
     return all;
 }
 
-void addExtremes(Shares& shares, int causes, Asked& value) {
+void addExtremes(Shares& shares, int causes, const SubsetValue& value) {
     const Subset all = allOf(causes);
     const double none = value(0), whole = value(all);
     shares.all = whole - none;
@@ -73,26 +69,18 @@ void addExtremes(Shares& shares, int causes, Asked& value) {
 
 }  // namespace
 
-double shareWeight(int causes, int size) {
-    return factorial(size) * factorial(causes - size - 1) / factorial(causes);
-}
-
 Shares exactShares(int causes, const SubsetValue& value) {
-    if (causes < 0 || causes > mostExactCauses)
-        throw std::invalid_argument("exact shares are of at most 8 causes");
-    Asked known(value);
-    const Subset end = allOf(causes) + 1;
-    for (Subset subset = 0; subset < end; ++subset) known(subset);
+    const Subset end = countOfSubsets(causes);
     Shares shares;
     shares.share.resize(placeOfCause(causes));
     shares.interval.resize(placeOfCause(causes));
-    addExtremes(shares, causes, known);
+    addExtremes(shares, causes, value);
     for (Subset subset = 0; subset < end; ++subset)
         for (int i = 0; i < causes; ++i) {
             const Subset one = Subset{1} << i;
             if ((subset & one) != 0) continue;
             shares.share[placeOfCause(i)] +=
-                shareWeight(causes, std::popcount(subset)) * (known(subset | one) - known(subset));
+                shareWeight(causes, std::popcount(subset)) * (value(subset | one) - value(subset));
         }
     for (int j = 1; j < causes; ++j)
         for (int i = 0; i < j; ++i) {
@@ -101,18 +89,15 @@ Shares exactShares(int causes, const SubsetValue& value) {
             for (Subset subset = 0; subset < end; ++subset)
                 if ((subset & (a | b)) == 0)
                     sum += shareWeight(causes - 1, std::popcount(subset)) *
-                           (known(subset | a | b) - known(subset | a) - known(subset | b) + known(subset));
+                           (value(subset | a | b) - value(subset | a) - value(subset | b) + value(subset));
             shares.interaction.push_back(sum);
         }
-    shares.asked = known.size();
     return shares;
 }
 
 std::vector<SubsetWeights> exactWeights(int causes) {
-    if (causes < 0 || causes > mostExactCauses)
-        throw std::invalid_argument("exact shares are of at most 8 causes");
     std::vector<SubsetWeights> all;
-    for (Subset subset = 0; subset <= allOf(causes); ++subset) {
+    for (Subset subset = 0, end = countOfSubsets(causes); subset < end; ++subset) {
         const int size = std::popcount(subset);
         SubsetWeights& weights = all.emplace_back(SubsetWeights{subset, {}});
         for (int i = 0; i < causes; ++i)
@@ -147,7 +132,6 @@ std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t 
 
 Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint64_t seed) {
     const std::vector<std::vector<int>> all = sampledOrders(causes, orders, seed);
-    Asked known(value);
     std::vector<double> sum(placeOfCause(causes)), squares(placeOfCause(causes)), one(placeOfCause(causes));
     const int samples = orders / 2;
     for (std::size_t at = 0; at < all.size(); at += 2) {
@@ -156,7 +140,7 @@ Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint
             Subset swapped = 0;
             for (const int i : order) {
                 const Subset more = swapped | Subset{1} << i;
-                one[placeOfCause(i)] += 0.5 * (known(more) - known(swapped));
+                one[placeOfCause(i)] += 0.5 * (value(more) - value(swapped));
                 swapped = more;
             }
         }
@@ -175,8 +159,7 @@ Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint
         shares.share.push_back(mean);
         shares.interval.push_back(student * std::sqrt(variance));
     }
-    addExtremes(shares, causes, known);
-    shares.asked = known.size();
+    addExtremes(shares, causes, value);
     return shares;
 }
 

@@ -5,7 +5,6 @@
 // for another has a negative share.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -14,7 +13,7 @@ namespace diptych {
 
 using Subset = std::uint32_t;  // a bit per cause, the first is the lowest
 
-// The effect of swapping the causes of a subset. Called at most once per subset by the functions below.
+// The effect of swapping the causes of a subset.
 using SubsetValue = std::function<double(Subset)>;
 
 constexpr int mostExactCauses = 8;  // 256 subsets
@@ -31,12 +30,7 @@ struct Shares {
     // interaction among players in cooperative games"). Negative: one makes the other redundant; positive:
     // one hides the other's effect. Empty if shares are sampled.
     std::vector<double> interaction;
-    std::size_t asked = 0;  // number of evaluated subsets
 };
-
-// Weight of a subset of `size` other causes in one cause's share: the probability that exactly these
-// precede it, |S|! (n - |S| - 1)! / n!.
-double shareWeight(int causes, int size);
 
 // The same shares as a linear form, for values that are images: share i is the sum over the subsets,
 // ascending, of weight[i] times the value.
@@ -47,7 +41,7 @@ struct SubsetWeights {
 std::vector<SubsetWeights> exactWeights(int causes);
 std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed);
 
-// Evaluates every subset once, ascending. Throws std::invalid_argument beyond mostExactCauses.
+// Of every subset. Throws std::invalid_argument beyond mostExactCauses.
 Shares exactShares(int causes, const SubsetValue& value);
 
 // From `orders` random orders of the causes (Castro, Gomez and Tejada 2009, "Polynomial calculation of the

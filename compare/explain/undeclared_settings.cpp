@@ -2,7 +2,6 @@
 #include "compare/explain/undeclared_settings.h"
 
 #include "compare/explain/conventions.h"
-#include "compare/explain/exposure.h"
 #include "compare/explain/frame_images.h"
 #include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
@@ -29,14 +28,18 @@ constexpr double believedRest = 0.5;
 constexpr int mostBelieved = 3;
 constexpr double leastBrighter = 0.01;
 
+// Whether an image is from another renderer: its Settings are the request, not necessarily what it does.
+bool isForeign(const Frame& frame) {
+    return frame.origin.external || (!frame.origin.file.empty() && frame.origin.commit.empty());
+}
+
 class UndeclaredSearch {
 public:
     UndeclaredSearch(const ExplainedSides& sides, ChannelLighting& lighting)
         : sides_(sides), lighting_(lighting), said_(sides.settings(1)) {}
 
     std::vector<UndeclaredSetting> find() {
-        for (std::size_t side = 0; side < 2; ++side)
-            beyond_.at(side) = beyond(comparable(sides_.settings(side), side), side);
+        beyond_ = {beyond(comparable(sides_.settings(0), 0), 0), beyond(comparable(said_, 1), 1)};
         if (sameBits(beyond_[0], beyond_[1])) return {};
         if (isForeign(sides_.frame(1))) findConventions();
         double left = meanOf(errorsOf(beyond_[1], beyond_[0]));
@@ -49,7 +52,7 @@ public:
                 // A true change of ambient light also affects the haze.
                 if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
                 const double changed = meanOf(errorsOf(ours, said));
-                const double residual = meanOf(errorsOf(beyond(ours, 1), beyond_[0]));
+                const double residual = distance(ours);
                 if (!(residual < least) || !(left - residual > believedRest * changed) ||
                     (tried.guessed && !(residual < believedRest * left)))
                     continue;
@@ -67,9 +70,8 @@ public:
 
 private:
     void findConventions() {
-        const ConventionTrial trial{
-            [&](const Settings& settings) { return comparable(settings, 1); },
-            [&](const Image& ours) { return meanOf(errorsOf(beyond(ours, 1), beyond_[0])); }};
+        const ConventionTrial trial{[&](const Settings& settings) { return comparable(settings, 1); },
+                                    [&](const Image& ours) { return distance(ours); }};
         for (const Convention& each : nearestConventions(said_, trial)) {
             said_ = withConventions(said_, {each});
             found_.push_back({each.option, said_, std::string(each.shows)});
@@ -183,6 +185,8 @@ private:
     Image beyond(const Image& ours, std::size_t side) const {
         return differenceOf(sides_.haveTerms() ? sumOfTerms(sides_.frame(side)) : sides_.lit(side), ours);
     }
+    // How far the test's residual beyond that image is from the baseline's.
+    double distance(const Image& ours) const { return meanOf(errorsOf(beyond(ours, 1), beyond_[0])); }
     bool bringsHazeNearer(const Settings& tried) {
         if (!sides_.haveTerms()) return true;
         const Image& theirs = channelOf(sides_.frame(1), Channel::lit_haze);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/drawing_work.h"
 
-#include "compare/explain/pixel_words.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/render/path_plan.h"
 #include "compare/verdict/pair_reports.h"

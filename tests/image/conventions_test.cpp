@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Conventions in which renderers differ, in both paths and the reference: how a coloured layer attenuates
 // the base, how a spot fades, how a light ends at its range.
+#include "compare/explain/conventions.h"
 #include "compare/explain/explain.h"
-#include "compare/explain/substitute.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 

@@ -48,7 +48,7 @@ std::string listed(const Explanation& e) {
     std::string text;
     for (const Cause& cause : e.causes) {
         text += fmt::format("{} {:.1f} %, ", cause.name, 100 * e.shareOf(cause.share));
-        for (const LightShare& light : cause.lights)
+        for (const CausePart& light : cause.lights)
             text += fmt::format("({} {:.1f} %) ", light.name, 100 * e.shareOf(light.share));
     }
     return text + fmt::format("unexplained {:.1f} %", 100 * e.shareOf(e.unexplained));
@@ -108,8 +108,8 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
             const Explanation e = view->explained(view->with(fault));
             std::map<std::string, double> parts;
             for (const Cause& cause : e.causes)
-                for (const LightShare& light : cause.lights)
-                    parts[light.name + std::to_string(light.light)] += light.share;
+                for (const CausePart& light : cause.lights)
+                    parts[light.name + std::to_string(light.index)] += light.share;
             const auto most =
                 std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
             const bool named = most != parts.end() && most->first.starts_with(firstLight);

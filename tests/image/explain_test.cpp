@@ -167,7 +167,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
             wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
         EXPECT_EQ(wrong, 0u);
         double ofMaterials = 0;
-        for (const MaterialShare& one : e.causes[0].materials) ofMaterials += one.share;
+        for (const CausePart& one : e.causes[0].materials) ofMaterials += one.share;
         EXPECT_NEAR(ofMaterials, e.distance, 1e-6 * e.distance);
     }
     EXPECT_GE(effective, 4);
@@ -383,7 +383,7 @@ TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
         ASSERT_FALSE(e.causes.empty());
         EXPECT_EQ(e.causes.front().name, "shadow_visibility");
         ASSERT_EQ(e.causes.front().lights.size(), 1u);
-        EXPECT_EQ(e.causes.front().lights[0].light, 0u) << "the first sun alone casts";
+        EXPECT_EQ(e.causes.front().lights[0].index, 0) << "the first sun alone casts";
         EXPECT_NEAR(e.causes.front().lights[0].share, e.causes.front().share, 1e-3 * e.causes.front().share);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The window's drawing thread produces the same results as the other commands, and it survives errors.
-#include "compare/explain/pixel_words.h"
+#include "compare/explain/pixel_breakdown.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/picture/picture.h"
 #include "compare/render/renderer.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images and page of a hand-made explanation.
-#include "compare/explain/html.h"
 #include "compare/explain/pictures.h"
-#include "compare/explain/words.h"
+#include "compare/explain/write.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Attribution of a change of direct light to single lights, and of a factor in lit, compared with known
 // changes.
-#include "compare/explain/by_light.h"
-#include "compare/explain/exposure.h"
+#include "compare/explain/frame_images.h"
+#include "compare/explain/light_shares.h"
 
 #include <gtest/gtest.h>
 

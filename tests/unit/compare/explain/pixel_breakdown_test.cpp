@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Text of a pixel breakdown for given steps and light terms, without drawing.
-#include "compare/explain/pixel_words.h"
+#include "compare/explain/pixel_breakdown.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -15,7 +16,7 @@ namespace {
 PixelStep stepOf(Channel mode, const PixelValue& a, const PixelValue& b, double tolerance) {
     PixelStep step;
     step.mode = &debugMode(mode);
-    step.values = {a, b};
+    step.values = {a, b, {}};
     step.difference = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
         step.difference = std::max(step.difference, std::abs(a[i] - b[i]));
@@ -28,11 +29,10 @@ PixelStep stepOf(Channel mode, const PixelValue& a, const PixelValue& b, double 
 PixelBreakdown breakdownOf(std::vector<PixelStep> steps) {
     PixelBreakdown breakdown;
     breakdown.names = {"deferred", "forward_plus"};
-    breakdown.size = {4, 4};
     breakdown.shown = true;
     breakdown.steps = std::move(steps);
     for (const PixelTerm::Kind kind : {PixelTerm::Kind::sum, PixelTerm::Kind::lit, PixelTerm::Kind::residual})
-        breakdown.terms.push_back({.kind = kind, .reference = std::array{0.0, 0.0, 0.0}});
+        breakdown.terms.push_back({.kind = kind});
     return breakdown;
 }
 
@@ -73,7 +73,8 @@ TEST(PixelBreakdown, ATermComesBeforeTheLightItMakes) {
         {stepOf(Channel::depth, {1}, {1}, 0), stepOf(Channel::lit, {1, 1, 1}, {1, 1, 1.5}, 0.01)});
     breakdown.lights.push_back({.name = "lamp", .kind = "point"});
     PixelTerm lamp{.lights = {0}};
-    lamp.values = {std::array{1.0, 1.0, 1.0}, std::array{1.0, 1.0, 1.5}};
+    lamp.values = {glm::dvec3(1), glm::dvec3(1, 1, 1.5), glm::dvec3(0)};
+    lamp.has_reference = false;
     lamp.difference = 0.5;
     lamp.differs = true;
     breakdown.terms.insert(breakdown.terms.begin(), lamp);
