@@ -102,10 +102,8 @@ Outcome failedOutcome(const std::string& why) {
 
 bool isNearBlended(const Image& blended, std::size_t pixel, int reach) {
     if (blended.pixels() == 0) return false;
-    const int x = static_cast<int>(pixel) % blended.width, y = static_cast<int>(pixel) / blended.width;
-    bool found = *blended.pixel(pixel) > 0;
-    around(
-        blended, x, y, [&](int u, int v) { found = found || blended.at(u, v) > 0; }, reach);
+    bool found = false;
+    within(blended, pixel, reach, [&](std::size_t i, int, int) { found = found || *blended.pixel(i) > 0; });
     return found;
 }
 

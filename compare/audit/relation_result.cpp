@@ -70,8 +70,9 @@ double ulpsApart(const float* a, const float* b, int components) {
 // Calls visit(index) for the pixels around one.
 template <class Visit>
 void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
-    const int x = static_cast<int>(pixel) % image.width, y = static_cast<int>(pixel) / image.width;
-    around(image, x, y, [&](int u, int v) { visit(indexOf(image, u, v)); });
+    within(image, pixel, 1, [&](std::size_t i, int, int) {
+        if (i != pixel) visit(i);
+    });
 }
 
 class Evaluation {
