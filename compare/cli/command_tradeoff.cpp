@@ -8,6 +8,7 @@
 #include "compare/run/print.h"
 #include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/sweep.h"
+#include "compare/tradeoff/tables.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>

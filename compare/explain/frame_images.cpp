@@ -23,11 +23,6 @@ constexpr double darkest = 1e-3;  // fraction of the mean
 
 }  // namespace
 
-const Image* findChannel(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    return found == frame.channels.end() ? nullptr : &found->second;
-}
-
 const Image& channelOf(const Frame& frame, Channel mode) {
     if (const Image* const image = findChannel(frame, mode)) return *image;
     throw std::runtime_error(

@@ -2,6 +2,7 @@
 // Reads channels and materials of Frames; computes differences of images and the exposure between them.
 #pragma once
 
+#include "compare/verdict/frame_pair.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
@@ -15,8 +16,6 @@
 
 namespace diptych {
 
-// nullptr if the Frame lacks it.
-const Image* findChannel(const Frame& frame, Channel mode);
 // Throws std::runtime_error, one line, if the Frame lacks it.
 const Image& channelOf(const Frame& frame, Channel mode);
 

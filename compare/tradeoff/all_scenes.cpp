@@ -6,7 +6,6 @@
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/plot/drawing.h"
-#include "compare/tradeoff/html.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"

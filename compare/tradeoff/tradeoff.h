@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace diptych::tradeoff {
@@ -64,27 +65,14 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row);
 
-// Terminal table, written line by line. Lines fit `columns` if it has space for the row's number, time,
-// FLIP and some text. Drops other numbers and truncates Settings ("...") to fit. 0: no limit. `commands`:
-// prints the measuring command below each row.
-class TradeoffTable {
-public:
-    TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
-                  bool commands);
-    std::string head() const;
-    std::string line(const Tradeoff& tradeoff, std::size_t row) const;
-
-private:
-    output::Table head_;
-    std::size_t words_;  // width of the Settings
-    bool commands_;
-};
 // A line for each error: its front among the rows so far.
 std::string frontsText(const Tradeoff& tradeoff);
-// Fronts, warnings, skips with reasons, notes, cost.
+// Terminal text after the rows: fronts, tables, warnings, skips with reasons, notes, cost.
 std::string tradeoffEnd(const Tradeoff& tradeoff);
-// Sentences on drift of the device's speed and on the cost of the sweep.
-std::vector<std::string> howItWent(const Tradeoff& tradeoff);
+// index.html: one page without external resources, works from file://.
+std::string tradeoffHtml(const Tradeoff& tradeoff);
+// Throws std::runtime_error unless tradeoffHtml() may have written the page.
+void checkTradeoffHtml(std::string_view page);
 
 // RFC 4180, one line per row.
 std::string tradeoffCsv(const Tradeoff& tradeoff);

@@ -2,7 +2,6 @@
 #include "compare/files/listed_folder.h"
 #include "compare/files/output.h"
 #include "compare/output/writers.h"
-#include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/image/png.h"

@@ -8,7 +8,6 @@
 #include "compare/files/scene_folders.h"
 #include "compare/plot/log_axis.h"
 #include "compare/report/trends.h"
-#include "compare/tradeoff/html.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"

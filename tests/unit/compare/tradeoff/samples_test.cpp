@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Savings and changes from deferred lighting's sample groups, per row of a sweep.
 #include "compare/output/writers.h"
-#include "compare/tradeoff/sample_figures.h"
+#include "compare/tradeoff/captured_errors.h"
+#include "compare/tradeoff/tables.h"
 #include "shared/contract/debug_mode.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
     Tradeoff tradeoff;
     tradeoff.given.path = Path::deferred;
     tradeoff.given.msaa = 4;
-    EXPECT_EQ(inText(sampleTable(tradeoff)), "");
+    EXPECT_TRUE(sampleBlocks(tradeoff).empty());
     for (const MsaaEdges edges : {MsaaEdges::exact, MsaaEdges::similar}) {
         TradeoffRow row;
         row.settings = tradeoff.given;
@@ -63,7 +64,7 @@ TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
             row.measured.set(Measure::shaded, SampleShares{1.25, 0.125, 0.0625, 0});
         tradeoff.rows.push_back(row);
     }
-    const std::string text = inText(sampleTable(tradeoff)), html = inHtml(blocksOf(sampleTable(tradeoff)));
+    const std::string text = inText(sampleBlocks(tradeoff)), html = inHtml(sampleBlocks(tradeoff));
     EXPECT_NE(text.find("   2        12"), std::string::npos) << text;
     EXPECT_NE(text.find("1.25"), std::string::npos) << text;
     EXPECT_NE(text.find("msaa-edges similar"), std::string::npos) << text;

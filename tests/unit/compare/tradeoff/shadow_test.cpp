@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Errors of the sun's shadow, and the dominated rows of a sweep.
 #include "compare/output/writers.h"
-#include "compare/tradeoff/shadow_errors.h"
-#include "compare/tradeoff/shadow_rows.h"
+#include "compare/tradeoff/captured_errors.h"
+#include "compare/tradeoff/tables.h"
 #include "shared/contract/debug_mode.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +112,7 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 1, 2}));
     EXPECT_EQ(time, (std::vector{false, false, true, true}));
     EXPECT_EQ(memory, (std::vector{false, true, false, true}));
-    const std::string text = inText(shadowTable(sweep)), page = inHtml(blocksOf(shadowTable(sweep)));
+    const std::string text = inText(shadowBlocks(sweep)), page = inHtml(shadowBlocks(sweep));
     EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
     EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
     for (const experiment::NamedMeasure& figure : shadowFigures)
@@ -122,8 +122,8 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
 TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {
     const Tradeoff alike = sweptRows({{0.1, 50, 400}, {0.1, 10, 100}});
     EXPECT_TRUE(shadowRowsOf(alike).empty());
-    EXPECT_EQ(inText(shadowTable(alike)), "");
-    EXPECT_TRUE(blocksOf(shadowTable(Tradeoff())).empty());
+    EXPECT_TRUE(shadowBlocks(alike).empty());
+    EXPECT_TRUE(shadowBlocks(Tradeoff()).empty());
 }
 
 }  // namespace

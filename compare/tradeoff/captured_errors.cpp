@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/shadow_errors.h"
+#include "compare/tradeoff/captured_errors.h"
 
 #include "compare/experiment/errors.h"
 #include "compare/verdict/shadow_edges.h"
@@ -52,6 +52,37 @@ std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& 
     };
     return ShadowErrors{ofAll(wrong), share(lit, away), share(dark, away), ofAll(leaked),
                         experiment::nearestRank(std::move(gaps), 0.99)};
+}
+
+std::optional<Settings> exactEdges(const Settings& settings) {
+    if (!hasGBuffer(settings.path) || settings.msaa == 1) return {};
+    Settings exact = settings;
+    exact.msaa_edges = MsaaEdges::exact;
+    return exact;
+}
+
+std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame) {
+    const auto find = [](const Frame& of, Channel mode) {
+        const auto found = of.channels.find(mode);
+        return found == of.channels.end() ? nullptr : &found->second;
+    };
+    const Image *lit = find(frame, Channel::lit), *exact_lit = find(exact, Channel::lit),
+                *shaded = find(frame, Channel::shaded_samples),
+                *exact_shaded = find(exact, Channel::shaded_samples);
+    if (!lit || !exact_lit || !shaded || !exact_shaded || lit->pixels() != exact_lit->pixels()) return {};
+    double pixels = 0, surfaces = 0, edges = 0, differing = 0, elsewhere = 0;
+    for (std::size_t i = 0; i < lit->pixels(); ++i) {
+        const float count = shaded->pixel(i)[0];
+        if (!(count > 0)) continue;
+        ++pixels;
+        surfaces += double{count};
+        edges += count > 1;
+        const bool differs = !std::equal(lit->pixel(i), lit->pixel(i) + lit->components, exact_lit->pixel(i));
+        differing += differs;
+        elsewhere += differs && count >= exact_shaded->pixel(i)[0];
+    }
+    if (pixels == 0) return SampleShares{};
+    return SampleShares{surfaces / pixels, edges / pixels, differing / pixels, elsewhere / pixels};
 }
 
 }  // namespace diptych::tradeoff

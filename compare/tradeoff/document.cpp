@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compare/tradeoff/html.h"
+#include "compare/tradeoff/tradeoff.h"
 
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
-#include "compare/tradeoff/sample_figures.h"
-#include "compare/tradeoff/shadow_rows.h"
+#include "compare/tradeoff/tables.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -17,7 +16,9 @@
 
 namespace diptych::tradeoff {
 
+using output::Block;
 using output::Heading;
+using output::Paragraph;
 using output::Span;
 using page::markup;
 using page::number;
@@ -108,34 +109,91 @@ std::string plots(const Tradeoff& tradeoff) {
     return out + "</div></div>\n";
 }
 
-output::Terms skips(const Tradeoff& tradeoff) {
-    output::Terms terms{{}, "box skips"};
-    for (const SkipGroup& group : groupsOf(tradeoff.skips))
-        terms.items.emplace_back(group.reason, fmt::format("{}", fmt::join(group.tried, ", ")));
-    return terms;
+// A line for each error.
+output::List frontsOf(const Tradeoff& tradeoff) {
+    output::List list;
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+        std::vector<std::size_t> numbers;
+        for (const std::size_t row : frontOf(tradeoff, figure)) numbers.push_back(row + 1);
+        list.items.emplace_back(fmt::format(
+            "Pareto front of time and {}: {}", errorFigures[figure].title,
+            numbers.empty()
+                ? "none"
+                : fmt::format("row{} {}", numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "))));
+    }
+    return list;
 }
 
-output::List how(const Tradeoff& tradeoff) {
+// Sentences on the cost of the sweep and on drift of the device's speed.
+std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
+    std::vector<std::string> lines;
+    const SweepCost& cost = tradeoff.cost;
+    lines.push_back(fmt::format(
+        "It took {:.1f} s: {:.1f} s to read and upload the scene, {:.1f} s to draw the reference, "
+        "{:.1f} s to draw and time the rows, and {:.1f} s for everything else, such as comparing "
+        "them and writing files",
+        cost.whole / 1e3, cost.reading / 1e3, cost.reference / 1e3, cost.drawing / 1e3, cost.beyond() / 1e3));
+    if (tradeoff.kept > 0)
+        lines.push_back(fmt::format("{} of {} rows come from an interrupted run and keep its times",
+                                    tradeoff.kept, tradeoff.rows.size()));
+    if (const std::optional<Spread> drift = driftOf(tradeoff))
+        lines.push_back(
+            fmt::format("Frames timed after all rows were drawn, in random order, took {:.3g} times as long "
+                        "as each row's first frames ({:.3g} to {:.3g} for single rows): a smaller difference "
+                        "between two rows may be chance",
+                        drift->value, drift->low, drift->high));
+    return lines;
+}
+
+std::string measuredHow(const Tradeoff& tradeoff) {
     const char* const blocks =
         tradeoff.runs > 1
             ? "Each row is timed in several blocks: one when it is drawn, more in later rounds over all rows "
               "in random order, interleaved as far as their images fit into memory. A temporary disturbance "
               "of the device thus affects all rows alike. A row's time is the mean of its blocks' medians"
             : "Each row has one timed frame";
-    output::List list{
-        {fmt::format("Time is that of a whole frame, not split into passes, from culling to linear lit, with "
-                     "the scene already uploaded. One uncounted frame comes first. {}; with several cameras, "
-                     "the mean over them. Pass times come from a separate, profiled run.",
-                     blocks),
-         "Errors are those of linear lit over the pixels that show a surface in the reference: the mean "
-         "HDR-FLIP, and the root mean square and 99th percentile of |t-r| / max(|r|, 1e-3 of the mean "
-         "luminance). Pixels of all cameras count equally.",
-         "A row of another size is resized bilinearly to the reference's size. A resized pixel is background "
-         "if its nearest source pixel is."},
-        "box how"};
+    return fmt::format(
+        "Time is that of a whole frame, not split into passes, from culling to linear lit, with the scene "
+        "already uploaded. One uncounted frame comes first. {}; with several cameras, the mean over them. "
+        "Pass times come from a separate, profiled run.",
+        blocks);
+}
+
+// What follows the rows, and the page's plots.
+std::vector<Block> resultBlocks(const Tradeoff& tradeoff) {
+    std::vector<Block> blocks{{frontsOf(tradeoff), Block::terminal}};
+    for (const auto& tables : {shadowBlocks(tradeoff), sampleBlocks(tradeoff)})
+        blocks.insert(blocks.end(), tables.begin(), tables.end());
+    blocks.push_back(experiment::rowsBox(experiment::pointersTo(tradeoff.rows)));
+    output::List warnings{{}, ""}, went{{}, "box how"};
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        for (const std::string& warning : tradeoff.rows[i].warnings)
+            warnings.items.emplace_back(fmt::format("row {}: {}", i + 1, warning));
+    if (!warnings.items.empty())
+        blocks.insert(blocks.end(), {{Heading{2, "Warnings"}, Block::terminal}, {warnings, Block::terminal}});
+    output::Terms skips{{}, "box skips"};
+    for (const SkipGroup& group : groupsOf(tradeoff.skips))
+        skips.items.emplace_back(group.reason, fmt::format("{}", fmt::join(group.tried, ", ")));
+    if (!skips.items.empty()) blocks.insert(blocks.end(), {Heading{2, "Not drawn, and why"}, skips});
+    blocks.insert(
+        blocks.end(),
+        {Heading{2, "How it was measured"},
+         {output::List{{measuredHow(tradeoff),
+                        "Errors are those of linear lit over the pixels that show a surface in the "
+                        "reference: the mean HDR-FLIP, and the root mean square and 99th percentile of "
+                        "|t-r| / max(|r|, 1e-3 of the mean luminance). Pixels of all cameras count equally.",
+                        "A row of another size is resized bilinearly to the reference's size. A resized "
+                        "pixel is background if its nearest source pixel is."},
+                       "box how"},
+          Block::page}});
     for (const std::vector<std::string>& lines : {howItWent(tradeoff), tradeoff.notes})
-        list.items.insert(list.items.end(), lines.begin(), lines.end());
-    return list;
+        went.items.insert(went.items.end(), lines.begin(), lines.end());
+    if (driftOf(tradeoff))
+        blocks.push_back({output::List{{"Times above are from each row's first timing block; times in the "
+                                        "files are from all its frames"}},
+                          Block::terminal});
+    blocks.emplace_back(went);
+    return blocks;
 }
 
 std::string pageStyle() {
@@ -143,6 +201,14 @@ std::string pageStyle() {
 }
 
 }  // namespace
+
+std::string frontsText(const Tradeoff& tradeoff) {
+    return output::inText({frontsOf(tradeoff)});
+}
+
+std::string tradeoffEnd(const Tradeoff& tradeoff) {
+    return inText(resultBlocks(tradeoff));
+}
 
 void checkTradeoffHtml(std::string_view page) {
     output::checkPage(page, pageStyle(), tradeoffScript);
@@ -167,12 +233,7 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         .script = tradeoffScript,
         .skip = "rows"};
     for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));
-    for (const FigureTable& table : {shadowTable(tradeoff), sampleTable(tradeoff)})
-        for (output::Block& block : blocksOf(table)) page.blocks.push_back(std::move(block));
-    page.blocks.push_back(experiment::rowsBox(experiment::pointersTo(tradeoff.rows)));
-    if (!tradeoff.skips.empty())
-        page.blocks.insert(page.blocks.end(), {Heading{2, "Not drawn, and why"}, skips(tradeoff)});
-    page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, how(tradeoff)});
+    for (Block& block : resultBlocks(tradeoff)) page.blocks.push_back(std::move(block));
     return inHtml(page);
 }
 

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "compare/tradeoff/tables.h"
+
+#include "compare/experiment/pareto.h"
+#include "compare/output/writers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace diptych::tradeoff {
+
+using experiment::cellOf;
+using experiment::columnOf;
+using output::Cell;
+using output::Column;
+using output::Span;
+
+namespace {
+
+// Columns of every row, and their widths in a terminal.
+constexpr std::pair<Measure, std::size_t> sweepMeasures[] = {
+    {Measure::ms, 8},     {Measure::ms_min, 8},         {Measure::ms_max, 8},
+    {Measure::flip, 8},   {Measure::relative_rmse, 13}, {Measure::relative_p99, 12},
+    {Measure::memory, 10}};
+
+Cell settingsCell(const TradeoffRow& row, const std::string& words) {
+    return output::Text{Span("", Span::swatch, nameOf(row.settings.path)), words};
+}
+
+std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, std::string_view option) {
+    std::vector<Choice> choices = choicesOf(settings, tradeoff.given);
+    const auto named = [&](const Choice& choice) { return choice.first == option; };
+    if (std::ranges::none_of(choices, named))
+        choices.insert(choices.begin() + 1, {std::string(option), settings.valueOf(option)});
+    return inWords(choices);
+}
+
+// Rows on the front of time and each error.
+using Fronts = std::array<std::vector<std::size_t>, errorFigures.size()>;
+
+output::Table sweepHead() {
+    output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
+    for (const auto& [measure, width] : sweepMeasures) table.columns.push_back(columnOf(measure, width));
+    table.columns.insert(table.columns.end(), {{"front", Column::words, 0, Column::page},
+                                               {"command", Column::prose, 0, Column::page}});
+    table.sortable = true;
+    return table;
+}
+
+output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    output::Row cells{
+        {fmt::format("{}", index + 1), settingsCell(row, inWords(row, tradeoff.given))}, "", index + 1};
+    for (const auto& [measure, width] : sweepMeasures) cells.cells.push_back(cellOf(row, measure));
+    std::vector<std::string_view> on;
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
+    cells.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
+    cells.cells.emplace_back(Span(measuringCommand(tradeoff, row), Span::command));
+    return cells;
+}
+
+// Row, settings, time, memory and the measures from `first` to `last`.
+output::Table figureHead(Measure first, Measure last) {
+    output::Table table{{{"row", Column::number, 4},
+                         {"settings", Column::prose},
+                         columnOf(Measure::ms, 8),
+                         columnOf(Measure::memory, 10)}};
+    table.sortable = true;
+    for (Measure measure = first; measure <= last; measure = measure + 1)
+        table.columns.push_back(columnOf(measure, 10));
+    return table;
+}
+
+// Its cells. The row's Settings include `option`, even at its given value.
+output::Row figureRow(const Tradeoff& tradeoff, std::size_t index, std::string_view option, Measure first,
+                      Measure last) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    output::Row cells{
+        {fmt::format("{}", index + 1), settingsCell(row, settingsInWords(tradeoff, row.settings, option)),
+         cellOf(row, Measure::ms), cellOf(row, Measure::memory)},
+        "",
+        index + 1};
+    for (Measure measure = first; measure <= last; measure = measure + 1)
+        cells.cells.push_back(cellOf(row, measure));
+    return cells;
+}
+
+// Marks rows that are not on the Pareto front of error and cost.
+void markBeaten(const Tradeoff& tradeoff, std::vector<ShadowRow>& rows, Measure cost,
+                bool ShadowRow::*beaten) {
+    std::vector<experiment::TimeError> points;
+    for (const ShadowRow& row : rows)
+        points.push_back({tradeoff.rows[row.row][cost], tradeoff.rows[row.row][Measure::shadow_error]});
+    for (ShadowRow& row : rows) row.*beaten = true;
+    for (const std::size_t i : paretoFront(points)) rows[i].*beaten = false;
+}
+
+std::string beatenIn(const ShadowRow& row) {
+    std::vector<std::string> words;
+    if (row.dominated_in_time) words.emplace_back("time");
+    if (row.dominated_in_memory) words.emplace_back("memory");
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::vector<output::Block> blocksOf(const char* title, const char* explanation, const output::Table& table) {
+    if (table.rows.empty()) return {};
+    return {output::Heading{2, title}, {output::Paragraph{explanation, "soft"}, output::Block::page}, table};
+}
+
+// Columns that a narrow terminal lacks; the first are dropped first.
+constexpr std::string_view leftOut[] = {"max", "min", errorFigures[2].title, "memory", errorFigures[1].title};
+constexpr std::size_t fewestWords = 24;
+
+}  // namespace
+
+output::Table sweepTable(const Tradeoff& tradeoff) {
+    output::Table table = sweepHead();
+    Fronts fronts;
+    for (std::size_t f = 0; f < fronts.size(); ++f) fronts[f] = frontOf(tradeoff, f);
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        table.rows.push_back(sweepRow(tradeoff, i, fronts));
+    return table;
+}
+
+std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
+    std::vector<ShadowRow> rows;
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        if (tradeoff.rows[i].measured.has(Measure::shadow_error)) rows.push_back({i});
+    const auto differs = [&](const ShadowRow& row) {
+        for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+            if (tradeoff.rows[row.row][Measure::shadow_error + f] !=
+                tradeoff.rows[rows.front().row][Measure::shadow_error + f])
+                return true;
+        return false;
+    };
+    if (std::ranges::none_of(rows, differs)) return {};
+    std::ranges::stable_sort(
+        rows, {}, [&](const ShadowRow& row) { return tradeoff.rows[row.row][Measure::shadow_error]; });
+    markBeaten(tradeoff, rows, Measure::ms, &ShadowRow::dominated_in_time);
+    markBeaten(tradeoff, rows, Measure::memory, &ShadowRow::dominated_in_memory);
+    return rows;
+}
+
+std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
+    output::Table table = figureHead(Measure::shadow_error, Measure::gap);
+    table.columns.push_back({"dominated in", Column::words, 12});
+    for (const ShadowRow& row : shadowRowsOf(tradeoff))
+        table.rows.emplace_back(figureRow(tradeoff, row.row, "shadows", Measure::shadow_error, Measure::gap))
+            .cells.emplace_back(beatenIn(row));
+    return blocksOf(
+        "Sun shadow, compared with traced rays",
+        "V: fraction of the sun a pixel sees; R: the same in the reference; E: irradiance of the unshadowed "
+        "sun. A pixel within the filter radius plus a texel of a traced edge counts as neither false lit nor "
+        "false dark. A row is dominated if another has no more error and takes no more time, or memory.",
+        table);
+}
+
+std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff) {
+    output::Table table = figureHead(Measure::shaded, Measure::elsewhere);
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        if (tradeoff.rows[i].measured.has(Measure::shaded))
+            table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", Measure::shaded, Measure::elsewhere));
+    return blocksOf("Samples that deferred lighting shades",
+                    "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
+                    "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
+                    "is that of all samples. The other modes are compared with exact.",
+                    table);
+}
+
+TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
+                             bool commands)
+    : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
+    for (const Settings& row : rows)
+        words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
+    std::size_t width = 0;
+    for (const Column& column : head_.columns)
+        if (column.kind == Column::number) width += column.width + head_.gap;
+    for (const std::string_view title : leftOut) {
+        if (columns == 0 || width + std::min(words_, fewestWords) <= columns) break;
+        Column& column = *std::ranges::find(head_.columns, title, &Column::title);
+        column.where = Column::page;
+        width -= column.width + head_.gap;
+    }
+    if (columns > 0) words_ = std::min(words_, std::max(columns - std::min(columns, width), fewestWords));
+}
+
+std::string TradeoffTable::head() const {
+    return inText(head_);
+}
+
+std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) const {
+    const TradeoffRow& row = tradeoff.rows[index];
+    output::Table table = head_;
+    table.rows = {sweepRow(tradeoff, index, {})};
+    if (const std::string words = inWords(row, tradeoff.given); words.size() > words_)
+        table.rows[0].cells[1] = words.substr(0, words_ - 3) + "...";
+    std::string line = inText(table, 1);
+    if (commands_)
+        line += fmt::format("{:>{}}{}\n", "", table.columns[0].width + table.gap,
+                            measuringCommand(tradeoff, row));
+    return line;
+}
+
+}  // namespace diptych::tradeoff

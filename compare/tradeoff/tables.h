@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Tables of a sweep's rows: all of them, and those with measures of shadows or samples.
+#pragma once
+
+#include "compare/output/document.h"
+#include "compare/tradeoff/tradeoff.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace diptych::tradeoff {
+
+// Every row. The terminal's columns have fixed widths.
+output::Table sweepTable(const Tradeoff& tradeoff);
+
+// A row with an evaluated sun shadow. Dominated: another has no more error and no more time (or memory), and
+// less of one of them.
+struct ShadowRow {
+    std::size_t row = 0;  // index
+    bool dominated_in_time = false, dominated_in_memory = false;
+};
+// By ascending error. Empty if the reference traced no shadow-casting sun, or if all rows have equal
+// shadows.
+std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff);
+
+// With heading and explanation; none without rows.
+std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff);
+std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff);
+
+// Terminal table, written line by line. Lines fit `columns` if it has space for the row's number, time,
+// FLIP and some text. Drops other numbers and truncates Settings ("...") to fit. 0: no limit. `commands`:
+// prints the measuring command below each row.
+class TradeoffTable {
+public:
+    TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
+                  bool commands);
+    std::string head() const;
+    std::string line(const Tradeoff& tradeoff, std::size_t row) const;
+
+private:
+    output::Table head_;
+    std::size_t words_;  // width of the Settings
+    bool commands_;
+};
+}  // namespace diptych::tradeoff
