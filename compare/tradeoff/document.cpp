@@ -110,7 +110,7 @@ std::string plots(const Tradeoff& tradeoff) {
 }
 
 // A line for each error.
-output::List frontsOf(const Tradeoff& tradeoff) {
+output::List frontList(const Tradeoff& tradeoff) {
     output::List list;
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
         std::vector<std::size_t> numbers;
@@ -161,7 +161,7 @@ std::string measuredHow(const Tradeoff& tradeoff) {
 
 // What follows the rows, and the page's plots.
 std::vector<Block> resultBlocks(const Tradeoff& tradeoff) {
-    std::vector<Block> blocks{{frontsOf(tradeoff), Block::terminal}};
+    std::vector<Block> blocks{{frontList(tradeoff), Block::terminal}};
     for (const auto& tables : {shadowBlocks(tradeoff), sampleBlocks(tradeoff)})
         blocks.insert(blocks.end(), tables.begin(), tables.end());
     blocks.push_back(experiment::rowsBox(experiment::pointersTo(tradeoff.rows)));
@@ -203,7 +203,7 @@ std::string pageStyle() {
 }  // namespace
 
 std::string frontsText(const Tradeoff& tradeoff) {
-    return output::inText({frontsOf(tradeoff)});
+    return output::inText({frontList(tradeoff)});
 }
 
 std::string tradeoffEnd(const Tradeoff& tradeoff) {
