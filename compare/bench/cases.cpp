@@ -85,55 +85,21 @@ void putLights(std::uint32_t count, std::string& scene, Settings& settings) {
                         settings.lights));
 }
 
-}  // namespace
-
-std::vector<Path> benchPaths(const std::string& words) {
-    const std::vector<Path> paths = valuesOf(words, "--paths", "path", &Settings::path);
-    if (std::ranges::count(paths, Path::reference) > 0)
-        throw std::runtime_error("--paths reference: bench does not time it; use deferred, forward_plus");
-    return paths;
-}
-
-std::vector<Assignment> benchAssignments(const std::string& words) {
-    return valuesOf(words, "--assign", "assign", &Settings::assign);
-}
-
-std::vector<Size> benchSizes(const std::string& words) {
-    return valuesOf(words, "--sizes", "size", &Settings::size);
-}
-
-std::vector<Transparency> benchTransparencies(const std::string& words) {
-    return valuesOf(words, "--transparencies", "transparency", &Settings::transparency);
-}
-
-std::vector<Lighting> benchLightings(const std::string& words) {
-    return valuesOf(words, "--lightings", "lighting", &Settings::lighting);
-}
-
-std::vector<std::uint32_t> benchLightCounts(const std::string& words) {
+// Distinct, ascending.
+std::vector<std::uint32_t> lightCounts(const std::string& words, std::string_view option) {
     std::vector<std::uint32_t> counts;
-    for (const std::string& word : wordsOf(words, "--light-counts")) {
+    for (const std::string& word : wordsOf(words, option)) {
         std::uint32_t count = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
         if (error != std::errc() || end != word.data() + word.size() || count > 0x7fffffffu)
-            throw std::runtime_error(fmt::format(
-                "--light-counts {}: whole numbers from 0 to 2147483647, separated by commas", word));
+            throw std::runtime_error(
+                fmt::format("{} {}: whole numbers from 0 to 2147483647, separated by commas", option, word));
         counts.push_back(count);
     }
     std::ranges::sort(counts);
     counts.erase(std::ranges::unique(counts).begin(), counts.end());
     return counts;
 }
-
-BenchTable benchTableOf(const std::string& word) {
-    if (word == "modes") return BenchTable::modes;
-    if (word == "msaa") return BenchTable::msaa;
-    if (word == "growth") return BenchTable::growth;
-    if (word == "layers") return BenchTable::layers;
-    throw std::runtime_error(fmt::format("--table {}: takes modes, msaa, growth or layers", word));
-}
-
-namespace {
 
 // Scene of one step of an axis. Only the pixel axis changes the size. All but the light axis use
 // builtin:array, whose objects fill the view at any count.
@@ -182,32 +148,20 @@ Size sizeOfPixels(double pixels) {
     return {static_cast<int>(std::lround(pixels / height)), height};
 }
 
-const GrowthRow& growthRow(GrowthAxis axis) {
-    return *std::ranges::find(growthRows, axis, &GrowthRow::axis);
-}
-
-}  // namespace
-
-std::string_view nameOf(GrowthAxis axis) {
-    return growthRow(axis).name;
-}
-
-std::vector<GrowthAxis> growthAxes(const std::string& words) {
+std::vector<GrowthAxis> growthAxes(const std::string& words, std::string_view option) {
     std::vector<GrowthAxis> axes;
-    for (const std::string& word : wordsOf(words, "--axes")) {
+    for (const std::string& word : wordsOf(words, option)) {
         const auto row = std::ranges::find(growthRows, word, &GrowthRow::name);
         if (row == std::end(growthRows)) {
             std::vector<std::string_view> names;
             for (const GrowthRow& one : growthRows) names.push_back(one.name);
             throw std::runtime_error(
-                fmt::format("--axes {}: takes {}, separated by commas", word, fmt::join(names, ", ")));
+                fmt::format("{} {}: takes {}, separated by commas", option, word, fmt::join(names, ", ")));
         }
         if (std::ranges::find(axes, row->axis) == axes.end()) axes.push_back(row->axis);
     }
     return axes;
 }
-
-namespace {
 
 // Columns of --table msaa. checkSampleTable() throws for options that conflict with its rows.
 constexpr int tableSamples[] = {1, 4, 8};
@@ -244,10 +198,6 @@ std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& op
     for (const int samples : tableSamples) columns.push_back(withSamples(settings, samples));
     return columns;
 }
-
-}  // namespace
-
-namespace {
 
 std::vector<Path> pathsOf(const BenchOptions& options) {
     return options.paths.empty() ? std::vector(drawn_paths.begin(), drawn_paths.end()) : options.paths;
@@ -323,7 +273,42 @@ BenchCases layerCases(const Settings& given, const BenchOptions& options) {
     return cases;
 }
 
+std::string ending(const ModeParts& parts) {
+    std::string words;
+    if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
+    if (parts.lighting) words += fmt::format(", {}", nameOf(*parts.lighting));
+    if (parts.layers) words += fmt::format(", layers {}", nameOf(*parts.layers));
+    if (parts.samples) words += ", " + counted(static_cast<std::uint64_t>(*parts.samples), "sample");
+    return words;
+}
+
 }  // namespace
+
+void readList(BenchOptions& options, std::string_view option, const std::string& words) {
+    if (words.empty()) return;
+    if (option == "--axes") options.axes = growthAxes(words, option);
+    if (option == "--paths") options.paths = valuesOf(words, option, "path", &Settings::path);
+    if (std::ranges::count(options.paths, Path::reference) > 0)
+        throw std::runtime_error("--paths reference: bench does not time it; use deferred, forward_plus");
+    if (option == "--assign") options.assign = valuesOf(words, option, "assign", &Settings::assign);
+    if (option == "--sizes") options.sizes = valuesOf(words, option, "size", &Settings::size);
+    if (option == "--transparencies")
+        options.transparencies = valuesOf(words, option, "transparency", &Settings::transparency);
+    if (option == "--lightings") options.lightings = valuesOf(words, option, "lighting", &Settings::lighting);
+    if (option == "--light-counts") options.light_counts = lightCounts(words, option);
+}
+
+BenchTable benchTableOf(const std::string& word) {
+    if (word == "modes") return BenchTable::modes;
+    if (word == "msaa") return BenchTable::msaa;
+    if (word == "growth") return BenchTable::growth;
+    if (word == "layers") return BenchTable::layers;
+    throw std::runtime_error(fmt::format("--table {}: takes modes, msaa, growth or layers", word));
+}
+
+std::string_view nameOf(GrowthAxis axis) {
+    return std::ranges::find(growthRows, axis, &GrowthRow::axis)->name;
+}
 
 BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
     if (options.table == BenchTable::growth) return growthCases(given, options);
@@ -396,35 +381,34 @@ ModeParts partsOf(const BenchOptions& options, const Settings& settings) {
     return parts;
 }
 
-namespace {
-std::string ending(const ModeParts& parts) {
-    std::string words;
-    if (parts.transparency) words += fmt::format(", {}", nameOf(*parts.transparency));
-    if (parts.lighting) words += fmt::format(", {}", nameOf(*parts.lighting));
-    if (parts.layers) words += fmt::format(", layers {}", nameOf(*parts.layers));
-    if (parts.samples) words += ", " + counted(static_cast<std::uint64_t>(*parts.samples), "sample");
-    return words;
-}
-}  // namespace
-
-std::string modeName(Path path, Assignment assign, const ModeParts& parts) {
-    return fmt::format("{}, {}{}", nameOf(path), nameOf(assign), ending(parts));
+std::string modeName(const Settings& settings, const ModeParts& parts) {
+    return fmt::format("{}, {}{}", nameOf(settings.path), nameOf(settings.assign), ending(parts));
 }
 
 bool drawsAnotherPicture(Assignment assign) {
     return assign == Assignment::per_object;
 }
 
-std::string assignLabel(Assignment assign, const ModeParts& parts) {
-    return fmt::format("{}{}{}", nameOf(assign), drawsAnotherPicture(assign) ? " *" : "", ending(parts));
-}
-
-std::string modeLabel(Path path, Assignment assign, const ModeParts& parts) {
-    return fmt::format("{}, {}", nameOf(path), assignLabel(assign, parts));
-}
-
 std::string BenchRow::name() const {
-    return modeName(settings.path, settings.assign, parts);
+    return modeName(settings, parts);
+}
+
+std::string BenchRow::assignLabel() const {
+    return fmt::format("{}{}{}", nameOf(settings.assign), drawsAnotherPicture(settings.assign) ? " *" : "",
+                       ending(parts));
+}
+
+std::string BenchRow::label() const {
+    return fmt::format("{}, {}", nameOf(settings.path), assignLabel());
+}
+
+std::string BenchRow::point() const {
+    if (cover) return coverName(*cover);
+    return growth ? fmt::format("{:.6g} {}", growth->value, nameOf(growth->axis)) : "";
+}
+
+std::string BenchRow::lightsInWords() const {
+    return counted(whole(Measure::lights), "light");
 }
 
 std::string skipName(const BenchRow& skip) {
@@ -432,8 +416,7 @@ std::string skipName(const BenchRow& skip) {
     const Size& size = skip.settings.size;
     if (size.width > 0) name += fmt::format(", {}x{}", size.width, size.height);
     if (skip.requested_lights) name += ", " + counted(*skip.requested_lights, "light");
-    if (skip.growth) name += fmt::format(", {:.6g} {}", skip.growth->value, nameOf(skip.growth->axis));
-    if (skip.cover) name += ", " + coverName(*skip.cover);
+    if (skip.growth || skip.cover) name += ", " + skip.point();
     return name;
 }
 

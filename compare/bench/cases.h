@@ -51,16 +51,10 @@ struct BenchOptions {
     double max_ms = 2000;                      // slower frames are not repeated
 };
 
-// Parse comma-separated words. Throw std::runtime_error naming the option and the word.
-std::vector<Path> benchPaths(const std::string& words);
-std::vector<Assignment> benchAssignments(const std::string& words);
-std::vector<Size> benchSizes(const std::string& words);
-std::vector<Transparency> benchTransparencies(const std::string& words);
-std::vector<Lighting> benchLightings(const std::string& words);
-std::vector<std::uint32_t> benchLightCounts(const std::string& words);  // unique, ascending
-
+// Reads an option's comma-separated words; no words: keeps the default. Throws std::runtime_error naming the
+// option and the word.
+void readList(BenchOptions& options, std::string_view option, const std::string& words);
 BenchTable benchTableOf(const std::string& word);
-std::vector<GrowthAxis> growthAxes(const std::string& words);
 std::string_view nameOf(GrowthAxis axis);
 
 // Parts of a mode's name that are shown because the options vary them.
@@ -96,7 +90,11 @@ struct BenchRow : experiment::Row {
     std::optional<Cover> cover{};
     std::vector<PassRegisters> registers{};  // --compile-on
 
-    std::string name() const;  // "forward_plus, clustered, list, 4 samples"
+    std::string name() const;         // "forward_plus, clustered, list, 4 samples"
+    std::string assignLabel() const;  // without the path; with a star if it draws another picture
+    std::string label() const;        // name() with the star
+    std::string point() const;        // "1e+06 triangles", "5 % coated"; empty: --table modes or msaa
+    std::string lightsInWords() const;
 };
 
 struct BenchCases {
@@ -116,17 +114,11 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
 std::optional<double> predictedMs(std::span<const std::pair<std::uint32_t, double>> measured,
                                   std::uint32_t lights);
 
-// "forward_plus, clustered"; with all parts "forward_plus, clustered, list, 4 samples".
-std::string modeName(Path path, Assignment assign, const ModeParts& parts = {});
+std::string modeName(const Settings& settings, const ModeParts& parts);
 // Parts of the Settings that the options vary.
 ModeParts partsOf(const BenchOptions& options, const Settings& settings);
 // Whether the assignment evaluates only some lights per pixel, so that its image differs.
 bool drawsAnotherPicture(Assignment assign);
-// Names with a star in that case, and the star's meaning.
-std::string assignLabel(Assignment assign, const ModeParts& parts = {});
-std::string modeLabel(Path path, Assignment assign, const ModeParts& parts = {});
-inline constexpr const char* starMeans =
-    "* draws a different picture: only some lights are shaded per pixel, the others per object";
 // "forward_plus, every, 640x360, 1024 lights"
 std::string skipName(const BenchRow& skip);
 

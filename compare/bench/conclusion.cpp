@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/conclusion.h"
+#include "compare/bench/findings.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 namespace diptych::bench {
 namespace {
@@ -31,28 +29,27 @@ void findPass(Conclusion& c) {
     }
 }
 
-std::string passMs(double ms) {
+std::string timeText(double ms) {
     return ms > 0 ? msText(ms) + " ms" : "none";
 }
 
 }  // namespace
 
 std::string Conclusion::inWords() const {
-    const Settings &a = faster->settings, &b = slower->settings;
-    const auto mode = [this](const Settings& s) {
-        return fmt::format("{} ({})", nameOf(s.path), assignLabel(s.assign, faster->parts));
+    const auto mode = [](const BenchRow& row) {
+        return fmt::format("{} ({})", nameOf(row.settings.path), row.assignLabel());
     };
     std::string words = fmt::format(
         "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {}; {:.2f} to {:.2f} at "
         "{:.1f} % confidence)",
-        a.size.width, a.size.height, counted(faster->whole(Measure::lights), "light"), mode(a),
-        msText((*faster)[Measure::ms]), mode(b), ratio.ratio,
+        faster->settings.size.width, faster->settings.size.height, faster->lightsInWords(), mode(*faster),
+        msText((*faster)[Measure::ms]), mode(*slower), ratio.ratio,
         counted(static_cast<std::uint64_t>(ratio.pairs), "interleaved frame pair"), ratio.low, ratio.high,
         100 * ratio.confidence);
     if (!ratio.isSure()) return words + "; no significant difference, more --runs may help";
     if (!pass.empty())
-        words += fmt::format("; the pass that differs most is {}: {} against {}", pass, passMs(faster_ms),
-                             passMs(slower_ms));
+        words += fmt::format("; the pass that differs most is {}: {} against {}", pass, timeText(faster_ms),
+                             timeText(slower_ms));
     return words;
 }
 
@@ -75,7 +72,7 @@ std::vector<Conclusion> conclusionsOf(const Bench& bench) {
         Conclusion c;
         c.faster = group.front();
         c.slower = other == group.end() ? group[1] : *other;
-        c.ratio = pairedRatio(c.slower->ms, c.faster->ms);
+        c.ratio = experiment::pairedRatio(c.slower->ms, c.faster->ms);
         findPass(c);
         conclusions.push_back(std::move(c));
     }

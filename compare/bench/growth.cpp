@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/growth.h"
-
-#include "compare/output/writers.h"
+#include "compare/bench/findings.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +10,6 @@
 namespace diptych::bench {
 namespace {
 
-constexpr double bytesOfMib = 1 << 20;
 // Smaller exponents count as flat: doubling the quantity adds less than 42 %.
 constexpr double flatExponent = 0.5;
 
@@ -27,10 +23,6 @@ double slope(double x0, double y0, double x1, double y1) {
 
 std::string numberText(double value) {
     return value < 1e5 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
-}
-
-std::string unitOf(GrowthAxis axis) {
-    return axis == GrowthAxis::textures ? "MiB of textures" : std::string(nameOf(axis));
 }
 
 // The pass whose time grows most from the first row to the last, and its share of all added time.
@@ -104,7 +96,7 @@ Bend bendOf(const std::vector<double>& values, const std::vector<double>& amount
 }
 
 double memoryMib(const BenchRow& row) {
-    return static_cast<double>(row.whole(Measure::memory)) / bytesOfMib;
+    return static_cast<double>(row.whole(Measure::memory)) / (1 << 20);
 }
 
 std::vector<std::string> growthInWords(const Bench& bench) {
@@ -120,54 +112,6 @@ std::vector<std::string> growthInWords(const Bench& bench) {
         words.push_back(lineInWords(line, "memory", mib, "MiB", ""));
     }
     return words;
-}
-
-std::string growthText(const Bench& bench) {
-    using output::Column;
-    output::Table table{{{"axis", Column::words, 10},
-                         {"value", Column::number, 10},
-                         {"path", Column::words, 12},
-                         {"ms", Column::number, 9},
-                         {"min", Column::number, 9},
-                         {"max", Column::number, 9},
-                         {"MiB", Column::number, 9},
-                         {"passes, ms", Column::prose}}};
-    for (const GrowthLine& line : growthLines(bench))
-        for (const BenchRow* row : line.rows)
-            table.rows.push_back({{nameOf(line.axis), numberText(valueOf(*row)), nameOf(line.path),
-                                   msText((*row)[Measure::ms]), msText((*row)[Measure::ms_min]),
-                                   msText((*row)[Measure::ms_max]), fmt::format("{:.1f}", memoryMib(*row)),
-                                   passesInWords(*row)}});
-    std::string out = inText(table);
-    for (const std::string& sentence : growthInWords(bench)) out += sentence + "\n";
-    return out;
-}
-
-std::vector<output::Block> growthBlocks(const Bench& bench) {
-    const std::vector<std::string> words = growthInWords(bench);
-    if (words.empty()) return {};
-    return {output::Heading{2, "How time and memory grow"},
-            output::List{{words.begin(), words.end()}, "box says"}};
-}
-
-nlohmann::ordered_json growthJson(const Bench& bench) {
-    using Json = nlohmann::ordered_json;
-    Json all = Json::array();
-    for (const GrowthLine& line : growthLines(bench)) {
-        Json points = Json::array();
-        for (const BenchRow* row : line.rows)
-            points.push_back({{"value", valueOf(*row)},
-                              {"ms",
-                               {{"median", (*row)[Measure::ms]},
-                                {"min", (*row)[Measure::ms_min]},
-                                {"max", (*row)[Measure::ms_max]}}},
-                              {"mib", memoryMib(*row)}});
-        all.push_back({{"axis", nameOf(line.axis)},
-                       {"unit", unitOf(line.axis)},
-                       {"path", nameOf(line.path)},
-                       {"points", points}});
-    }
-    return {{"lines", all}, {"words", growthInWords(bench)}};
 }
 
 }  // namespace diptych::bench

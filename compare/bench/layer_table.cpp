@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/layer_table.h"
-
-#include "compare/bench/conclusion.h"
-#include "compare/output/writers.h"
+#include "compare/bench/findings.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <utility>
 
 namespace diptych::bench {
 namespace {
@@ -36,18 +29,12 @@ void compareWays(LayerRow& row) {
     if (timed < 2) return;
     for (std::size_t i = 0; i < row.ways.size(); ++i) {
         if (row.ways[i] == nullptr) continue;
-        const TimeRatio ratio = pairedRatio(row.ways[i]->ms, least->ms);
+        const experiment::TimeRatio ratio = experiment::pairedRatio(row.ways[i]->ms, least->ms);
         if (row.ways[i] == least || !ratio.isSure() || ratio.low < 1)
             row.fastest.push_back(i);
         else
             row.lead = row.lead == 0 ? ratio.ratio : std::min(row.lead, ratio.ratio);
     }
-}
-
-std::vector<std::string> namesOf(const std::vector<std::size_t>& ways) {
-    std::vector<std::string> names;
-    for (const std::size_t way : ways) names.push_back(layerWays.at(way).name());
-    return names;
 }
 
 std::string lightsInWords(const std::vector<std::uint64_t>& counts) {
@@ -101,65 +88,32 @@ std::string conditionsInWords(const std::vector<const LayerRow*>& rows) {
 
 // Where these ways are the fastest; `all`: number of the table's rows.
 std::string outcomeInWords(const std::vector<const LayerRow*>& rows, std::size_t all) {
-    const std::vector<std::size_t>& fastest = rows.front()->fastest;
+    const std::vector<std::string> fastest = rows.front()->fastestNames();
     std::string subject = "no significant difference between the ways", detail;
     if (fastest.size() == 1) {
         const LayerRow& most = **std::ranges::max_element(rows, {}, &LayerRow::lead);
-        subject = fmt::format("{} is the fastest", namesOf(fastest).front());
+        subject = fastest.front() + " is the fastest";
         detail = fmt::format(" (the next takes up to {:.2f} times as long: {}, {})", most.lead,
                              coverName(most.cover), counted(most.lights, "light"));
     } else if (fastest.size() < layerWays.size()) {
         subject = fmt::format("{} are the fastest, without a significant difference between them,",
-                              fmt::join(namesOf(fastest), " and "));
+                              fmt::join(fastest, " and "));
     }
     return fmt::format("{} in {} of {}{}: {}", subject, rows.size(), counted(all, "row"), detail,
                        conditionsInWords(rows));
 }
 
-std::uint64_t imageBytesPerPixel(const BenchRow& row) {
-    const Size& size = row.settings.size;
-    return row.whole(Measure::picture_bytes) /
-           (static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
-}
-
-std::string rangeInWords(std::uint64_t least, std::uint64_t most) {
+std::string rangeInWords(const std::vector<std::uint64_t>& values) {
+    const auto [least, most] = std::ranges::minmax(values);
     return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
-}
-
-std::optional<std::string> bytesInWords(const std::vector<LayerRow>& rows, std::size_t way) {
-    std::vector<std::uint64_t> stored, all;
-    for (const LayerRow& row : rows)
-        if (const BenchRow* const timed = row.ways.at(way)) {
-            stored.push_back(timed->whole(Measure::gbuffer_bytes));
-            all.push_back(imageBytesPerPixel(*timed));
-        }
-    if (stored.empty()) return {};
-    const auto range = [](const std::vector<std::uint64_t>& bytes) {
-        return rangeInWords(std::ranges::min(bytes), std::ranges::max(bytes));
-    };
-    return fmt::format("{} stores {} bytes per pixel of {}; all its images {}", layerWays.at(way).name(),
-                       range(stored), layerWays.at(way).has_gbuffer ? "G-buffer and depth" : "depth",
-                       range(all));
 }
 
 std::string registersInWords(const BenchRow& row) {
     std::vector<std::string> words;
     for (const PassRegisters& pass : row.registers)
         words.push_back(
-            rangeInWords(static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)));
+            rangeInWords({static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)}));
     return words.empty() ? "-" : fmt::format("{}", fmt::join(words, "; "));
-}
-
-// Explains the columns.
-std::string columnsInWords(const Bench& bench) {
-    return fmt::format(
-        "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign test of "
-        "frames of the same round{}",
-        bench.compiler.empty()
-            ? ""
-            : fmt::format("; VGPRs: vector registers per lane of the pipelines that shade, pass after pass, "
-                          "by the compiler of {}",
-                          bench.compiler));
 }
 
 }  // namespace
@@ -169,6 +123,18 @@ std::string LayerWay::name() const {
     return has_gbuffer
                ? fmt::format("{} by {}", path_name, layers == Layers::gbuffer ? "G-buffer" : "forward")
                : std::string(path_name);
+}
+
+std::vector<std::string> LayerRow::fastestNames() const {
+    std::vector<std::string> names;
+    for (const std::size_t way : fastest) names.push_back(layerWays.at(way).name());
+    return names;
+}
+
+std::uint64_t imageBytesPerPixel(const BenchRow& row) {
+    const Size& size = row.settings.size;
+    return row.whole(Measure::picture_bytes) /
+           (static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
 }
 
 std::vector<LayerRow> layerRows(const Bench& bench) {
@@ -192,95 +158,62 @@ std::vector<std::string> layersInWords(const Bench& bench) {
         if (!row.fastest.empty()) outcomes[{row.fastest.size(), row.fastest}].push_back(&row);
     std::vector<std::string> words;
     for (const auto& [fastest, where] : outcomes) words.push_back(outcomeInWords(where, rows.size()));
-    for (std::size_t way = 0; way < layerWays.size(); ++way)
-        if (auto bytes = bytesInWords(rows, way)) words.push_back(std::move(*bytes));
+    for (std::size_t way = 0; way < layerWays.size(); ++way) {
+        std::vector<std::uint64_t> stored, all;
+        for (const LayerRow& row : rows)
+            if (const BenchRow* const timed = row.ways.at(way)) {
+                stored.push_back(timed->whole(Measure::gbuffer_bytes));
+                all.push_back(imageBytesPerPixel(*timed));
+            }
+        if (!stored.empty())
+            words.push_back(fmt::format("{} stores {} bytes per pixel of {}; all its images {}",
+                                        layerWays.at(way).name(), rangeInWords(stored),
+                                        layerWays.at(way).has_gbuffer ? "G-buffer and depth" : "depth",
+                                        rangeInWords(all)));
+    }
     return words;
 }
 
-namespace {
-
-output::Cell fastestCell(const std::vector<std::size_t>& fastest) {
-    if (fastest.empty()) return output::either("-", "");
-    if (fastest.size() == layerWays.size()) return "no significant difference";
-    return fmt::format("{}", fmt::join(namesOf(fastest), " or "));
-}
-
-output::Table layerTable(const Bench& bench) {
-    using output::Column;
-    output::Table table{
-        .columns = {{"covered", Column::words}, {"lights", Column::number}, {"fastest", Column::words}},
-        .style = "",
-        .groups = {{"", 3}},
-        .note = columnsInWords(bench)};
-    const bool registers = !bench.compiler.empty();
-    for (const LayerWay& way : layerWays) {
-        table.groups.emplace_back(way.name(), registers ? 4 : 3);
-        table.columns.insert(table.columns.end(), {{"ms (min to max)", Column::number},
-                                                   {"B/pixel", Column::number},
-                                                   {"all B/pixel", Column::number}});
-        if (registers) table.columns.push_back({"VGPRs", Column::number});
-    }
-    for (const LayerRow& row : layerRows(bench)) {
-        output::Row& out = table.rows.emplace_back(
-            output::Row{{coverName(row.cover), fmt::format("{}", row.lights), fastestCell(row.fastest)}});
-        for (const BenchRow* const way : row.ways) {
-            if (way == nullptr) {
-                out.cells.insert(out.cells.end(), registers ? 4 : 3, output::either("-", ""));
-                continue;
-            }
-            out.cells.emplace_back(timeInWords(*way));
-            out.cells.emplace_back(fmt::format("{}", way->whole(Measure::gbuffer_bytes)));
-            out.cells.emplace_back(fmt::format("{}", imageBytesPerPixel(*way)));
-            if (registers) out.cells.emplace_back(registersInWords(*way));
-        }
-    }
-    return table;
-}
-
-}  // namespace
-
-std::string layersText(const Bench& bench) {
-    std::string out = inText(layerTable(bench)) + columnsInWords(bench) + "\n";
-    for (const std::string& sentence : layersInWords(bench)) out += sentence + "\n";
-    return out;
-}
-
 std::vector<output::Block> layerBlocks(const Bench& bench) {
-    if (layerRows(bench).empty()) return {};
+    using output::Column;
+    const std::vector<LayerRow> rows = layerRows(bench);
+    if (rows.empty()) return {};
+    output::Table table{.columns = {}, .style = "", .groups = {{"", 3}}};
+    addColumn(table, {"covered"}, rows, [](const LayerRow& row) { return coverName(row.cover); });
+    addColumn(table, {"lights", Column::number}, rows,
+              [](const LayerRow& row) { return fmt::format("{}", row.lights); });
+    addColumn(table, {"fastest"}, rows, [](const LayerRow& row) {
+        return row.fastest.empty() ? "-"
+               : row.fastest.size() == layerWays.size()
+                   ? "no significant difference"
+                   : fmt::format("{}", fmt::join(row.fastestNames(), " or "));
+    });
+    const bool registers = !bench.compiler.empty();
+    for (std::size_t way = 0; way < layerWays.size(); ++way) {
+        const auto add = [&](const char* title, const auto& textOf) {
+            addColumn(table, {title, Column::number}, rows, [&](const LayerRow& row) {
+                return row.ways[way] != nullptr ? textOf(*row.ways[way]) : "-";
+            });
+        };
+        table.groups.emplace_back(layerWays[way].name(), registers ? 4 : 3);
+        add("ms (min to max)", timeInWords);
+        add("B/pixel",
+            [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); });
+        add("all B/pixel", [](const BenchRow& row) { return fmt::format("{}", imageBytesPerPixel(row)); });
+        if (registers) add("VGPRs", registersInWords);
+    }
+    std::string means =
+        "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign test of "
+        "frames of the same round";
+    if (registers)
+        means +=
+            "; VGPRs: vector registers per lane of the pipelines that shade, pass after pass, by the "
+            "compiler of " +
+            bench.compiler;
     const std::vector<std::string> words = layersInWords(bench);
     return {output::Heading{2, "Where each way is the fastest"},
-            output::List{{words.begin(), words.end()}, "box says"}, layerTable(bench)};
-}
-
-nlohmann::ordered_json layersJson(const Bench& bench) {
-    using Json = nlohmann::ordered_json;
-    Json rows = Json::array();
-    for (const LayerRow& row : layerRows(bench)) {
-        Json ways = Json::array(), fastest = Json::array();
-        for (std::size_t i = 0; i < row.ways.size(); ++i) {
-            const BenchRow* const way = row.ways.at(i);
-            if (way == nullptr) continue;
-            Json registers = Json::array();
-            for (const PassRegisters& pass : way->registers)
-                registers.push_back({{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}});
-            ways.push_back({{"name", layerWays.at(i).name()},
-                            {"ms",
-                             {{"median", (*way)[Measure::ms]},
-                              {"min", (*way)[Measure::ms_min]},
-                              {"max", (*way)[Measure::ms_max]}}},
-                            {"bytes_per_pixel", way->whole(Measure::gbuffer_bytes)},
-                            {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
-                            {"registers", registers}});
-        }
-        for (const std::string& name : namesOf(row.fastest)) fastest.push_back(name);
-        rows.push_back({{"covered", row.cover.kind},
-                        {"percent", row.cover.percent},
-                        {"lights", row.lights},
-                        {"ways", ways},
-                        {"fastest", fastest},
-                        {"lead", row.lead}});
-    }
-    return {{"compiler", bench.compiler}, {"rows", rows}, {"words", layersInWords(bench)}};
+            output::List{{words.begin(), words.end()}, "box says"}, table,
+            output::Paragraph{means, "soft small"}};
 }
 
 }  // namespace diptych::bench

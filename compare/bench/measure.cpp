@@ -2,14 +2,12 @@
 #include "compare/bench/bench.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/page/text.h"
-#include "compare/render/renderer.h"
 #include "compare/render/sample_counts.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -33,10 +31,13 @@ BenchRow rowOf(const Bench& bench, const Settings& settings, const BenchGroup& g
                  partsOf(bench.options, settings),
                  group.growth,
                  group.cover};
-    if (group.growth) row.varied = nameOf(group.growth->axis);
-    if (group.cover) row.varied = group.cover->kind;
-    if (group.growth) row.measured[Measure::magnitude] = group.growth->value;
-    if (group.cover) row.measured[Measure::magnitude] = group.cover->percent;
+    if (group.growth) {
+        row.varied = nameOf(group.growth->axis);
+        row.measured[Measure::magnitude] = group.growth->value;
+    } else if (group.cover) {
+        row.varied = group.cover->kind;
+        row.measured[Measure::magnitude] = group.cover->percent;
+    }
     return row;
 }
 
@@ -56,8 +57,7 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
     if (group.growth) {
         for (const BenchRow& skip : bench.skips)
             if (skip.growth && skip.growth->axis == group.growth->axis && skip.settings.path == settings.path)
-                return fmt::format("{:.6g} {} were too many already", skip.growth->value,
-                                   nameOf(skip.growth->axis));
+                return skip.point() + " were too many already";
         return {};
     }
     if (!group.lights) return {};
@@ -87,29 +87,20 @@ std::string leftOut(const Settings& settings, const Requirements& needs, std::sp
     return {};
 }
 
-// Rows of --table msaa that the scene and the device support; the others become skips.
-std::vector<Settings> tableRows(Device& device, const BenchGroup& group, const Requirements& needs,
-                                Bench& bench) {
-    if (bench.options.table != BenchTable::msaa) return group.settings;
-    const std::vector<int> samples = sampleCounts(device);
-    std::vector<Settings> rows;
-    for (const Settings& settings : group.settings)
-        if (std::string reason = leftOut(settings, needs, samples); reason.empty())
-            rows.push_back(settings);
-        else
-            skip(bench, settings, group, std::move(reason));
-    return rows;
-}
-
 // The group's Settings that are worth measuring; the others become skips.
 std::vector<Settings> triedSettings(Device& device, const BenchGroup& group, const Requirements& needs,
                                     Bench& bench) {
+    const std::vector<int> samples = sampleCounts(device);
     std::vector<Settings> tried;
-    for (const Settings& settings : tableRows(device, group, needs, bench))
-        if (std::string reason = hopeless(bench, group, settings); reason.empty())
+    for (const Settings& settings : group.settings) {
+        std::string reason;
+        if (bench.options.table == BenchTable::msaa) reason = leftOut(settings, needs, samples);
+        if (reason.empty()) reason = hopeless(bench, group, settings);
+        if (reason.empty())
             tried.push_back(settings);
         else
             skip(bench, settings, group, std::move(reason));
+    }
     return tried;
 }
 
@@ -127,38 +118,16 @@ std::optional<PreparedFrames> preparedFrames(Renderer& renderer, const BenchGrou
 
 }  // namespace
 
-double assignMs(const BenchRow& row) {
+double passMs(const BenchRow& row, std::string_view prefix) {
     double ms = 0;
     for (const PassTime& pass : row.passes)
-        if (pass.name.starts_with(assignPasses)) ms += pass.ms;
+        if (pass.name.starts_with(prefix)) ms += pass.ms;
     return ms;
 }
 
 double assignShare(const BenchRow& row) {
-    double all = 0;
-    for (const PassTime& pass : row.passes) all += pass.ms;
-    return all > 0 ? assignMs(row) / all : 0;
-}
-
-std::vector<const experiment::Row*> allRows(const Bench& bench) {
-    std::vector<const experiment::Row*> rows = experiment::pointersTo(bench.rows);
-    for (const BenchRow& skip : bench.skips) rows.push_back(&skip);
-    return rows;
-}
-
-std::vector<std::string> commonNotes(const Bench& bench) {
-    std::vector<std::string> common;
-    if (bench.rows.empty()) return common;
-    for (const std::string& note : bench.rows.front().warnings)
-        if (std::ranges::all_of(
-                bench.rows, [&](const BenchRow& row) { return std::ranges::count(row.warnings, note) > 0; }))
-            common.push_back(note);
-    return common;
-}
-
-bool hasAnotherPicture(const Bench& bench) {
-    return std::ranges::any_of(bench.rows,
-                               [](const BenchRow& row) { return drawsAnotherPicture(row.settings.assign); });
+    const double all = passMs(row);
+    return all > 0 ? passMs(row, "assign") / all : 0;
 }
 
 std::string msText(double ms) {
@@ -168,13 +137,6 @@ std::string msText(double ms) {
 std::string timeInWords(const BenchRow& row) {
     return fmt::format("{} ({} to {})", msText(row[Measure::ms]), msText(row[Measure::ms_min]),
                        msText(row[Measure::ms_max]));
-}
-
-std::vector<Size> sizesOf(const Bench& bench) {
-    std::vector<Size> sizes;
-    for (const BenchRow& row : bench.rows)
-        if (std::ranges::find(sizes, row.settings.size) == sizes.end()) sizes.push_back(row.settings.size);
-    return sizes;
 }
 
 bool isHopeless(const Bench& bench, const BenchGroup& group) {
@@ -197,10 +159,8 @@ void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines,
     const double steps = static_cast<double>(frames.size()) * (1 + bench.runs + profiled);
     double done = 0;
     const auto step = [&](std::size_t i, const std::string& what) {
-        progress.at(
-            done++ / steps,
-            fmt::format("{} {}", modeName(tried[i].path, tried[i].assign, partsOf(bench.options, tried[i])),
-                        what));
+        progress.at(done++ / steps,
+                    fmt::format("{} {}", modeName(tried[i], partsOf(bench.options, tried[i])), what));
     };
     std::vector<std::size_t> timed;  // indices into `frames`
     for (std::size_t i = 0; i < frames.size(); ++i) {

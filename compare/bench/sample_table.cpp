@@ -1,62 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/sample_table.h"
-
-#include "compare/output/writers.h"
+#include "compare/bench/findings.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 namespace diptych::bench {
 namespace {
 
-constexpr double mebibyte = 1 << 20;
 // The paper's deferred renderer: bytes per sample, and the image size for which it states memory.
 constexpr std::uint64_t paperBytes = 32, paperPixels = 1920 * 1080;
 
 double mebibytes(std::uint64_t bytes) {
-    return static_cast<double>(bytes) / mebibyte;
+    return static_cast<double>(bytes) / (1 << 20);
 }
-
-bool isOf(const SampleTable& table, const BenchRow& row) {
-    return table.size == row.settings.size && table.scene == row.scene &&
-           table.lights == row.whole(Measure::lights);
-}
-
-SampleTable::Line& lineOf(SampleTable& table, const Settings& settings) {
-    const auto found = std::ranges::find_if(table.lines, [&](const SampleTable::Line& line) {
-        return line.path == settings.path && line.transparency == settings.transparency;
-    });
-    if (found != table.lines.end()) return *found;
-    return table.lines.emplace_back(SampleTable::Line{settings.path, settings.transparency, {}});
-}
-
-std::string title(const SampleTable& table) {
-    return fmt::format("{}, {}x{}, {}", table.scene, table.size.width, table.size.height,
-                       counted(table.lights, "light"));
-}
-
-std::string columnName(int samples) {
-    return counted(static_cast<std::uint64_t>(samples), "sample");
-}
-
-// Header, width with the space before it, and text of a column.
-struct CellPart {
-    const char* name;
-    std::size_t width;
-    std::string (*text)(const BenchRow&);
-};
-const CellPart cellParts[] = {
-    {"ms (min to max)", 26, [](const BenchRow& row) { return timeInWords(row); }},
-    {"lighting ms", 13, [](const BenchRow& row) { return fmt::format("{:.3g}", lightingMs(row)); }},
-    {"MiB", 9,
-     [](const BenchRow& row) { return fmt::format("{:.4g}", mebibytes(row.whole(Measure::picture_bytes))); }},
-    {"B/pixel", 9, [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); }},
-    {"B/sample", 10, [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); }}};
 
 }  // namespace
 
@@ -70,35 +30,28 @@ std::vector<SampleTable> sampleTables(const Bench& bench) {
     std::vector<SampleTable> tables;
     if (bench.options.table != BenchTable::msaa) return tables;
     for (const BenchRow& row : bench.rows) {
-        const bool known =
-            std::ranges::any_of(tables, [&](const SampleTable& table) { return isOf(table, row); });
-        if (!known) tables.push_back({row.settings.size, row.scene, row.whole(Measure::lights), {}, {}});
-    }
-    for (SampleTable& table : tables) {
-        for (const BenchRow& row : bench.rows)
-            if (isOf(table, row) && std::ranges::count(table.columns, row.settings.msaa) == 0)
-                table.columns.push_back(row.settings.msaa);
-        std::ranges::sort(table.columns);
-        for (const BenchRow& row : bench.rows) {
-            if (!isOf(table, row)) continue;
-            SampleTable::Line& line = lineOf(table, row.settings);
-            line.cells.resize(table.columns.size(), nullptr);
-            const auto column = std::ranges::find(table.columns, row.settings.msaa) - table.columns.begin();
-            line.cells[static_cast<std::size_t>(column)] = &row;
-        }
+        const Settings& s = row.settings;
+        const std::uint64_t lights = row.whole(Measure::lights);
+        auto table = std::ranges::find_if(tables, [&](const SampleTable& known) {
+            return known.size == s.size && known.scene == row.scene && known.lights == lights;
+        });
+        if (table == tables.end()) table = tables.insert(table, {s.size, row.scene, lights});
+        auto line = std::ranges::find_if(table->lines, [&](const SampleTable::Line& known) {
+            return known.path == s.path && known.transparency == s.transparency;
+        });
+        if (line == table->lines.end()) line = table->lines.insert(line, {s.path, s.transparency});
+        line->cells[s.msaa] = &row;
+        table->columns.insert(s.msaa);
     }
     return tables;
 }
 
-double lightingMs(const BenchRow& row) {
-    double ms = 0;
-    for (const PassTime& pass : row.passes)
-        if (pass.name.starts_with("shade")) ms += pass.ms;
-    return ms;
-}
-
 std::uint64_t bytesPerSample(const BenchRow& row) {
     return row.whole(Measure::gbuffer_bytes) / static_cast<std::uint64_t>(row.settings.msaa);
+}
+
+double imageMib(const BenchRow& row) {
+    return mebibytes(row.whole(Measure::picture_bytes));
 }
 
 std::vector<std::string> memoryInWords(const SampleTable& table) {
@@ -108,14 +61,13 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
         if (std::ranges::count(told, line.path) > 0) continue;
         told.push_back(line.path);
         std::vector<std::string> samples, bytes, ours, theirs;
-        for (const BenchRow* const row : line.cells) {
-            if (!row) continue;
-            const auto count = static_cast<std::uint64_t>(row->settings.msaa);
+        for (const auto& [count, row] : line.cells) {
             samples.push_back(fmt::format("{}", count));
             bytes.push_back(fmt::format("{}", bytesPerSample(*row)));
             ours.push_back(
                 fmt::format("{:.0f}", mebibytes(row->whole(Measure::gbuffer_bytes) * paperPixels)));
-            theirs.push_back(fmt::format("{:.0f}", mebibytes(paperBytes * count * paperPixels)));
+            theirs.push_back(fmt::format(
+                "{:.0f}", mebibytes(paperBytes * static_cast<std::uint64_t>(count) * paperPixels)));
         }
         const std::string paper =
             hasGBuffer(line.path)
@@ -130,78 +82,36 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
     return lines;
 }
 
-namespace {
-
-output::Table outputOf(const SampleTable& table) {
-    output::Table out{
-        .columns = {{"", output::Column::words, 32}}, .style = "", .groups = {{"", 1}}, .gap = 0};
-    for (const int samples : table.columns) {
-        out.groups.emplace_back(columnName(samples), std::size(cellParts));
-        for (const CellPart& part : cellParts)
-            out.columns.push_back({part.name, output::Column::number, part.width});
-    }
-    for (const SampleTable::Line& line : table.lines) {
-        output::Row& cells = out.rows.emplace_back(output::Row{{line.name()}});
-        for (const BenchRow* const row : line.cells)
-            for (const CellPart& part : cellParts)
-                cells.cells.push_back(row ? output::Cell(part.text(*row)) : output::either("-", ""));
-    }
-    return out;
-}
-
-}  // namespace
-
-std::string sampleTablesText(const Bench& bench) {
-    std::string out;
-    for (const SampleTable& table : sampleTables(bench)) {
-        out += title(table) + "\n" + inText(outputOf(table));
-        for (const std::string& words : memoryInWords(table)) out += words + "\n";
-    }
-    return out;
-}
-
 std::vector<output::Block> sampleBlocks(const Bench& bench) {
     std::vector<output::Block> blocks;
     for (const SampleTable& table : sampleTables(bench)) {
-        blocks.emplace_back(output::Heading{2, "Samples per pixel: " + title(table)});
-        blocks.emplace_back(outputOf(table));
+        output::Table shown{.columns = {}, .style = "", .groups = {{"", 1}}};
+        addColumn(shown, {""}, table.lines, std::mem_fn(&SampleTable::Line::name));
+        for (const int samples : table.columns) {
+            const auto add = [&](const char* title, const auto& textOf) {
+                addColumn(shown, {title, output::Column::number}, table.lines,
+                          [&](const SampleTable::Line& line) {
+                              const auto cell = line.cells.find(samples);
+                              return cell != line.cells.end() ? textOf(*cell->second) : "-";
+                          });
+            };
+            shown.groups.emplace_back(counted(static_cast<std::uint64_t>(samples), "sample"), 5);
+            add("ms (min to max)", timeInWords);
+            add("lighting ms",
+                [](const BenchRow& row) { return fmt::format("{:.3g}", passMs(row, "shade")); });
+            add("MiB", [](const BenchRow& row) { return fmt::format("{:.4g}", imageMib(row)); });
+            add("B/pixel",
+                [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); });
+            add("B/sample", [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); });
+        }
+        blocks.emplace_back(
+            output::Heading{2, fmt::format("Samples per pixel: {}, {}x{}, {}", table.scene, table.size.width,
+                                           table.size.height, counted(table.lights, "light"))});
+        blocks.emplace_back(std::move(shown));
         for (const std::string& words : memoryInWords(table))
             blocks.emplace_back(output::Paragraph{words, "soft"});
     }
     return blocks;
-}
-
-nlohmann::ordered_json sampleTablesJson(const Bench& bench) {
-    using Json = nlohmann::ordered_json;
-    Json all = Json::array();
-    for (const SampleTable& table : sampleTables(bench)) {
-        Json lines = Json::array();
-        for (const SampleTable::Line& line : table.lines) {
-            Json cells = Json::array();
-            for (const BenchRow* const row : line.cells)
-                if (row)
-                    cells.push_back({{"samples", row->settings.msaa},
-                                     {"ms",
-                                      {{"median", (*row)[Measure::ms]},
-                                       {"min", (*row)[Measure::ms_min]},
-                                       {"max", (*row)[Measure::ms_max]}}},
-                                     {"lighting_ms", lightingMs(*row)},
-                                     {"image_mib", mebibytes(row->whole(Measure::picture_bytes))},
-                                     {"bytes_per_pixel", row->whole(Measure::gbuffer_bytes)},
-                                     {"bytes_per_sample", bytesPerSample(*row)}});
-            lines.push_back({{"name", line.name()},
-                             {"path", nameOf(line.path)},
-                             {"transparency", nameOf(line.transparency)},
-                             {"cells", cells}});
-        }
-        all.push_back({{"scene", table.scene},
-                       {"size", {table.size.width, table.size.height}},
-                       {"lights", table.lights},
-                       {"columns", table.columns},
-                       {"rows", lines},
-                       {"memory", memoryInWords(table)}});
-    }
-    return all;
 }
 
 }  // namespace diptych::bench

@@ -66,9 +66,7 @@ int runBench(const Options& options) {
     if (!options.compile_on.empty()) registers.emplace(options.compile_on, deviceOptions(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
-    const bool live = requested.table == BenchTable::modes || requested.table == BenchTable::msaa;
     Bench bench{subjectOf(options, requested.table),
-                options.settings,
                 requested,
                 reportDevice(device),
                 options.runs,
@@ -88,7 +86,9 @@ int runBench(const Options& options) {
         const std::size_t first = bench.rows.size();
         measureGroup(device, pipelines, group, scene, bench, whole.part(read, to));
         if (registers) registers->count(scene, std::span(bench.rows).subspan(first));
-        if (live) print(benchTable(bench, first));
+        // With --table layers, benchEnd() has a line for the three ways.
+        if (requested.table != BenchTable::layers && bench.rows.size() > first)
+            print(benchTable(bench, first));
     }
     checkValidation(device);
     const std::string json = writeBench(bench, folder, options.force);

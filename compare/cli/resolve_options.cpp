@@ -176,13 +176,13 @@ void resolveWhatCounts(Options& options, const ParsedOptions& parsed) {
 }
 
 void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
-    if (!parsed.bench_paths.empty()) bench.paths = benchPaths(parsed.bench_paths);
-    if (!parsed.bench_assign.empty()) bench.assign = benchAssignments(parsed.bench_assign);
-    if (!parsed.bench_sizes.empty()) bench.sizes = benchSizes(parsed.bench_sizes);
-    if (!parsed.bench_transparencies.empty())
-        bench.transparencies = benchTransparencies(parsed.bench_transparencies);
-    if (!parsed.bench_lightings.empty()) bench.lightings = benchLightings(parsed.bench_lightings);
-    if (!parsed.light_counts.empty()) bench.light_counts = benchLightCounts(parsed.light_counts);
+    readList(bench, "--paths", parsed.bench_paths);
+    readList(bench, "--assign", parsed.bench_assign);
+    readList(bench, "--sizes", parsed.bench_sizes);
+    readList(bench, "--transparencies", parsed.bench_transparencies);
+    readList(bench, "--lightings", parsed.bench_lightings);
+    readList(bench, "--light-counts", parsed.light_counts);
+    readList(bench, "--axes", parsed.bench_axes);
     bench.max_ms = parsed.max_ms;
     if (!(parsed.max_ms > 0) || !std::isfinite(parsed.max_ms))
         throw std::runtime_error(fmt::format("--max-ms {}: must be above 0 and finite", parsed.max_ms));
@@ -191,7 +191,6 @@ void resolveBench(BenchOptions& bench, const ParsedOptions& parsed) {
             fmt::format("--kernels {}: bench times frames alone; build/tests/bench_kernels times the kernels",
                         parsed.kernels));
     bench.table = benchTableOf(parsed.bench_table);
-    if (!parsed.bench_axes.empty()) bench.axes = growthAxes(parsed.bench_axes);
 }
 
 // Parses "64MiB". Empty for an empty word.

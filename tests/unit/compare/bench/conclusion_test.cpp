@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A benchmark's conclusions as text, and its plot of a single light count.
-#include "compare/bench/conclusion.h"
+#include "compare/bench/findings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Break points of growth and their text, with made-up times.
-#include "compare/bench/growth.h"
+#include "compare/bench/findings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The benchmark's table of layers, with made-up times.
-#include "compare/bench/conclusion.h"
-#include "compare/bench/layer_table.h"
+#include "compare/bench/findings.h"
 #include "compare/bench/registers.h"
 #include "compare/cli/command_line.h"
 #include "shared/scene/builtin/builtin.h"
@@ -38,8 +37,7 @@ TEST(BenchLayers, EachKindAndShareIsTimedUnderEachLightCountInThreeWays) {
     for (const BenchGroup& group : cases.groups) {
         groups.insert({group.cover->kind, group.cover->percent, *group.lights});
         std::vector<std::string> names;
-        for (const Settings& s : group.settings)
-            names.push_back(modeName(s.path, s.assign, partsOf(options, s)));
+        for (const Settings& s : group.settings) names.push_back(modeName(s, partsOf(options, s)));
         EXPECT_EQ(names, (std::vector<std::string>{"deferred, clustered, layers gbuffer",
                                                    "deferred, clustered, layers forward",
                                                    "forward_plus, clustered"}));
@@ -167,7 +165,7 @@ TEST(BenchLayers, ARowHasThreeWaysAndItsFastest) {
     EXPECT_EQ(some[0].ways[2], nullptr);
     EXPECT_TRUE(some[1].fastest.empty()) << "nothing to compare with";
     EXPECT_EQ(some[2].fastest, Ways{0});
-    EXPECT_TRUE(std::regex_search(layersText(few), std::regex("no layers +64  - +-"))) << layersText(few);
+    EXPECT_TRUE(std::regex_search(benchEnd(few), std::regex("no layers +64  - +-"))) << benchEnd(few);
     EXPECT_TRUE(layerRows(Bench()).empty());
 }
 

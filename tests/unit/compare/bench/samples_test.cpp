@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The benchmark's table by samples per pixel, with made-up times.
-#include "compare/bench/conclusion.h"
-#include "compare/bench/sample_table.h"
+#include "compare/bench/findings.h"
 #include "compare/cli/command_line.h"
 #include "compare/render/sample_counts.h"
 #include "tests/support/errors.h"
@@ -122,19 +121,19 @@ TEST(BenchSamples, LinesArePathsAndColumnsSamples) {
     const std::vector<SampleTable> tables = sampleTables(bench);
     ASSERT_EQ(tables.size(), 1u);
     const SampleTable& table = tables[0];
-    EXPECT_EQ(table.columns, (std::vector{1, 4}));
+    EXPECT_EQ(table.columns, (std::set{1, 4}));
     ASSERT_EQ(table.lines.size(), 4u);
     EXPECT_EQ(table.lines[0].name(), "deferred, opaque only");
     EXPECT_EQ(table.lines[3].name(), "forward_plus, transparency sorted");
-    EXPECT_EQ((*table.lines[1].cells[1])[Measure::ms], 40);
+    EXPECT_EQ((*table.lines[1].cells.at(4))[Measure::ms], 40);
     EXPECT_EQ(table.lines[2].name(), "deferred, transparency sorted");
-    EXPECT_EQ(table.lines[2].cells, (std::vector<const BenchRow*>{&bench.rows[2], nullptr}));
-    EXPECT_EQ(lightingMs(*table.lines[1].cells[1]), 1 + 20.0);
-    EXPECT_EQ(bytesPerSample(*table.lines[0].cells[1]), 32u);
+    EXPECT_EQ(table.lines[2].cells, (std::map<int, const BenchRow*>{{1, &bench.rows[2]}}));
+    EXPECT_EQ(passMs(*table.lines[1].cells.at(4), "shade"), 1 + 20.0);
+    EXPECT_EQ(bytesPerSample(*table.lines[0].cells.at(4)), 32u);
     Bench modes = bench;
     modes.options.table = BenchTable::modes;
     EXPECT_TRUE(sampleTables(modes).empty());
-    EXPECT_EQ(sampleTablesText(modes), "");
+    EXPECT_TRUE(sampleBlocks(modes).empty());
 }
 
 // The paper's 32 bytes per sample: 63, 253 and 506 MiB at 1920x1080.
