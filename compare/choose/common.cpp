@@ -12,6 +12,9 @@ namespace diptych::choose {
 
 namespace {
 
+constexpr std::size_t mostFinalists = 6;  // in the race, the fastest by earlier times
+constexpr int raceRounds = 4;             // each renders every finalist twice in each scene
+
 Settings withoutCamera(Settings settings) {
     settings.camera.clear();
     return settings;
@@ -44,7 +47,8 @@ public:
             // The race may show some to be slower than before.
             std::erase_if(fit, [&](std::size_t i) { return worstMiss(i, true) > 0; });
             if (std::ranges::count(fit, *found_.chosen) > 0) break;
-            forgetRace();
+            static_cast<Race&>(found_) = {};
+            found_.slower.clear();
         }
         for (const std::size_t i : fit) all()[i].fits = true;
         if (!found_.chosen) findNearest();
@@ -192,9 +196,9 @@ private:
             for (const std::size_t i : fit) least = std::min(least, worstError(i));
             std::erase_if(fit, [&](std::size_t i) { return worstError(i) > least * alikeErrors; });
         }
-        if (fit.size() > options_.most_finalists && !timed_) timeAll(fit);
+        if (fit.size() > mostFinalists && !timed_) timeAll(fit);
         std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return sumOfLogs(i); });
-        fit.resize(std::min(fit.size(), std::max<std::size_t>(options_.most_finalists, 1)));
+        fit.resize(std::min(fit.size(), mostFinalists));
         return fit;
     }
 
@@ -239,24 +243,17 @@ private:
             for (double& log : logs) log = std::exp(log);
             return logs;
         };
-        setWinner(finalists, rankByTime(n, draw, options_.rounds, options_.rounds), rounds);
+        setWinner(finalists, rankByTime(n, draw, raceRounds, raceRounds), rounds);
     }
     void setWinner(const std::vector<std::size_t>& finalists, const Ranking& result, const Rounds& rounds) {
-        found_.significant = result.significant;
-        found_.chosen = finalists[result.winner];
-        found_.ties.clear();
-        std::optional<std::size_t> second;
+        static_cast<Race&>(found_) = raceOf(result, finalists);
         for (std::size_t k = 0; k < finalists.size(); ++k) {
             CommonCandidate& candidate = all()[finalists[k]];
             candidate.race = result.ratios[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
                 candidate.scenes[scene].measured[Measure::ms] =
                     std::exp(experiment::meanOf(rounds[scene][k]));
-            if (k == result.winner) continue;
-            if (!candidate.race->isSlower()) found_.ties.push_back(finalists[k]);
-            if (!second || candidate.race->ratio < result.ratios[*second].ratio) second = k;
         }
-        found_.runner_up = second ? std::optional(finalists[*second]) : std::nullopt;
         found_.slower.assign(own_.size(), std::nullopt);
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
@@ -273,14 +270,6 @@ private:
         const auto found = std::ranges::find_if(
             finalists, [&](std::size_t i) { return found_.candidates[i].settings == own; });
         return static_cast<std::size_t>(found - finalists.begin());
-    }
-
-    void forgetRace() {
-        found_.chosen.reset();
-        found_.runner_up.reset();
-        found_.ties.clear();
-        found_.slower.clear();
-        found_.significant = false;
     }
 
     void findNearest() {

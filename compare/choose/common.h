@@ -20,10 +20,6 @@ struct CommonOptions {
     Budget budget;  // for every scene
     // Maximum candidates; those that most scenes propose come first.
     std::size_t most_candidates = 16;
-    // Maximum finalists in the race, the fastest by earlier times.
-    std::size_t most_finalists = 6;
-    // Rounds of the race. Each renders every finalist twice in each scene.
-    int rounds = 4;
     // Called before each long step with its description and the fraction done, approximate.
     std::function<void(double, std::string_view)> progress = {};
 };
@@ -37,18 +33,12 @@ struct CommonCandidate {
     std::optional<TimeRatio> race{};  // over the winner; geometric means over all scenes
 };
 
-struct CommonChoice {
+struct CommonChoice : Outcome {
     std::vector<CommonCandidate> candidates;
     std::size_t left_out = 0;
-    std::optional<std::size_t> chosen, runner_up;
-    std::vector<std::size_t> ties;  // not significantly slower than the chosen one
-    bool significant = false;
     // By scene: its time over that of the scene's own choice, at 95 % confidence; empty if there is none.
     std::vector<std::optional<TimeRatio>> slower;
-    // If nothing fits: the nearest candidate, and the scene with its largest miss.
-    std::optional<std::size_t> nearest;
-    std::size_t nearest_scene = 0;
-    std::size_t judged = 0, timings = 0;
+    std::size_t nearest_scene = 0;  // the one with the nearest candidate's largest miss
 };
 
 // `own`: choices of at least one scene for this budget. `evaluatorOf`: evaluator of a scene by index, valid

@@ -58,4 +58,18 @@ Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, in
     return result;
 }
 
+Race raceOf(const Ranking& ranking, std::span<const std::size_t> finalists) {
+    Race race;
+    race.chosen = finalists[ranking.winner];
+    race.significant = ranking.significant;
+    std::optional<std::size_t> second;
+    for (std::size_t k = 0; k < finalists.size(); ++k) {
+        if (k == ranking.winner) continue;
+        if (!ranking.ratios[k].isSlower()) race.ties.push_back(finalists[k]);
+        if (!second || ranking.ratios[k].ratio < ranking.ratios[*second].ratio) second = k;
+    }
+    if (second) race.runner_up = finalists[*second];
+    return race;
+}
+
 }  // namespace diptych::choose

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,15 @@ struct Ranking {
     bool significant = false;  // all others are significantly slower
     std::size_t draws = 0;
 };
+
+// A ranking by indices of candidates.
+struct Race {
+    std::optional<std::size_t> chosen, runner_up;  // fastest, second fastest
+    std::vector<std::size_t> ties;                 // not significantly slower than the chosen one
+    bool significant = false;                      // all others are significantly slower
+};
+// `finalists`: the ranked candidates.
+Race raceOf(const Ranking& ranking, std::span<const std::size_t> finalists);
 
 // Each round renders every remaining finalist in an order and its reverse, which cancels a drift of the
 // device's speed. Needs at least one finalist. Runs `least` to `most` rounds; the first call of `draw`

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/scene_chooser.h"
 
-#include "compare/choose/table.h"
 #include "compare/choose/variations.h"
 #include "compare/experiment/evaluator.h"
 #include "compare/experiment/grid.h"
@@ -30,6 +29,10 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::function<void(double, std::string_view)> reporter(const Stage& stage) {
+    return [stage](double done, std::string_view what) { stage.at(done, std::string(what)); };
 }
 
 // Candidates: the rows of --grid, or default rows limited to settings that the scene is sensitive to.
@@ -142,7 +145,7 @@ Choice SceneChooser::search(LoadedScene& loaded, const Settings& given,
                                                   : made && std::ranges::count(candidates, *made) > 0;
         return drawn ? made : std::nullopt;
     };
-    options.progress = [&](double done, std::string_view what) { progress.at(done, std::string(what)); };
+    options.progress = reporter(progress);
     return choose::search(tableOf(candidates), *loaded.evaluator, options);
 }
 
@@ -179,12 +182,9 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.choice = search(loaded, given, candidates, stage.part(0.2, 0.95));
 
     for (Candidate& candidate : report.choice.candidates) {
-        report.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
-        // Printed commands apply to all cameras, and maybe to other scenes.
         candidate.scene = where;
-        candidate.judgement = nameOf(candidate.status);
-        candidate.settings.camera = question_.settings.camera;
-        report.commands.push_back(shellLine(commandWords("render", where, candidate.settings)));
+        candidate.judgement = candidate.statusName().word;
+        describe(report, candidate.settings, where);
     }
     loaded.evaluator->release();  // frees memory for other evaluators
     if (report.choice.chosen)
@@ -196,6 +196,12 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     report.seconds = secondsSince(start);
     progress_.wipe();
     return report;
+}
+
+void SceneChooser::describe(AnyReport& report, Settings& candidate, const std::string& scene) const {
+    report.words.push_back(experiment::inWords(experiment::choicesOf(candidate, report.given)));
+    candidate.camera = question_.settings.camera;
+    report.commands.push_back(shellLine(commandWords("render", scene, candidate)));
 }
 
 std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,
@@ -224,15 +230,13 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
                     each.set(field.option, question_.settings.valueOf(field.option));
     const VariedScene varied{device_, pipelines_, loaded.views, loaded.renderer, references, compared};
     constexpr int rounds = 5;
-    return SensitivityReport{report.words[*choice.chosen],
-                             report.words[*other],
-                             std::string(nameOf(chosen_path)),
-                             std::string(nameOf(compared[1].path)),
-                             fits,
-                             analyzeSensitivity(drawAsIs(varied), propertiesOf(varied), rounds,
-                                                [&](double done, std::string_view what) {
-                                                    progress.at(done, std::string(what));
-                                                })};
+    return SensitivityReport{
+        analyzeSensitivity(drawAsIs(varied), propertiesOf(varied), rounds, reporter(progress)),
+        report.words[*choice.chosen],
+        report.words[*other],
+        std::string(nameOf(chosen_path)),
+        std::string(nameOf(compared[1].path)),
+        fits};
 }
 
 HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
@@ -258,22 +262,21 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
         all.scenes.push_back(report.scene);
     }
     CommonOptions common;
-    common.budget = reports.front().budget;
-    common.progress = [&](double done, std::string_view what) { stage.at(done, std::string(what)); };
+    common.budget = question_.budget;
+    common.progress = reporter(stage);
     const std::function<Evaluator&(std::size_t)> evaluatorOf = [&](std::size_t scene) -> Evaluator& {
         return *load(reports[scene].scene, Stage()).evaluator;
     };
     all.choice = choose::chooseForAll(own, evaluatorOf, common);
-    Settings given = question_.settings;
-    given.camera.clear();
+    all.given = question_.settings;
+    all.given.camera.clear();
+    all.budget = question_.budget;
     for (CommonCandidate& candidate : all.choice.candidates) {
-        all.words.push_back(experiment::inWords(experiment::choicesOf(candidate.settings, given)));
         for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
             candidate.scenes[scene].scene = all.scenes[scene];
             candidate.scenes[scene].judgement = candidate.fits ? "fits all scenes" : "not for all scenes";
         }
-        candidate.settings.camera = question_.settings.camera;
-        all.commands.push_back(shellLine(commandWords("render", "SCENE", candidate.settings)));
+        describe(all, candidate.settings, "SCENE");
     }
     checkValidation(device_);
     all.seconds = secondsSince(start);

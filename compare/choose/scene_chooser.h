@@ -48,6 +48,8 @@ private:
     // `given`: Settings that candidates change.
     Choice search(LoadedScene& loaded, const Settings& given, const std::vector<Settings>& candidates,
                   const Stage& progress) const;
+    // A candidate's words, and a command for all cameras and maybe other scenes.
+    void describe(AnyReport& report, Settings& candidate, const std::string& scene) const;
     HeldOutCamera atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,
                             const std::string& camera);
     std::optional<SensitivityReport> sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,

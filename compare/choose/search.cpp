@@ -305,10 +305,7 @@ private:
             if (!budget_.ms || found_.ms <= *budget_.ms) return;
             // The fastest finalist exceeds the time budget, so all do.
             for (const std::size_t i : fit) all_[i].status = CandidateStatus::too_slow;
-            found_.chosen.reset();
-            found_.runner_up.reset();
-            found_.ties.clear();
-            found_.significant = false;
+            static_cast<Race&>(found_) = {};
         }
     }
     void timeAgain(const std::vector<std::size_t>& which) {
@@ -320,8 +317,7 @@ private:
             return evaluator_.time(frames, order);
         });
         found_.timings += result.draws;
-        found_.significant = result.significant;
-        found_.chosen = which[result.winner];
+        static_cast<Race&>(found_) = raceOf(result, which);
         found_.ms = result.ms[result.winner];
         // Shift earlier times to the device's current speed.
         const double shift = std::log(found_.ms) - all_[*found_.chosen].log_ms;
@@ -332,10 +328,6 @@ private:
             all_[i].status = CandidateStatus::raced;
             all_[i].measured[Measure::ms] = result.ms[k];
             all_[i].race = result.ratios[k];
-            if (k == result.winner) continue;
-            if (!all_[i].race->isSlower()) found_.ties.push_back(i);
-            if (!found_.runner_up || all_[i].race->ratio < all_[*found_.runner_up].race->ratio)
-                found_.runner_up = i;
         }
     }
 

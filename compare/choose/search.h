@@ -5,11 +5,12 @@
 #pragma once
 
 #include "compare/choose/ranking.h"
-#include "compare/choose/table.h"
 #include "compare/experiment/evaluator.h"
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -24,6 +25,20 @@ using experiment::Evaluator;
 using experiment::Measure;
 using experiment::Measures;
 
+// One Setting of a path: option and value as words of Settings::set().
+struct Change {
+    Path path = Path::deferred;
+    std::string option, value;
+    auto operator<=>(const Change&) const = default;
+};
+// Options in which `to` differs from `from`, with the values of `to`.
+std::vector<Change> changesBetween(const Settings& from, const Settings& to);
+
+// What a choice measures first (table.cpp): each path's first candidate and those that differ from it in one
+// usual change; all candidates if they are few. `candidates`: each path's first comes before its others.
+std::vector<Settings> tableOf(std::span<const Settings> candidates);
+inline constexpr std::size_t mostInTable = 24;
+
 struct Budget {
     Measure figure = Measure::flip;  // the error's
     std::optional<double> error;
@@ -36,15 +51,13 @@ struct Budget {
 // Errors within this ratio count as equal.
 inline constexpr double alikeErrors = 1.01;
 
-// Settings with further changes; empty if the combination is invalid.
-using Combine = std::function<std::optional<Settings>(const Settings&, std::span<const Change>)>;
-
 struct SearchOptions {
     Budget budget;
     // Changes to try besides those of the table.
     std::vector<Change> changes = {};
-    // Empty: only the table is measured.
-    Combine combine = {};
+    // Settings with further changes; empty if the combination is invalid. Without it, only the table is
+    // measured.
+    std::function<std::optional<Settings>(const Settings&, std::span<const Change>)> combine = {};
     // Called before each step with the fraction done, approximate, and its description.
     std::function<void(double, std::string_view)> progress = {};
 };
@@ -56,6 +69,14 @@ enum class CandidateStatus {
     fits,
     raced,  // fits, and was timed against the best
 };
+struct StatusName {
+    const char *word, *words;
+};
+inline constexpr std::array<StatusName, 5> statusNames{{{"slower", "slower, error not measured"},
+                                                        {"misses", "over the error or memory budget"},
+                                                        {"too slow", "too slow"},
+                                                        {"fits", "no better"},
+                                                        {"raced", "timed against each other"}}};
 
 // Row::passes: of the chosen one and the other path's best.
 struct Candidate : experiment::Row {
@@ -64,6 +85,7 @@ struct Candidate : experiment::Row {
     std::size_t timings = 0;  // 0: log_ms is not valid
     // If raced: its time over the winner's.
     std::optional<TimeRatio> race{};
+    StatusName statusName() const { return statusNames[static_cast<std::size_t>(status)]; }
     double ms() const;  // NaN without timings
     bool isJudged() const { return measured.has(Measure::memory); }
     bool isFit() const { return status == CandidateStatus::fits || status == CandidateStatus::raced; }
@@ -72,14 +94,15 @@ struct Candidate : experiment::Row {
 // Largest relative excess over the budget; 0: within it, as far as it was measured.
 double missOf(const Measures& measured, const Budget& budget);
 
-struct Choice {
-    std::vector<Candidate> candidates;
-    std::optional<std::size_t> chosen;
-    std::optional<std::size_t> runner_up;  // second fastest in the race
-    std::vector<std::size_t> ties;         // not significantly slower than the chosen one
-    bool significant = false;              // the chosen one is significantly faster than all it raced
-    std::optional<std::size_t> nearest;    // if nothing fits
+// What the choice for one scene and the joint choice have in common.
+struct Outcome : Race {
+    std::optional<std::size_t> nearest;  // if nothing fits
     std::size_t judged = 0, timings = 0;
+    std::optional<std::size_t> shown() const { return chosen ? chosen : nearest; }
+};
+
+struct Choice : Outcome {
+    std::vector<Candidate> candidates;
     double ms = 0;  // of the chosen or nearest one
 };
 

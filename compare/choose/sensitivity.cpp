@@ -65,8 +65,10 @@ double farOff(double a, double b) {
     return a > 0 && b > 0 ? std::abs(std::log(a / b)) : std::abs(a - b);
 }
 
-}  // namespace
-
+// The break-even point nearest to `value`, between `least` and `most`. `times`: ascending values. Empty if
+// its interval reaches an end of that range. Between two measured values, the half-widths are weighted
+// like the values and added as independent errors; the interval of the break-even point is then Fieller's
+// (1954).
 std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double least,
                                           double most) {
     if (times.size() < 2) return {};
@@ -95,6 +97,8 @@ std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, dou
     }
     return nearest;
 }
+
+}  // namespace
 
 Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
                                  const std::function<void(double, std::string_view)>& progress) {

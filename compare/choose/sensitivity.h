@@ -78,11 +78,4 @@ struct Sensitivities {
 Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> properties, int rounds,
                                  const std::function<void(double, std::string_view)>& progress = {});
 
-// The break-even point nearest to `value`, between `least` and `most`. `times`: ascending values. Empty if
-// its interval reaches an end of that range. Between two measured values, the half-widths are weighted
-// like the values and added as independent errors; the interval of the break-even point is then Fieller's
-// (1954).
-std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double least,
-                                          double most);
-
 }  // namespace diptych::choose

@@ -1,31 +1,46 @@
 // SPDX-License-Identifier: MIT
-#include "compare/choose/table.h"
+#include "compare/choose/search.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
-#include <string_view>
 #include <utility>
 
 namespace diptych::choose {
 
 namespace {
 
-constexpr std::size_t unusual = static_cast<std::size_t>(-1);
+// Options and values; "*" is any. Most relevant first: the table drops the last ones if it is full.
+constexpr std::pair<const char*, const char*> usualChanges[] = {
+    {"assign", "every,tiled,clustered"},       // light lists cost time and save it with many lights
+    {"gbuffer", "compact,standard,full"},      // bytes per pixel or normal error
+    {"size", "*"},                             // fewer pixels: less time, more error
+    {"shadows", "off,pcf,evsm,msm4,clipmap"},  // directional shadow filters
+    {"prepass", "on,off"},                     // saves time with overdraw
+    {"transparency", "sorted,unsorted,weighted,moments"},
+    {"msaa", "1,4"},
+    {"msaa-edges", "all,exact,similar,coverage"},
+    {"ibl", "split,sampled"},
+    {"ibl-diffuse", "sh,map"},
+    {"shadow-size", "512,1024"},
+    {"shadow-lights", "0,1,4"},
+    {"area-lights", "ltc,representative"},
+    {"light-cutoff", "0,0.01"},
+    {"specular-albedo", "table,fit"},
+    {"skinning", "compute,vertex"},
+    {"lit-format", "fp16"},
+    {"lighting", "compute"}};
 
-// Index in the list, from 1; `unusual` if not in the list.
-std::size_t placeOf(const Change& change) {
-    std::size_t place = 0;
-    const auto has = [&](std::string_view option, std::string_view values) {
-        ++place;
-        return change.option == option &&
-               (values == "*" ||
-                ("," + std::string(values) + ",").find("," + change.value + ",") != std::string::npos);
-    };
-#define X(option, values) \
-    if (has(option, values)) return place;
-    DIPTYCH_DEFAULT_CHANGES(X)
-#undef X
-    return unusual;
+// Index in the list, from 1; past its end if it is not there.
+std::ptrdiff_t placeOf(const Change& change) {
+    const auto* const found = std::ranges::find_if(usualChanges, [&](const auto& usual) {
+        const std::string values = fmt::format(",{},", usual.second);
+        return change.option == usual.first &&
+               (values == ",*," || values.find("," + change.value + ",") != std::string::npos);
+    });
+    return found - usualChanges + 1;
 }
 
 }  // namespace
@@ -41,15 +56,15 @@ std::vector<Change> changesBetween(const Settings& from, const Settings& to) {
 std::vector<Settings> tableOf(std::span<const Settings> candidates) {
     if (candidates.size() <= mostInTable) return {candidates.begin(), candidates.end()};
     std::map<Path, const Settings*> firsts;
-    std::vector<std::pair<std::size_t, const Settings*>> placed;
+    std::vector<std::pair<std::ptrdiff_t, const Settings*>> placed;
     for (const Settings& candidate : candidates) {
         const Settings& first = *firsts.try_emplace(candidate.path, &candidate).first->second;
         const std::vector<Change> changes = changesBetween(first, candidate);
         if (changes.size() > 1) continue;
-        const std::size_t place = changes.empty() ? 0 : placeOf(changes.front());
-        if (place != unusual) placed.emplace_back(place, &candidate);
+        const std::ptrdiff_t place = changes.empty() ? 0 : placeOf(changes.front());
+        if (place <= std::ssize(usualChanges)) placed.emplace_back(place, &candidate);
     }
-    std::ranges::stable_sort(placed, {}, &std::pair<std::size_t, const Settings*>::first);
+    std::ranges::stable_sort(placed, {}, &std::pair<std::ptrdiff_t, const Settings*>::first);
     placed.resize(std::min(placed.size(), mostInTable));
     std::vector<Settings> table;
     for (const auto& [place, candidate] : placed) table.push_back(*candidate);

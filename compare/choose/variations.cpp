@@ -39,17 +39,20 @@ experiment::ReferenceFrames viewpointsOf(const Scene& scene, const experiment::R
 
 // A modified copy of a scene, uploaded.
 struct MadeScene {
-    MadeScene(Scene made, const VariedScene& of, experiment::ReferenceFrames from)
+    MadeScene(Scene made, const VariedScene& of, experiment::ReferenceFrames from,
+              const std::array<Settings, 2>& settings)
         : scene(std::move(made)),
           views(scene),
           renderer(of.device, views, of.pipelines),
           viewpoints(std::move(from)),
-          evaluator(renderer, viewpoints, Measure::flip, {}) {}
+          varied{of.device, of.pipelines, views, renderer, viewpoints, settings},
+          draw(drawAsIs(varied)) {}
     Scene scene;
     SceneViews views;
     Renderer renderer;
     experiment::ReferenceFrames viewpoints;
-    experiment::SceneEvaluator evaluator;
+    VariedScene varied;
+    DrawInOrder draw;
 };
 
 // Sums over all cameras.
@@ -58,20 +61,19 @@ struct Figures {
     double lights = 0, surface = 0;                    // evaluated lights, pixels with an opaque surface
 };
 
-Overdraw overdrawFrom(const VariedScene& of, SceneViews& views, const Settings& settings) {
-    SharedResources shared(of.device, views.scene(), of.pipelines);
-    const PreparedView view(of.device, shared, views.at(viewRequest(settings)), settings);
+Overdraw overdrawFrom(const VariedScene& of, const Settings& settings) {
+    SharedResources shared(of.device, of.views.scene(), of.pipelines);
+    const PreparedView view(of.device, shared, of.views.at(viewRequest(settings)), settings);
     return measureOverdraw(view.inputs, static_cast<std::uint32_t>(settings.size.width),
                            static_cast<std::uint32_t>(settings.size.height));
 }
 
-Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
-                  const experiment::ReferenceFrames& viewpoints, const std::array<Settings, 2>& settings) {
+Figures figuresOf(const VariedScene& of) {
     Figures figures;
-    for (const Frame& from : viewpoints.frames) {
-        Settings seen = shadesFragments(settings[0].path) ? settings[0] : settings[1];
+    for (const Frame& from : of.references.frames) {
+        Settings seen = shadesFragments(of.settings[0].path) ? of.settings[0] : of.settings[1];
         seen.camera = from.settings.camera;
-        const Overdraw overdraw = overdrawFrom(of, views, seen);
+        const Overdraw overdraw = overdrawFrom(of, seen);
         figures.fragments += static_cast<double>(overdraw.fragments);
         figures.covered += static_cast<double>(overdraw.covered);
         figures.triangles += static_cast<double>(overdraw.triangles);
@@ -79,7 +81,7 @@ Figures figuresOf(const VariedScene& of, SceneViews& views, Renderer& renderer,
         drawing.channels = {Channel::material_id, Channel::light_count};
         drawing.requested = drawing.channels;
         drawing.runs = 0;
-        const Frame frame = renderer.draw(seen, drawing);
+        const Frame frame = of.renderer.draw(seen, drawing);
         const Image &ids = frame.channels.at(Channel::material_id),
                     &lights = frame.channels.at(Channel::light_count);
         for (std::size_t i = 0; i < ids.pixels(); ++i) {
@@ -120,7 +122,7 @@ public:
         : of_(of),
           scene_(of.views.scene()),
           viewpoints_(viewpointsOf(scene_, of.references)),
-          here_(figuresOf(of, of.views, of.renderer, viewpoints_, of.settings)) {}
+          here_(figuresOf({of.device, of.pipelines, of.views, of.renderer, viewpoints_, of.settings})) {}
 
     std::vector<Property> all() const {
         return {overdraw(), lights(), blended(), samples(), materials(), triangles(), size()};
@@ -129,13 +131,9 @@ public:
 private:
     // The same scene with other Settings on both paths.
     std::function<Variation()> withSettings(double value, const std::array<Settings, 2>& settings) const {
-        return [this_of = of_, value, settings] {
-            const auto evaluator = std::make_shared<experiment::SceneEvaluator>(
-                this_of.renderer, this_of.references, Measure::flip, RenderOptions());
-            return Variation{value, [evaluator, settings](std::span<const std::size_t> order) {
-                                 return evaluator->time(settings, order);
-                             }};
-        };
+        VariedScene of = of_;
+        of.settings = settings;
+        return [of, value] { return Variation{value, drawAsIs(of)}; };
     }
     // A modified scene; `valueOf` measures the property.
     template <class Make, class ValueOf>
@@ -144,22 +142,18 @@ private:
         if (bakedLights)
             for (Settings& each : settings) each.lights.clear();
         return [of = of_, viewpoints = viewpoints_, settings, make, valueOf] {
-            const auto made = std::make_shared<MadeScene>(make(of.views.scene()), of, viewpoints);
-            const double value = valueOf(*made, settings);
-            return Variation{value, [made, settings](std::span<const std::size_t> order) {
-                                 return made->evaluator.time(settings, order);
-                             }};
+            const auto made = std::make_shared<MadeScene>(make(of.views.scene()), of, viewpoints, settings);
+            return Variation{valueOf(made->varied),
+                             [made](std::span<const std::size_t> order) { return made->draw(order); }};
         };
     }
     // Adds a modified scene whose figures measure the property.
     template <class Make>
     void addFigured(Property& property, double (*of_figures)(const Figures&), Make make,
                     bool bakedLights = false) const {
-        const auto valueOf = [of = of_, of_figures](MadeScene& made,
-                                                    const std::array<Settings, 2>& settings) {
-            return of_figures(figuresOf(of, made.views, made.renderer, made.viewpoints, settings));
-        };
-        property.others.push_back(withScene(make, valueOf, bakedLights));
+        property.others.push_back(withScene(
+            make, [of_figures](const VariedScene& made) { return of_figures(figuresOf(made)); },
+            bakedLights));
     }
 
     static double overdrawOf(const Figures& figures) { return ratioOf(figures.fragments, figures.covered); }
@@ -215,9 +209,8 @@ private:
                           .least = 0,
                           .most = 100};
         const auto vary = [&](bool all, double value) {
-            property.others.push_back(
-                withScene([all](const Scene& scene) { return withBlends(scene, all); },
-                          [value](MadeScene&, const std::array<Settings, 2>&) { return value; }));
+            property.others.push_back(withScene([all](const Scene& scene) { return withBlends(scene, all); },
+                                                [value](const VariedScene&) { return value; }));
         };
         if (share > 0) vary(false, 0);
         if (surface > share) vary(true, 100 * surface);
@@ -252,8 +245,8 @@ private:
                           .value = count,
                           .least = 1,
                           .most = 1024};
-        const auto valueOf = [](MadeScene& made, const std::array<Settings, 2>&) {
-            return static_cast<double>(materialsIn(made.scene));
+        const auto valueOf = [](const VariedScene& made) {
+            return static_cast<double>(materialsIn(made.views.scene()));
         };
         if (count > 1) property.others.push_back(withScene(withOneMaterial, valueOf));
         if (materialsIn(withOwnMaterials(scene_)) > materialsIn(scene_))
@@ -303,8 +296,8 @@ private:
 }  // namespace
 
 DrawInOrder drawAsIs(const VariedScene& of) {
-    const auto evaluator = std::make_shared<experiment::SceneEvaluator>(of.renderer, of.references,
-                                                                        Measure::flip, RenderOptions());
+    const auto evaluator = std::make_shared<experiment::SceneEvaluator>(
+        of.renderer, of.references, experiment::Measure::flip, RenderOptions());
     return [evaluator, settings = of.settings](std::span<const std::size_t> order) {
         return evaluator->time(settings, order);
     };

@@ -24,7 +24,7 @@ struct VariedScene {
     std::array<Settings, 2> settings;  // chosen path, other path
 };
 
-// Renders both Settings of the original scene, from every camera of the references.
+// Renders both Settings of the scene, from every camera of the references.
 DrawInOrder drawAsIs(const VariedScene& of);
 
 // Size, overdraw, lights per pixel, blended pixels, samples, materials and triangles. The references in

@@ -18,16 +18,12 @@ glm::vec3 extentOf(const Primitive& primitive) {
     return high - low;
 }
 
-float lengthOf(const glm::vec3& v) {
-    return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
-}
-
 // Inserts `copies` before each triangle, each slightly deeper below the surface. They are rendered first,
 // so without a pre-pass they are shaded and then overdrawn.
 void addBelow(Primitive& primitive, int copies) {
     constexpr float deeper = 1e-3f;  // fraction of the primitive's extent; far above depth precision
     const std::size_t count = primitive.positions.size();
-    const float step = deeper * lengthOf(extentOf(primitive));
+    const float step = deeper * glm::length(extentOf(primitive));
     std::vector<std::uint32_t> indices;
     const std::vector<std::uint32_t> own = primitive.indices;
     const Primitive surface = primitive;
@@ -49,6 +45,17 @@ void addBelow(Primitive& primitive, int copies) {
         for (std::size_t corner = 0; corner < 3; ++corner) indices.push_back(own[at + corner]);
     }
     primitive.indices = std::move(indices);
+}
+
+template <class Vary>
+Scene withPrimitives(Scene scene, const Vary& vary) {
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives) vary(primitive);
+    return scene;
+}
+
+const Material& materialOf(const Scene& scene, const Primitive& primitive) {
+    return scene.materials[static_cast<std::size_t>(primitive.material)];
 }
 
 }  // namespace
@@ -73,39 +80,29 @@ Scene withLights(const Scene& scene, std::span<const Light> lights, double facto
 }
 
 Scene withOverdraw(const Scene& scene, int copies) {
-    Scene varied = scene;
-    for (Mesh& mesh : varied.meshes)
-        for (Primitive& primitive : mesh.primitives) {
-            const bool moves = !primitive.joint_sets.empty() || !primitive.targets.empty();
-            if (!moves && !primitive.positions.empty() &&
-                !blends(scene.materials[static_cast<std::size_t>(primitive.material)]))
-                addBelow(primitive, copies);
-        }
-    return varied;
+    return withPrimitives(scene, [&](Primitive& primitive) {
+        const bool moves = !primitive.joint_sets.empty() || !primitive.targets.empty();
+        if (!moves && !primitive.positions.empty() && !blends(materialOf(scene, primitive)))
+            addBelow(primitive, copies);
+    });
 }
 
 Scene withEmptyTriangles(const Scene& scene, int copies) {
-    Scene varied = scene;
-    for (Mesh& mesh : varied.meshes)
-        for (Primitive& primitive : mesh.primitives) {
-            const std::vector<std::uint32_t> own = primitive.indices;
-            for (int copy = 0; copy < copies; ++copy)
-                for (std::size_t at = 0; at + 2 < own.size(); at += 3)
-                    primitive.indices.insert(primitive.indices.end(), {own[at], own[at + 1], own[at + 1]});
-        }
-    return varied;
+    return withPrimitives(scene, [&](Primitive& primitive) {
+        const std::vector<std::uint32_t> own = primitive.indices;
+        for (int copy = 0; copy < copies; ++copy)
+            for (std::size_t at = 0; at + 2 < own.size(); at += 3)
+                primitive.indices.insert(primitive.indices.end(), {own[at], own[at + 1], own[at + 1]});
+    });
 }
 
 Scene withOneMaterial(const Scene& scene) {
-    Scene varied = scene;
     std::optional<int> first;
-    for (Mesh& mesh : varied.meshes)
-        for (Primitive& primitive : mesh.primitives) {
-            if (blends(scene.materials[static_cast<std::size_t>(primitive.material)])) continue;
-            if (!first) first = primitive.material;
-            primitive.material = *first;
-        }
-    return varied;
+    return withPrimitives(scene, [&](Primitive& primitive) {
+        if (blends(materialOf(scene, primitive))) return;
+        if (!first) first = primitive.material;
+        primitive.material = *first;
+    });
 }
 
 Scene withOwnMaterials(const Scene& scene) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/choose/html.h"
 #include "compare/choose/report.h"
 #include "compare/choose/scene_chooser.h"
 #include "compare/cli/commands.h"
 #include "compare/files/linked_file.h"
 #include "compare/files/scene_folders.h"
+#include "compare/output/writers.h"
 #include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"
@@ -80,11 +80,11 @@ int runChoose(const Options& options) {
     };
     for (const std::string& scene : scenes) {
         choices.scenes.push_back(chooser.choose(scene));
-        tell(inWords(choices.scenes.back()));
+        tell(inText(blocksOf(choices.scenes.back())));
     }
     if (scenes.size() > 1) {
         choices.all = chooser.chooseForAll(choices.scenes);
-        tell(inWords(*choices.all, choices.scenes.front()));
+        tell(inText(blocksOf(*choices.all)));
     }
     std::optional<Settings> settings = chosenSettings(choices);
     if (settings) settings->camera = options.settings.camera;

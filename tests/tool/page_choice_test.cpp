@@ -23,10 +23,10 @@ constexpr const char* lookAtChoice = R"(
     text.getBoundingClientRect().width / unit / text.textContent.length));
   told.limits = $$('svg.chart > .budget').length;
   told.points = $$('svg.chart .point[data-row]').length;
-  told.rows = $$('.rows tbody tr').length;
+  told.rows = $$('body > .rows tbody tr').length;
   const head = $$('.rows th').find(th => th.textContent === 'FLIP');
   head.querySelector('button').click();
-  told.errors = $$('.rows tbody tr').map(row => +row.cells[3].dataset.value);
+  told.errors = $$('body > .rows tbody tr').map(row => +row.cells[2].dataset.value);
   $('.again [data-do=copy]').click(); await wait(50);
   told.copied = getSelection().toString();
   tell(told);)";

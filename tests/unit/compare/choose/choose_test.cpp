@@ -2,7 +2,7 @@
 // Choices compared with exhaustive sweeps: recorded times and errors of every candidate.
 #include "compare/choose/report.h"
 #include "compare/choose/search.h"
-#include "compare/choose/table.h"
+#include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "tests/unit/compare/choose/replay.h"
 
@@ -63,16 +63,20 @@ std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
     return sorted;
 }
 
+std::optional<Settings> anyOf(const Settings& of, std::span<const Change> changes) {
+    Settings made = of;
+    for (const Change& change : changes) made.set(change.option, change.value);
+    return made;
+}
+
 Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
                    const ReplayNoise& noise, std::uint64_t seed) {
     RecordedEvaluator evaluator(sweep, noise, seed);
     SearchOptions options;
     options.budget = budget;
-    options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
-        Settings made = of;
-        for (const Change& change : changes) made.set(change.option, change.value);
-        return std::ranges::count(sweep.rows, made, &RecordedRow::settings) > 0 ? std::optional(made)
-                                                                                : std::nullopt;
+    options.combine = [&](const Settings& of, std::span<const Change> changes) {
+        const std::optional<Settings> made = anyOf(of, changes);
+        return std::ranges::count(sweep.rows, *made, &RecordedRow::settings) > 0 ? made : std::nullopt;
     };
     const std::vector<Settings> table = tableOf(candidates);
     const Choice choice = search(table, evaluator, options);
@@ -213,12 +217,6 @@ private:
     }
 };
 
-std::optional<Settings> anyOf(const Settings& of, std::span<const Change> changes) {
-    Settings made = of;
-    for (const Change& change : changes) made.set(change.option, change.value);
-    return made;
-}
-
 TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     LawfulEvaluator evaluator;
     evaluator.law = {{{"shadow-size", "512"}, {0.8, 0.001}},  {{"lit-format", "fp16"}, {0.9, 0.001}},
@@ -298,14 +296,19 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
 
 TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
     ChoiceReport report;
+    report.words = report.commands = {"one", "other"};
     report.choice.candidates.resize(2);
     Candidate& judged = report.choice.candidates[0];
+    judged.measured[Measure::ms] = 4.5;
     judged.measured[Measure::flip] = 0.0125;
     judged.measured[Measure::memory] = 3u << 20;
-    judged.log_ms = std::log(4.5);
     judged.timings = 2;
-    EXPECT_EQ(figuresInWords(report, 0), "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20));
-    EXPECT_EQ(figuresInWords(report, 1), "not timed");
+    report.choice.chosen = 0;
+    const std::string figures = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
+    EXPECT_NE(inText(blocksOf(report)).find("\none\n" + figures + "\n"), std::string::npos);
+    EXPECT_NE(inHtml(blocksOf(report)).find(figures), std::string::npos);
+    report.choice.chosen = 1;
+    EXPECT_NE(inText(blocksOf(report)).find("\nother\nnot timed\n"), std::string::npos);
 }
 
 }  // namespace

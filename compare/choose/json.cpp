@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "shared/text/json.h"
+#include "compare/choose/report.h"
+
+namespace diptych::choose {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json orNull(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json settingsJson(const std::optional<Settings>& settings) {
+    return settings ? parseOrderedJson(toJson(*settings)) : Json();
+}
+
+Json jsonOf(const TimeRatio& of) {
+    return {{"ratio", of.ratio}, {"low", of.low}, {"high", of.high}, {"pairs", of.pairs}};
+}
+
+template <class Report>
+void addCandidate(Json& candidate, const Report& report, std::size_t i) {
+    candidate["words"] = report.words[i];
+    candidate["command"] = report.commands[i];
+    if (report.choice.candidates[i].race) candidate["race"] = jsonOf(*report.choice.candidates[i].race);
+}
+
+template <class Report>
+void addOutcome(Json& json, const Report& report) {
+    const auto& choice = report.choice;
+    json["settings"] = settingsJson(chosenSettings(choice));
+    json["chosen"] = orNull(choice.chosen);
+    json["runner_up"] = orNull(choice.runner_up);
+    json["nearest"] = orNull(choice.nearest);
+    json["ties"] = choice.ties;
+    json["sure"] = choice.significant;
+    json["judged"] = choice.judged;
+    json["frames_timed"] = choice.timings;
+    json["seconds"] = report.seconds;
+}
+
+Json jsonOf(const PropertySensitivity& sensitivity) {
+    const Property& property = sensitivity.property;
+    Json times = Json::array();
+    for (const TimedValue& at : sensitivity.times)
+        times.push_back({{"value", at.value},
+                         {"ms", at.ms[0]},
+                         {"other_ms", at.ms[1]},
+                         {"difference", at.difference},
+                         {"half_interval", at.half_width}});
+    Json json{{"name", property.name},
+              {"value", property.value},
+              {"unit", property.unit},
+              {"how", property.how},
+              {"times", std::move(times)}};
+    json["open"] = orNull(sensitivity.open);
+    if (!property.few_values) json["looked_at"] = {property.least, property.most};
+    if (!property.not_varied.empty()) json["not_varied"] = property.not_varied;
+    json["crossing"] = Json();
+    if (const auto& at = sensitivity.break_even)
+        json["crossing"] = {{"value", at->value},
+                            {"low", at->low},
+                            {"high", at->high},
+                            {"extrapolated", at->extrapolated},
+                            {"other_is_faster", at->other_above ? "above" : "below"}};
+    json["turns_at"] = orNull(sensitivity.reversed_at);
+    return json;
+}
+
+Json jsonOf(const SensitivityReport& report) {
+    Json properties = Json::array();
+    for (const PropertySensitivity& each : report.properties) properties.push_back(jsonOf(each));
+    return {{"chosen", report.chosen},
+            {"other", report.other},
+            {"other_fits", report.other_fits},
+            {"ms", report.as_is.ms[0]},
+            {"other_ms", report.as_is.ms[1]},
+            {"frames", report.frames},
+            {"properties", std::move(properties)}};
+}
+
+Json jsonOf(const ChoiceReport& report) {
+    const Budget& budget = report.budget;
+    const ReportDevice& device = report.device;
+    Json json{
+        {"schema", 2},
+        {"scene", report.scene},
+        {"cameras", report.cameras},
+        {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
+        {"figure", named(budget.figure).name},
+        {"budget",
+         {{"error", orNull(budget.error)}, {"ms", orNull(budget.ms)}, {"bytes", orNull(budget.bytes)}}}};
+    addOutcome(json, report);
+    json["why"] = whyInWords(report);
+    if (report.sensitivities) json["deciders"] = jsonOf(*report.sensitivities);
+    Json held_out = Json::array(), rows = Json::array();
+    for (const HeldOutCamera& camera : report.held_out)
+        held_out.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
+    for (std::size_t i = 0; i < report.choice.candidates.size(); ++i) {
+        Json& row = rows.emplace_back(experiment::jsonOf(report.choice.candidates[i]));
+        row["frames_timed"] = report.choice.candidates[i].timings;
+        addCandidate(row, report, i);
+    }
+    json["unseen_cameras"] = std::move(held_out);
+    json["notes"] = report.notes;
+    json["rows"] = std::move(rows);
+    return json;
+}
+
+Json jsonOf(const CommonReport& report) {
+    const CommonChoice& choice = report.choice;
+    Json json, candidates = Json::array();
+    addOutcome(json, report);
+    json["left_out"] = choice.left_out;
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const CommonCandidate& candidate = choice.candidates[i];
+        Json rows = Json::array();
+        for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
+            Json& row = rows.emplace_back(experiment::jsonOf(candidate.scenes[scene]));
+            if (i == choice.chosen && choice.slower[scene]) row["to_its_own"] = jsonOf(*choice.slower[scene]);
+        }
+        Json& one = candidates.emplace_back(Json{{"settings", settingsJson(candidate.settings)},
+                                                 {"fits", candidate.fits},
+                                                 {"proposed_by", candidate.proposed_by},
+                                                 {"rows", std::move(rows)}});
+        addCandidate(one, report, i);
+    }
+    json["candidates"] = std::move(candidates);
+    return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json toJson(const Choices& choices) {
+    if (!choices.all) return jsonOf(choices.scenes.front());
+    Json scenes = Json::array();
+    for (const ChoiceReport& report : choices.scenes) scenes.push_back(jsonOf(report));
+    return {{"schema", 2},
+            {"settings", settingsJson(chosenSettings(choices))},
+            {"all", jsonOf(*choices.all)},
+            {"scenes", std::move(scenes)}};
+}
+
+}  // namespace diptych::choose
