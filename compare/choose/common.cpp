@@ -20,12 +20,6 @@ Settings withoutCamera(Settings settings) {
     return settings;
 }
 
-double logMean(const std::vector<double>& times) {
-    double sum = 0;
-    for (const double ms : times) sum += std::log(std::max(ms, 1e-9));
-    return sum / static_cast<double>(times.size());
-}
-
 class CommonSearch {
 public:
     CommonSearch(std::span<const Choice* const> own,
@@ -180,10 +174,11 @@ private:
         inEachScene(0.5, 0.7, "times for all scenes", [&](std::size_t scene) {
             const std::vector<double> times = evaluatorOf_(scene).time(frames, order);
             found_.timings += times.size();
-            std::vector<std::vector<double>> of(which.size());
-            for (std::size_t at = 0; at < order.size(); ++at) of[order[at]].push_back(times[at]);
+            std::vector<std::vector<double>> logs(which.size());
+            for (std::size_t at = 0; at < order.size(); ++at)
+                logs[order[at]].push_back(std::log(std::max(times[at], 1e-9)));
             for (std::size_t k = 0; k < which.size(); ++k)
-                all()[which[k]].scenes[scene].measured[Measure::ms] = std::exp(logMean(of[k]));
+                all()[which[k]].scenes[scene].measured[Measure::ms] = std::exp(experiment::meanOf(logs[k]));
         });
         timed_ = true;
     }
