@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <optional>
@@ -302,7 +301,6 @@ TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
     judged.measured[Measure::ms] = 4.5;
     judged.measured[Measure::flip] = 0.0125;
     judged.measured[Measure::memory] = 3u << 20;
-    judged.timings = 2;
     report.choice.chosen = 0;
     const std::string figures = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
     EXPECT_NE(inText(blocksOf(report)).find("\none\n" + figures + "\n"), std::string::npos);
