@@ -109,8 +109,7 @@ bool isNearBlended(const Image& blended, std::size_t pixel, int reach) {
 
 Settings Series::applied(Settings settings) const {
     settings.path = path;
-    for (const Change& change : changes) settings.set(change.option, std::string(change.value));
-    return settings;
+    return experiment::changed(std::move(settings), changes);
 }
 
 std::string Series::words() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/audit/case.h"
+#include "compare/experiment/change.h"
 #include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
@@ -19,10 +20,7 @@
 
 namespace diptych::audit {
 
-// A Setting in the syntax of Settings::set().
-struct Change {
-    std::string_view option, value;
-};
+using experiment::Change;
 
 // Predicted magnitudes at which arithmetic fails.
 struct Predicted {

@@ -86,7 +86,7 @@ void addAudited(Json& json, const Audited& audited) {
 
 Json jsonOf(const Series& series) {
     Json changes = Json::object();
-    for (const Change& change : series.changes) changes[std::string(change.option)] = change.value;
+    for (const Change& change : series.changes) changes[change.option] = change.value;
     return {{"path", nameOf(series.path)}, {"settings", changes}};
 }
 

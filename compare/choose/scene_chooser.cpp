@@ -45,16 +45,16 @@ std::vector<Settings> candidatesFor(const std::string& grid, const Settings& giv
                                        [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
     std::ranges::stable_sort(sweep.rows, {},
-                             [&](const Settings& row) { return experiment::choicesOf(row, given).size(); });
+                             [&](const Settings& row) { return experiment::changesOf(row, given).size(); });
     return std::move(sweep.rows);
 }
 
 // Settings with further changes; empty if a sweep would not render them.
 std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
     experiment::Grid grid;
-    for (const experiment::Choice& choice : experiment::choicesOf(of, given))
-        if (std::ranges::count(changes, choice.first, &Change::option) == 0)
-            grid.push_back({choice.first, {choice.second}});
+    for (const experiment::Change& choice : experiment::changesOf(of, given))
+        if (std::ranges::count(changes, choice.option, &Change::option) == 0)
+            grid.push_back({choice.option, {choice.value}});
     for (const Change& change : changes) grid.push_back({change.option, {change.value}});
     try {
         const experiment::SweepRows sweep = experiment::makeSweepRows(given, {grid});
@@ -199,7 +199,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 }
 
 void SceneChooser::describe(AnyReport& report, Settings& candidate, const std::string& scene) const {
-    report.words.push_back(experiment::inWords(experiment::choicesOf(candidate, report.given)));
+    report.words.push_back(experiment::inWords(experiment::changesOf(candidate, report.given)));
     candidate.camera = question_.settings.camera;
     report.commands.push_back(shellLine(commandWords("render", scene, candidate)));
 }

@@ -22,8 +22,8 @@ Cause causeOf(const SweepSkip& skip) {
         const std::string rest = skip.reason.substr(named.size() + 1);
         return {rest.substr(0, rest.rfind("; use ")), option, value};
     }
-    const bool single = skip.tried.size() == 2 && skip.tried.front().first == "path";
-    return single ? Cause{skip.reason, skip.tried.back().first, skip.tried.back().second}
+    const bool single = skip.tried.size() == 2 && skip.tried.front().option == "path";
+    return single ? Cause{skip.reason, skip.tried.back().option, skip.tried.back().value}
                   : Cause{skip.reason, "", inWords(skip.tried)};
 }
 

@@ -57,10 +57,10 @@ class SweepBuilder {
 public:
     explicit SweepBuilder(const Settings& given) : given_(given) {}
 
-    void add(const std::vector<Choice>& choices) {
+    void add(const std::vector<Change>& choices) {
         Settings requested = given_;
         for (const auto& [option, value] : choices) requested.set(option, value);
-        const std::vector<Choice> tried = changed(requested);
+        const std::vector<Change> tried = changed(requested);
         if (isReference(requested.path))
             return skip({{"path", "reference"}}, "is the reference that all rows are compared with");
         for (const auto& [option, value] : tried)
@@ -85,19 +85,19 @@ public:
     SweepRows done() { return std::move(sweep_); }
 
 private:
-    std::vector<Choice> changed(const Settings& requested) const {
-        std::vector<Choice> choices;
+    std::vector<Change> changed(const Settings& requested) const {
+        std::vector<Change> choices;
         for (const Field& field : settingFields()) {
             const std::string value = requested.valueOf(field.option);
             if (field.option == "path" || value != given_.valueOf(field.option))
-                choices.emplace_back(field.option, value);
+                choices.push_back({std::string(field.option), value});
         }
         return choices;
     }
     // Omits skips whose combination extends one with the same reason.
-    void skip(const std::vector<Choice>& tried, const std::string& reason) {
+    void skip(const std::vector<Change>& tried, const std::string& reason) {
         const auto covers = [&](const SweepSkip& skip) {
-            return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Choice& choice) {
+            return skip.reason == reason && std::ranges::all_of(skip.tried, [&](const Change& choice) {
                        return std::ranges::count(tried, choice) > 0;
                    });
         };
@@ -112,9 +112,9 @@ private:
 void addProduct(const Grid& grid, SweepBuilder& builder) {
     std::vector<std::size_t> at(grid.size(), 0);
     for (std::size_t digit = 1; digit > 0;) {
-        std::vector<Choice> choices;
+        std::vector<Change> choices;
         for (std::size_t i = 0; i < grid.size(); ++i)
-            choices.emplace_back(grid[i].first, grid[i].second[at[i]]);
+            choices.push_back({grid[i].first, grid[i].second[at[i]]});
         builder.add(choices);
         for (digit = grid.size(); digit > 0; at[--digit] = 0)
             if (++at[digit - 1] < grid[digit - 1].second.size()) break;
@@ -182,7 +182,7 @@ SweepRows withoutRefused(SweepRows sweep, const Settings& given,
     std::vector<Settings> drawn;
     for (Settings& row : sweep.rows)
         if (const auto why = problem(row))
-            sweep.skips.push_back({choicesOf(row, given), *why});
+            sweep.skips.push_back({changesOf(row, given), *why});
         else
             drawn.push_back(std::move(row));
     sweep.rows = std::move(drawn);
@@ -190,18 +190,18 @@ SweepRows withoutRefused(SweepRows sweep, const Settings& given,
     return sweep;
 }
 
-std::vector<Choice> choicesOf(const Settings& row, const Settings& given) {
-    std::vector<Choice> choices{{"path", std::string(nameOf(row.path))}};
+std::vector<Change> changesOf(const Settings& row, const Settings& given) {
+    std::vector<Change> choices{{"path", std::string(nameOf(row.path))}};
     for (const Field& field : settingFields()) {
         const std::string value = row.valueOf(field.option);
         if (field.option != "path" && value != given.valueOf(field.option) &&
             ignoredBecause(row, field.option).empty())
-            choices.emplace_back(field.option, value);
+            choices.push_back({std::string(field.option), value});
     }
     return choices;
 }
 
-std::string inWords(const std::vector<Choice>& choices) {
+std::string inWords(const std::vector<Change>& choices) {
     std::string words;
     for (const auto& [option, value] : choices)
         words += (words.empty() ? "" : ", ") + (option == "path" ? value : option + " " + value);

@@ -2,7 +2,7 @@
 // Settings that a sweep renders, and those it skips, with reasons.
 #pragma once
 
-#include "shared/frame/settings.h"
+#include "compare/experiment/change.h"
 
 #include <functional>
 #include <optional>
@@ -12,14 +12,11 @@
 
 namespace diptych::experiment {
 
-// An option, and a value in the words of Settings::set().
-using Choice = std::pair<std::string, std::string>;
-
 // The product of these values; an empty grid is the given Settings.
 using Grid = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 struct SweepSkip {
-    std::vector<Choice> tried;
+    std::vector<Change> tried;
     std::string reason;
 };
 
@@ -55,7 +52,7 @@ struct SkipGroup {
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 
 // Settings of a row that differ from `given`. The path comes first and is always included.
-std::vector<Choice> choicesOf(const Settings& row, const Settings& given);
-std::string inWords(const std::vector<Choice>& choices);  // "deferred, gbuffer compact"
+std::vector<Change> changesOf(const Settings& row, const Settings& given);
+std::string inWords(const std::vector<Change>& choices);  // "deferred, gbuffer compact"
 
 }  // namespace diptych::experiment

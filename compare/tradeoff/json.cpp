@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json jsonOf(const std::vector<Choice>& choices) {
+Json jsonOf(const std::vector<Change>& choices) {
     Json json = Json::object();
     for (const auto& [option, value] : choices) json[option] = value;
     return json;
@@ -54,7 +54,7 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
         const TradeoffRow& row = tradeoff.rows[i];
         Json json{{"row", i + 1},
                   {"differs",
-                   row.renderer.empty() ? jsonOf(choicesOf(row.settings, tradeoff.given)) : Json::object()}};
+                   row.renderer.empty() ? jsonOf(changesOf(row.settings, tradeoff.given)) : Json::object()}};
         json.update(jsonOf(row));
         json["measure"] = measuringCommand(tradeoff, row);
         json["render"] = row.renderer.empty() ? Json(renderingCommand(tradeoff, row)) : Json(nullptr);

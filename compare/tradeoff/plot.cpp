@@ -25,7 +25,7 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::opti
         plot.points.push_back({row.settings.path, row[Measure::ms], row[Measure::ms_min],
                                row[Measure::ms_max], error.value, error.low, error.high, i + 1,
                                fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
-                                           inWords(choicesOf(row.settings, tradeoff.given)), row[Measure::ms],
+                                           inWords(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
                                            title, page::number(error.value), best ? ", on the front" : ""),
                                best, best, best ? fmt::format("{}", i + 1) : ""});
     }

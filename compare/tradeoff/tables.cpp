@@ -32,8 +32,8 @@ Cell settingsCell(const TradeoffRow& row, const std::string& words) {
 }
 
 std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, std::string_view option) {
-    std::vector<Choice> choices = choicesOf(settings, tradeoff.given);
-    const auto named = [&](const Choice& choice) { return choice.first == option; };
+    std::vector<Change> choices = changesOf(settings, tradeoff.given);
+    const auto named = [&](const Change& choice) { return choice.option == option; };
     if (std::ranges::none_of(choices, named))
         choices.insert(choices.begin() + 1, {std::string(option), settings.valueOf(option)});
     return inWords(choices);
@@ -176,7 +176,7 @@ TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Setting
                              bool commands)
     : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
-        words_ = std::max(words_, inWords(choicesOf(row, tradeoff.given)).size());
+        words_ = std::max(words_, inWords(changesOf(row, tradeoff.given)).size());
     std::size_t width = 0;
     for (const Column& column : head_.columns)
         if (column.kind == Column::number) width += column.width + head_.gap;

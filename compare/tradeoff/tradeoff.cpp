@@ -50,7 +50,7 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
 }  // namespace
 
 std::string inWords(const TradeoffRow& row, const Settings& given) {
-    return row.renderer.empty() ? inWords(choicesOf(row.settings, given))
+    return row.renderer.empty() ? inWords(changesOf(row.settings, given))
                                 : fmt::format("{}, external renderer", row.renderer);
 }
 

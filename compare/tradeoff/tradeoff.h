@@ -15,8 +15,8 @@
 
 namespace diptych::tradeoff {
 
-using experiment::Choice;
-using experiment::choicesOf;
+using experiment::Change;
+using experiment::changesOf;
 using experiment::groupsOf;
 using experiment::inWords;
 using experiment::SkipGroup;

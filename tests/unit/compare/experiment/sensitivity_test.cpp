@@ -31,8 +31,8 @@ std::set<std::string> valuesOf(const SweepRows& sweep, std::string_view option) 
 // The first reason; `value` restricts it to that value.
 std::string reasonOf(const SweepRows& sweep, const std::string& option, const std::string& value = {}) {
     for (const SweepSkip& skip : sweep.skips)
-        if (skip.tried.size() == 2 && skip.tried[1].first == option &&
-            (value.empty() || skip.tried[1].second == value))
+        if (skip.tried.size() == 2 && skip.tried[1].option == option &&
+            (value.empty() || skip.tried[1].value == value))
             return skip.reason;
     return {};
 }
@@ -195,7 +195,7 @@ TEST(ExperimentSensitivity, GlassIsVariedByWhetherItIsDrawn) {
               "no material has alphaMode BLEND: glass has one order");
     EXPECT_EQ(valuesOf(sensitive(), "layers").size(), 1u);
     EXPECT_TRUE(std::ranges::any_of(sensitive().skips, [](const SweepSkip& skip) {
-        return skip.tried.size() == 2 && skip.tried[1].first == "layers" &&
+        return skip.tried.size() == 2 && skip.tried[1].option == "layers" &&
                skip.reason == "no opaque material has a layer";
     }));
     material.transmission = 0;
@@ -226,10 +226,10 @@ TEST(ExperimentSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
     for (const Settings& row : all.rows) {
         if (std::ranges::count(sweep.rows, row) > 0) continue;
         const bool said = std::ranges::any_of(sweep.skips, [&](const SweepSkip& skip) {
-            return skip.tried.size() == 2 && skip.tried[0].second == nameOf(row.path) &&
-                   row.valueOf(skip.tried[1].first) == skip.tried[1].second;
+            return skip.tried.size() == 2 && skip.tried[0].value == nameOf(row.path) &&
+                   row.valueOf(skip.tried[1].option) == skip.tried[1].value;
         });
-        EXPECT_TRUE(said) << inWords(choicesOf(row, Settings()));
+        EXPECT_TRUE(said) << inWords(changesOf(row, Settings()));
     }
 }
 

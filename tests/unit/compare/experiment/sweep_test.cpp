@@ -19,7 +19,7 @@ SweepRows defaultSweep(const Settings& given = {}) {
 
 std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& given = {}) {
     std::vector<std::string> words;
-    for (const Settings& row : sweep.rows) words.push_back(inWords(choicesOf(row, given)));
+    for (const Settings& row : sweep.rows) words.push_back(inWords(changesOf(row, given)));
     return words;
 }
 
@@ -30,8 +30,8 @@ bool holds(const std::vector<std::string>& all, const std::string& one) {
 std::vector<std::string> reasonsOf(const SweepRows& sweep, const std::string& option) {
     std::vector<std::string> reasons;
     for (const SweepSkip& skip : sweep.skips)
-        for (const Choice& choice : skip.tried)
-            if (choice.first == option) reasons.push_back(skip.reason);
+        for (const Change& choice : skip.tried)
+            if (choice.option == option) reasons.push_back(skip.reason);
     return reasons;
 }
 
@@ -58,11 +58,11 @@ TEST(ExperimentSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
                 Settings asked = given;
                 asked.path = path;
                 asked.set(field.option, value);
-                const Choice choice{std::string(field.option), asked.valueOf(field.option)};
+                const Change choice{std::string(field.option), asked.valueOf(field.option)};
                 const auto skipped = [&](const SweepSkip& skip) {
                     return !skip.reason.empty() && skip.tried.size() == 2 &&
                            std::ranges::count(skip.tried, choice) == 1 &&
-                           std::ranges::count(skip.tried, Choice{"path", std::string(nameOf(path))}) == 1;
+                           std::ranges::count(skip.tried, Change{"path", std::string(nameOf(path))}) == 1;
                 };
                 const bool drawn = std::ranges::count(sweep.rows, asked) == 1;
                 EXPECT_NE(drawn, std::ranges::any_of(sweep.skips, skipped))
@@ -178,7 +178,7 @@ TEST(ExperimentSweep, WhatADeviceLacksIsLeftOutAndSaid) {
     EXPECT_EQ(sweep.rows[1].depth_format, DepthFormat::d16);
     ASSERT_EQ(sweep.skips.size(), 1u);
     EXPECT_EQ(sweep.skips[0].reason, "there are no steps");
-    EXPECT_EQ(sweep.skips[0].tried.back(), (Choice{"depth-format", "d24"}));
+    EXPECT_EQ(sweep.skips[0].tried.back(), (Change{"depth-format", "d24"}));
     EXPECT_THROW(asked({"d24"}), std::runtime_error);
 }
 
