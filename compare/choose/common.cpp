@@ -193,7 +193,7 @@ private:
         }
         if (fit.size() > mostFinalists && !timed_) timeAll(fit);
         std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return sumOfLogs(i); });
-        fit.resize(std::min(fit.size(), mostFinalists));
+        if (fit.size() > mostFinalists) fit.erase(fit.begin() + mostFinalists, fit.end());
         return fit;
     }
 

@@ -87,8 +87,8 @@ output::Cell cellOf(const Row& row, Measure measure);
 // A column for cellOf(). `width`: in a terminal.
 output::Column columnOf(Measure measure, std::size_t width = 0);
 
-// Every row with everything that any was measured for: rows.csv, and folded on the page. Units are in the
-// heads; numbers have all digits but on the page.
+// Every row with the options in which rows differ and everything that any was measured for: rows.csv, and
+// folded on the page. Units are in the heads; numbers have all digits but on the page.
 output::Table rowsTable(std::span<const Row* const> rows);
 inline constexpr const char* rowsFile = "rows.csv";
 output::Block rowsBox(std::span<const Row* const> rows);

@@ -59,13 +59,16 @@ output::Table rowsTable(std::span<const Row* const> rows) {
     text("path", [](const Row& row) {
         return row.renderer.empty() ? std::string(nameOf(row.settings.path)) : row.renderer;
     });
-    // Options that a sweep can vary. The path has its own column.
-    for (const Field& field : settingFields())
-        if (!field.sweep.empty() && field.option != "path")
-            text(std::string(field.option), [&](const Row& row) {
-                return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
-                                                                          : "";
-            });
+    // Options in which rows differ. The path has its own column.
+    for (const Field& field : settingFields()) {
+        const auto valueOf = [&](const Row& row) {
+            return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
+                                                                      : "";
+        };
+        if (!field.sweep.empty() && field.option != "path" &&
+            any([&](const Row& row) { return valueOf(row) != valueOf(*rows.front()); }))
+            text(std::string(field.option), valueOf);
+    }
     for (std::size_t i = 0; i < measures.size(); ++i) {
         const auto measure = static_cast<Measure>(i);
         const NamedMeasure& of = measures[i];

@@ -26,7 +26,8 @@ nlohmann::json ourJson(const fs::path& file) {
         const auto says = [&](const char* key, const auto& value) {
             return json.contains(key) && json[key] == value;
         };
-        if (json.is_object() && says("software", softwareName) && says("schema", 1)) return json;
+        if (json.is_object() && says("software", softwareName) && (says("schema", 1) || says("schema", 2)))
+            return json;
     } catch (const std::runtime_error&) {  // unreadable or malformed
     }
     return {};

@@ -11,7 +11,7 @@ namespace diptych {
 // Software name in our JSON, EXR and PNG files.
 inline constexpr const char* softwareName = "diptych";
 
-// Whether the file is a manifest: JSON with "software": "diptych" and "schema": 1. A manifest marks its
+// Whether the file is a manifest: JSON with "software": "diptych" and "schema": 1 or 2. A manifest marks its
 // folder as ours.
 bool isOurManifest(const std::filesystem::path& file);
 

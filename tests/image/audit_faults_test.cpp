@@ -38,7 +38,6 @@ double limitOf(Measurer& measurer, const Quantity& quantity, double sound, doubl
     const std::array<Series, 1> series{Series{Path::forward_plus, {}}};
     const auto passes = [&](double magnitude) {
         const Step step = measurer.measure(quantity, series, magnitude);
-        EXPECT_EQ(step.failed, "") << magnitude;
         return step.outcomes[0].error() <= percent;
     };
     EXPECT_TRUE(passes(sound)) << quantity.name;
