@@ -149,7 +149,7 @@ std::string auditHtml(const Audit& audit, const std::vector<std::string>& files)
                    "and double should hold if Settings add no other rounding. A prediction agrees with a "
                    "measurement within a factor of 2.",
                    "soft small"},
-         Heading{2, "Error by magnitude"}, sections, experiment::rowsBox(allRows(audit))},
+         Heading{2, "Error by magnitude"}, sections},
         files);
 }
 

@@ -166,7 +166,7 @@ std::string benchHtml(const Bench& bench) {
             output::Box{"box drawn", {output::Drawing{benchPlot(bench, PlotPlace::page)}}});
         rows.blocks = {Heading{2, "Every mode"}, modeTable(bench)};
     }
-    page.blocks.insert(page.blocks.end(), {rows, experiment::rowsBox(allRows(bench))});
+    page.blocks.emplace_back(rows);
     for (Block& block : remarks(bench)) page.blocks.push_back(std::move(block));
     page.blocks.insert(page.blocks.end(), {Heading{2, "How it was measured"}, howItWasMeasured()});
     return inHtml(page);

@@ -407,7 +407,6 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
     }
     if (choices.all)
         for (const CommonCandidate& candidate : choices.all->choice.candidates) add({}, candidate.scenes);
-    page.blocks.push_back(experiment::rowsBox(rows));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(rows)));
     page.files = folder.files();
     folder.put("index.html", inHtml(page));

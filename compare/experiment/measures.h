@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that rows of experiments can have. A new one is a line here, and code that measures it: tables,
+// Numbers that rows of experiments can have. A new one is a line here, and code that measures it:
 // rows.csv and JSON follow.
 #pragma once
 

@@ -87,11 +87,10 @@ output::Cell cellOf(const Row& row, Measure measure);
 // A column for cellOf(). `width`: in a terminal.
 output::Column columnOf(Measure measure, std::size_t width = 0);
 
-// Every row with the options in which rows differ and everything that any was measured for: rows.csv, and
-// folded on the page. Units are in the heads; numbers have all digits but on the page.
+// Every row with the options in which rows differ and everything that any was measured for: rows.csv. Units
+// are in the heads; numbers have all digits.
 output::Table rowsTable(std::span<const Row* const> rows);
 inline constexpr const char* rowsFile = "rows.csv";
-output::Block rowsBox(std::span<const Row* const> rows);
 
 template <class Rows>
 std::vector<const Row*> pointersTo(const Rows& rows) {

@@ -18,14 +18,10 @@ std::string roundedText(const NamedMeasure& measure, double value) {
     return measure.unit == "ms" ? fmt::format("{:.4g}", value) : page::number(value);
 }
 
-// All digits for a file, rounded on the page.
-output::Cell exactCell(const Row& row, Measure measure) {
+// All digits.
+std::string exactText(const Row& row, Measure measure) {
     if (!row.measured.has(measure)) return "";
-    output::Cell cell = cellOf(row, measure);
-    cell.page = cell.text;
-    cell.text =
-        named(measure).isWhole() ? fmt::format("{:.0f}", row[measure]) : fmt::format("{}", row[measure]);
-    return cell;
+    return named(measure).isWhole() ? fmt::format("{:.0f}", row[measure]) : fmt::format("{}", row[measure]);
 }
 
 }  // namespace
@@ -43,7 +39,6 @@ output::Column columnOf(Measure measure, std::size_t width) {
 
 output::Table rowsTable(std::span<const Row* const> rows) {
     output::Table table;
-    table.sortable = true;
     const auto text = [&](std::string title, const auto& valueOf) {
         addColumn(table, {std::move(title)}, rows, [&](const Row* row) { return valueOf(*row); });
     };
@@ -77,7 +72,7 @@ output::Table rowsTable(std::span<const Row* const> rows) {
         addColumn(table,
                   {fmt::format("{}.{}{}", of.group, of.name, unit), output::Column::number, 0,
                    output::Column::everywhere, "", std::string(of.means)},
-                  rows, [&](const Row* row) { return exactCell(*row, measure); });
+                  rows, [&](const Row* row) { return exactText(*row, measure); });
     }
     std::vector<std::string> passes;
     for (const Row* row : rows)
@@ -92,10 +87,6 @@ output::Table rowsTable(std::span<const Row* const> rows) {
     text("failed", [](const Row& row) { return row.failed; });
     text("warnings", [](const Row& row) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
     return table;
-}
-
-output::Block rowsBox(std::span<const Row* const> rows) {
-    return output::Box{"", {rowsTable(rows)}, "", "Every measurement"};
 }
 
 }  // namespace diptych::experiment

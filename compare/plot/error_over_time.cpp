@@ -15,7 +15,7 @@ namespace {
 
 constexpr double lane = 26;
 
-constexpr double width = 720, height = 440, left = 74, right = 16, top = 38, bottom = 56;
+constexpr double width = 720, height = 440, left = 74, right = 16, top = 54, bottom = 56;
 constexpr double letterWidth = 11.5, letterHeight = 17;  // of labels, at the style's largest text size
 constexpr double farLabel = 40;                          // from the point to its label's centre
 constexpr PlotBox axesBox{left, top, width - right, height - bottom};
@@ -198,7 +198,7 @@ private:
     std::string legend() const {
         std::string out;
         double px = width - right - 8;
-        const double py = top - 23;
+        const double py = 14;
         const auto entry = [&](std::string_view name, std::string_view style, const auto& markAt) {
             px -= 7.5 * static_cast<double>(name.size()) + 32;
             out += fmt::format("<g class=\"point {}\">{}<text class=\"tick\" x=\"{}\" y=\"{}\">{}</text></g>",

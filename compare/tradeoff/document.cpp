@@ -164,7 +164,6 @@ std::vector<Block> resultBlocks(const Tradeoff& tradeoff) {
     std::vector<Block> blocks{{frontList(tradeoff), Block::terminal}};
     for (const auto& tables : {shadowBlocks(tradeoff), sampleBlocks(tradeoff)})
         blocks.insert(blocks.end(), tables.begin(), tables.end());
-    blocks.push_back(experiment::rowsBox(experiment::pointersTo(tradeoff.rows)));
     output::List warnings{{}, ""}, went{{}, "box how"};
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         for (const std::string& warning : tradeoff.rows[i].warnings)

@@ -145,7 +145,7 @@ TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {
     const Ran ran = runTool(folder, command);
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Json json = Json::parse(std::ifstream(folder / "choice/choice.json"));
-    EXPECT_EQ(json["files"], (Json{"choice.json", "front.svg", "index.html", "settings.json"}));
+    EXPECT_EQ(json["files"], (Json{"choice.json", "front.svg", "index.html", "rows.csv", "settings.json"}));
     EXPECT_EQ(Json::parse(std::ifstream(folder / "choice/settings.json")), json["settings"]);
     EXPECT_EQ(emptyIn(json), std::set<std::string>());
     const std::string page = contentsOf(folder / "choice/index.html");
