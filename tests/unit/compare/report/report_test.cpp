@@ -291,7 +291,7 @@ TEST(Report, AStrangersListRemovesNothing) {
     writeFile(out / "mine.png", "keep");
     const std::string files = R"("files": ["mine.txt", "mine.png"]})";
     for (const std::string start : {R"({"schema": 1, )", R"({"schema": 1, "software": "other", )",
-                                    R"({"schema": 2, "software": "diptych", )", R"([1, {"schema": 1, )"}) {
+                                    R"({"schema": 3, "software": "diptych", )", R"([1, {"schema": 1, )"}) {
         writeFile(out / "report.json", start + files);
         EXPECT_THROW(writeReport(passing(), out, {}), std::runtime_error) << start;
         EXPECT_EQ(namesIn(out), (std::vector<std::string>{"mine.png", "mine.txt", "report.json"}));
