@@ -45,7 +45,7 @@ struct Subject {
     double distance() const { return glm::distance(point, view.eye()); }  // of the visible surface, m
     // From the eye to beyond the whole scene, m.
     double reach() const { return glm::distance(bounds.centre(), view.eye()) + bounds.radius(); }
-    // Of the scene, above 0, m.
+    // The scene's radius, above 0, m.
     double radius() const { return std::max(bounds.radius(), 1e-6); }
 };
 

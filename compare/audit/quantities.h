@@ -31,8 +31,8 @@ struct Predicted {
     bool at_most = false;
 };
 
-// What a quantity or relation needs, beside something to draw. Called with a scene, it returns why the first
-// unmet one is not met; empty if it applies.
+// A quantity or relation needs these, beside something to draw. A call returns the reason why the first unmet
+// one is not met; empty if all are.
 class Preconditions {
 public:
     using Lacks = std::string (*)(const Subject&);  // empty: met

@@ -58,7 +58,7 @@ struct ChannelResult {
 };
 
 struct FrameResult {
-    std::vector<ChannelResult> channels;  // as relatedChannels(), those that both Frames have
+    std::vector<ChannelResult> channels;  // those of relatedChannels() that both Frames have
     std::uint64_t covered = 0;            // pixels that show a surface in either image
     // Pixels excluded because they show another triangle (rounding: beside an edge; reorders: of equal
     // depth), and the largest permitted number.
@@ -115,7 +115,7 @@ private:
         std::vector<std::optional<Frame>> frames;
         std::vector<std::string> failed;
     };
-    // Adds the missing images; with `reference`, also those that need no device.
+    // Adds the missing images; `reference`: also those of the reference, which needs no device.
     void draw(Drawn& drawn, const Case& of, std::span<const Settings> settings, bool reference);
     // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, mapped back; or
     // the sum of both cases.

@@ -120,7 +120,7 @@ private:
         return std::max(largest(given(mode).pixel(pixel), components),
                         largest(changed(mode).pixel(pixel), components));
     }
-    // What a packed G-buffer may change in both images.
+    // A packed G-buffer may change both images by this.
     double packed(Channel mode) const {
         const auto bound = tolerance_.packed.find(mode);
         return bound == tolerance_.packed.end() ? 0 : 2 * bound->second;

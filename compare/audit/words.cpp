@@ -183,8 +183,6 @@ Step stepFromJson(const Json& given) {
     Step step{json.at("magnitude").number(), {}};
     for (const JsonAt<Json>& one : json.at("rows").each()) {
         Outcome& outcome = step.outcomes.emplace_back(Outcome{experiment::rowFrom(one)});
-        outcome.varied = one.at("varied").json().is_null() ? "" : one.at("varied").text();
-        outcome.failed = one.at("failed").json().is_null() ? "" : one.at("failed").text();
         outcome.worst_x = one.at("worst")[0].whole<int>(-1, 1 << 20);
         outcome.worst_y = one.at("worst")[1].whole<int>(-1, 1 << 20);
     }
@@ -203,7 +201,7 @@ Json toJson(const Audit& audit) {
                                         {"magnitude", requirement.magnitude},
                                         {"met", requirement.met},
                                         {"because", requirement.because}});
-    // Of a row's Settings, those that differ from the audit's.
+    // A row has the Settings that differ from the audit's.
     json["rows"] = Json::array();
     for (const QuantityAudit& quantity : audit.quantities)
         for (const Step& step : quantity.steps)

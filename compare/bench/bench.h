@@ -15,8 +15,8 @@
 
 namespace diptych::bench {
 
-// Time of the passes in profiled frames whose names begin with it, ms. Those that build light lists begin
-// with "assign", those that light surfaces with "shade".
+// Time of the passes whose names begin with `prefix`, in profiled frames, ms. Passes that build light lists
+// begin with "assign", passes that light surfaces with "shade".
 double passMs(const BenchRow& row, std::string_view prefix = {});
 // Time of building light lists relative to all passes, 0 to 1.
 double assignShare(const BenchRow& row);

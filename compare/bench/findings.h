@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a benchmark finds: conclusions, and those of its tables growth, layers and msaa. Pointers are into the
-// rows of the Bench.
+// Conclusions of a benchmark, and findings of its tables growth, layers and msaa. Pointers are into the rows
+// of the Bench.
 #pragma once
 
 #include "compare/bench/bench.h"
@@ -16,9 +16,9 @@
 
 namespace diptych::bench {
 
-// Which Settings are faster, by how much, how certain, and because of which pass. Compares rows
-// with equal size, light count and image: the fastest with the fastest of the other path. With only one path,
-// compares it with the next row.
+// Says which Settings are faster, by how much, how certainly, and because of which pass. Compares
+// rows with equal size, light count and image: the fastest with the fastest of the other path. With only one
+// path, compares it with the next row.
 struct Conclusion {
     const BenchRow *faster = nullptr, *slower = nullptr;
     experiment::TimeRatio ratio;  // time of the slower over the faster
@@ -91,7 +91,7 @@ std::vector<std::string> layersInWords(const Bench& bench);
 
 std::vector<output::Block> layerBlocks(const Bench& bench);
 
-// Of all images of the picture's size.
+// Bytes per pixel of all images that have the picture's size.
 std::uint64_t imageBytesPerPixel(const BenchRow& row);
 
 // --table msaa: time and memory by samples per pixel, forward+ with and without transparency, and deferred.

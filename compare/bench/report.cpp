@@ -80,7 +80,7 @@ output::Table modeTable(const Bench& bench) {
     return table;
 }
 
-// Which is faster, and the tables besides modeTable().
+// Conclusions and the tables besides modeTable().
 std::vector<Block> findings(const Bench& bench) {
     if (bench.options.table == BenchTable::layers) return layerBlocks(bench);
     std::vector<Block> blocks;

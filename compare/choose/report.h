@@ -32,7 +32,7 @@ struct SensitivityReport : Sensitivities {
     bool other_fits = true;               // whether the other path is within the budget
 };
 
-// What the choice for one scene and the joint choice have in common.
+// Texts of a choice for one scene or of a joint choice.
 struct AnyReport {
     Settings given;
     Budget budget;
@@ -71,7 +71,7 @@ inline std::optional<Settings> chosenSettings(const Choices& choices) {
     return choices.all ? chosenSettings(choices.all->choice) : chosenSettings(choices.scenes.front().choice);
 }
 
-// For a terminal and the page.
+// Blocks for a terminal and the page.
 std::vector<output::Block> blocksOf(const ChoiceReport& report);
 std::vector<output::Block> blocksOf(const CommonReport& report);
 // Compares the chosen Settings with the other path's best fitting ones, pass by pass.

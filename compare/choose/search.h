@@ -94,7 +94,7 @@ struct Candidate : experiment::Row {
 // Largest relative excess over the budget; 0: within it, as far as it was measured.
 double missOf(const Measures& measured, const Budget& budget);
 
-// What the choice for one scene and the joint choice have in common.
+// The result of a choice for one scene or of a joint choice.
 struct Outcome : Race {
     std::optional<std::size_t> nearest;  // if nothing fits
     std::size_t judged = 0, timings = 0;

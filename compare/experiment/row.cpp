@@ -170,8 +170,13 @@ Json jsonOf(const Row& row) {
 }
 
 Row rowFrom(const JsonPlace& json) {
+    const auto textOf = [&](const char* key) {
+        return json.at(key).json().is_null() ? std::string() : json.at(key).text();
+    };
     Row row = measuredFrom(json);
     row.scene = json.at("scene").text();
+    row.varied = textOf("varied");
+    row.failed = textOf("failed");
     row.settings = settingsFromJson(json.at("settings").json().dump());
     return row;
 }

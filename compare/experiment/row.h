@@ -59,7 +59,7 @@ struct Row {
     std::vector<Row> cameras{};  // if several were measured apart
 
     double operator[](Measure measure) const { return measured[measure]; }
-    // Of a count or bytes; 0 if it was not measured.
+    // The value of a count or bytes; 0 if it was not measured.
     std::uint64_t whole(Measure measure) const {
         return measured.has(measure) ? static_cast<std::uint64_t>(measured[measure]) : 0;
     }
@@ -79,7 +79,8 @@ Spread spreadOf(const Row& row, Measure measure);
 
 // Numbers with all digits. A group that was not measured is null, and so is an infinite number.
 nlohmann::ordered_json jsonOf(const Row& row);
-// Reads the output of jsonOf(). Throws std::runtime_error naming the place of an error.
+// Reads the output of jsonOf(), for rows that a path drew: without renderer and judgement. Throws
+// std::runtime_error naming the place of an error.
 Row rowFrom(const JsonAt<nlohmann::ordered_json>& json);
 
 // A value for a page: rounded by its unit; empty if it was not measured.

@@ -67,9 +67,11 @@ std::string tradeoffCsv(const Tradeoff& tradeoff) {
         addMeasure("shadow_", shadowFigures[f].name, Measure::shadow_error + f);
     for (std::size_t f = 0; f < sampleFigures.size(); ++f)
         addMeasure("samples_", sampleFigures[f].name, Measure::shaded + f);
-    addMeasure("", "image_bytes", Measure::image_bytes);
-    addMeasure("", "buffer_bytes", Measure::buffer_bytes);
-    addMeasure("", "gbuffer_bytes_per_pixel", Measure::gbuffer_bytes);
+    // 0 for another renderer, whose bytes are not known.
+    for (const auto& [name, measure] : {std::pair{"image_bytes", Measure::image_bytes},
+                                        {"buffer_bytes", Measure::buffer_bytes},
+                                        {"gbuffer_bytes_per_pixel", Measure::gbuffer_bytes}})
+        add("", name, [of = measure](const Row& row) { return fmt::format("{}", row.whole(of)); });
     for (const std::string& pass : passNames(tradeoff))
         add("ms: ", pass, [&](const Row& row) {
             const auto found = std::ranges::find(row.passes, pass, &PassTime::name);

@@ -159,7 +159,7 @@ std::string measuredHow(const Tradeoff& tradeoff) {
         blocks);
 }
 
-// What follows the rows, and the page's plots.
+// Blocks after the rows: fronts, tables, warnings, skips, notes.
 std::vector<Block> resultBlocks(const Tradeoff& tradeoff) {
     std::vector<Block> blocks{{frontList(tradeoff), Block::terminal}};
     for (const auto& tables : {shadowBlocks(tradeoff), sampleBlocks(tradeoff)})

@@ -24,7 +24,7 @@ struct ShadowRow {
 // shadows.
 std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff);
 
-// With heading and explanation; none without rows.
+// Each table has a heading and an explanation; no blocks without rows.
 std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff);
 std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff);
 

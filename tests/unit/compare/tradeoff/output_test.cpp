@@ -95,6 +95,13 @@ TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
     EXPECT_EQ(at(1, "ms: shade"), "4");
     EXPECT_EQ(at(1, "compare").find("diptych compare --baseline reference"), 0u);
     EXPECT_EQ(at(3, "compare"), "") << "not as large as the reference";
+    EXPECT_EQ(at(3, "image_bytes"), "1000");
+    Tradeoff external = several();
+    external.rows[0].renderer = "three";
+    external.rows[0].measured = {};
+    const auto other = parseCsv(tradeoffCsv(external));
+    const auto column = std::ranges::find(other[0], "image_bytes") - other[0].begin();
+    EXPECT_EQ(other[1][static_cast<std::size_t>(column)], "0") << "of another renderer";
 }
 
 // The command line parses the printed commands back to the row's Settings.
