@@ -88,6 +88,17 @@ bool agrees(const BreakingPoint& point, double predicted, bool up, double tried)
     return predicted > 0 && std::max(measured / predicted, predicted / measured) <= agreement;
 }
 
+std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series) {
+    const ValidRange& range = audit.valid_ranges[criterion][series];
+    const Predicted& predicted = audit.predicted[criterion][series];
+    if (predicted.because.empty()) return {};
+    const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
+    if (!range.at_original) return {};  // another error is larger
+    // An upper bound is only refuted by passing beyond it.
+    if (predicted.at_most && range.up.broken && range.up.last <= predicted.up) return {};
+    return agrees(range.up, predicted.up, true, last) && agrees(range.down, predicted.down, false, first);
+}
+
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
                                                                   std::size_t series, double original) {
     std::array<std::vector<ValidRange>, criterionCount> all;

@@ -6,6 +6,7 @@
 #include "compare/audit/quantities.h"
 #include "shared/frame/frame.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -66,6 +67,8 @@ struct QuantityAudit {
 // Whether a measured and a predicted breaking point agree: within a factor of 2, or both beyond the last
 // magnitude tried (`tried`).
 bool agrees(const BreakingPoint& point, double predicted, bool up, double tried);
+// Whether they agree for a criterion (only the two error criteria) and a series; empty without a prediction.
+std::optional<bool> agrees(const QuantityAudit& audit, std::size_t criterion, std::size_t series);
 
 // Ranges in which measured steps meet the criteria.
 std::array<std::vector<ValidRange>, criterionCount> validRangesOf(const std::vector<Step>& steps,
@@ -92,6 +95,9 @@ struct Audit : Audited {
     std::vector<Requirement> requirements;
     std::map<std::string, std::string> scenes;  // reduced scenes: file name and text
     std::size_t kept = 0;                       // steps measured by an earlier command
+
+    // Whether all requirements are met.
+    bool passes() const { return std::ranges::all_of(requirements, &Requirement::met); }
 };
 
 }  // namespace diptych::audit

@@ -2,8 +2,8 @@
 #include "compare/audit/auditor.h"
 
 #include "compare/audit/quantities.h"
+#include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/audit/words.h"
 #include "compare/experiment/kept.h"
 
 #include <fmt/format.h>

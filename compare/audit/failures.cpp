@@ -2,8 +2,8 @@
 #include "compare/audit/auditor.h"
 
 #include "compare/audit/reduce.h"
+#include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/audit/words.h"
 #include "compare/page/text.h"
 #include "compare/run/command_text.h"
 #include "shared/image/atomic_file.h"
@@ -60,8 +60,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
                             outcome.error()};
     };
     const std::string at =
-        fmt::format("{} breaks at {}{}{}", series.words(), magnitudeInWords(broken->magnitude),
-                    of.quantity->unit.empty() ? "" : " ", of.quantity->unit);
+        fmt::format("{} breaks at {}", series.words(), magnitudeInWords(broken->magnitude, *of.quantity));
     const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
     Failure& failure = of.failures.emplace_back();
     if (!reduced) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/words.h"
+#include "compare/audit/report.h"
 #include "compare/page/text.h"
 #include "shared/text/counted.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/auditor.h"
-#include "compare/audit/words.h"
+#include "compare/audit/report.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/command_line.h"
 #include "compare/cli/commands.h"
+#include "compare/output/writers.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "shared/text/counted.h"
@@ -74,22 +75,19 @@ int auditQuantities(const Options& options, const Settings& settings) {
              "the results of an interrupted audit belong to another scene, device or Settings; starting "
              "anew");
     sayWhenInterrupted("finished steps are kept: the same command continues from there");
-    auditor.measure(opened.stage(),
-                    [&](const audit::QuantityAudit& quantity) { opened.print(audit::inWords(quantity)); });
+    auditor.measure(opened.stage(), [&](const audit::QuantityAudit& quantity) {
+        opened.print(output::inText(audit::blocksOf(quantity)));
+    });
     checkValidation(opened.device());
     opened.stage().at(0.98, "write");
     if (const std::size_t kept = auditor.audit().kept; kept > 0)
         note(options, fmt::format("{} kept from an interrupted run", counted(kept, "step")));
     const std::string json = auditor.write();
     opened.progress().wipe();
-    bool met = true;
-    for (const audit::Requirement& requirement : auditor.audit().requirements) {
-        met = met && requirement.met;
-        opened.print(audit::inWords(requirement));
-    }
+    opened.print(output::inText(audit::closingOf(auditor.audit())));
     if (options.json) printText(json);
     opened.print((opened.folder() / "index.html").string() + "\n");
-    return met ? 0 : 1;
+    return auditor.audit().passes() ? 0 : 1;
 }
 
 }  // namespace

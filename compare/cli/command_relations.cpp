@@ -2,9 +2,10 @@
 // audit --relations
 #include "compare/audit/relate.h"
 #include "compare/audit/relations.h"
-#include "compare/audit/words.h"
+#include "compare/audit/report.h"
 #include "compare/cli/audit_opening.h"
 #include "compare/cli/commands.h"
+#include "compare/output/writers.h"
 #include "compare/run/print.h"
 
 #include <fmt/format.h>
@@ -25,13 +26,13 @@ int runRelations(const Options& options, const Settings& settings) {
         opened.stage().at(0.02 + 0.96 * static_cast<double>(i) / static_cast<double>(all.size()),
                           std::string(all[i]->name));
         audited.relations.push_back(measurer.measure(*all[i]));
-        opened.print(audit::inWords(audited.relations.back(), audited.device));
+        opened.print(output::inText(audit::blocksOf(audited.relations.back(), audited.device)));
     }
     checkValidation(opened.device());
     opened.stage().at(0.98, "write");
     const std::string json = audit::writeRelations(audited, opened.folder(), options.force);
     opened.progress().wipe();
-    opened.print(audit::inWords(audited));
+    opened.print(output::inText(audit::closingOf(audited)));
     for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
     if (options.json) printText(json);
     opened.print((opened.folder() / "index.html").string() + "\n");

@@ -3,7 +3,8 @@
 // meant for.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
-#include "compare/audit/words.h"
+#include "compare/audit/report.h"
+#include "compare/output/writers.h"
 #include "tests/image/scenes.h"
 
 #include <functional>
@@ -32,7 +33,7 @@ void expectAllHold(const std::string& scene, std::size_t atLeast,
     std::size_t passed = 0;
     for (const audit::Relation* relation : audit::relationsOf(names)) {
         const audit::RelationResult of = measurer.measure(*relation);
-        EXPECT_TRUE(of.passes()) << scene << " " << audit::inWords(of, relatedDevice());
+        EXPECT_TRUE(of.passes()) << scene << " " << output::inText(audit::blocksOf(of, relatedDevice()));
         passed += audit::verdictOf(of) == "holds";
     }
     EXPECT_GE(passed, atLeast) << scene;
@@ -117,12 +118,12 @@ TEST(RelationImages, EachIsBrokenByAPlantedFault) {
         const auto fault = injectedFaults().find(relation.name);
         ASSERT_NE(fault, injectedFaults().end()) << relation.name << " has no injected fault";
         const audit::RelationResult of = measurer.measure(relation, fault->second);
-        EXPECT_EQ(audit::verdictOf(of), "broken") << audit::inWords(of, relatedDevice());
+        EXPECT_EQ(audit::verdictOf(of), "broken") << output::inText(audit::blocksOf(of, relatedDevice()));
         bool every = true;
         for (const audit::SeriesResult& series : of.series)
             every = every && (!series.lacks.empty() || series.series.path == Path::reference ||
                               !series.comparison.passes());
-        EXPECT_TRUE(every) << "each path shows it: " << audit::inWords(of, relatedDevice());
+        EXPECT_TRUE(every) << "each path shows it: " << output::inText(audit::blocksOf(of, relatedDevice()));
     }
 }
 

@@ -3,9 +3,10 @@
 #include "compare/audit/audit.h"
 #include "compare/audit/quantities.h"
 #include "compare/audit/reduce.h"
+#include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/audit/words.h"
 #include "compare/frames/frame_facts.h"
+#include "compare/output/writers.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
 #include "tests/support/files.h"
@@ -190,7 +191,7 @@ TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
     audit.quantity = &quantityOf("offset");
     audit.steps.emplace_back();
     audit.left_out = offset.left_out;
-    EXPECT_NE(inWords(audit).find(offset.left_out[0]), std::string::npos);
+    EXPECT_NE(output::inText(blocksOf(audit)).find(offset.left_out[0]), std::string::npos);
 }
 
 // A bound is not a prediction of the breaking point. A failure below the bound neither agrees nor
@@ -424,15 +425,15 @@ TEST(AuditOutput, ATableAPlotAndWords) {
     audit.quantities.push_back(
         audited(quantityOf("haze"), subject, [](double m) { return m < 1e5 ? 1e-6 : infinity; }));
     const QuantityAudit& of = audit.quantities.front();
-    const std::string csv = toCsv(audit);
+    const std::string csv = output::inCsv(stepTable(audit));
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
               1 + of.steps.size() * of.series.size());
     EXPECT_NE(csv.find("haze,0.001,,deferred,gbuffer=full,1e-06,"), std::string::npos) << csv;
     const std::string plot = auditPlot(of, PlotPlace::file);
     EXPECT_NE(plot.find("class=\"cross\""), std::string::npos);
     for (const Series& series : of.series) EXPECT_NE(plot.find(series.words()), std::string::npos);
-    const std::string words = inWords(of);
-    EXPECT_NE(words.find("differs from the measurement"), std::string::npos) << words;
+    for (const std::string& words : {output::inText(blocksOf(of)), output::inHtml(blocksOf(of))})
+        EXPECT_NE(words.find("differs from the measurement"), std::string::npos) << words;
     const nlohmann::ordered_json json = toJson(audit);
     EXPECT_EQ(json["rows"].size(), of.steps.size() * of.series.size());
     EXPECT_EQ(json["quantities"][0]["series"][1]["path"], "forward_plus");

@@ -3,8 +3,9 @@
 // differences are told apart.
 #include "compare/audit/relations.h"
 #include "compare/audit/relate.h"
+#include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/audit/words.h"
+#include "compare/output/writers.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/builtin/builtin.h"
@@ -462,14 +463,16 @@ TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
                      series(Path::reference, true)};
     EXPECT_FALSE(result.passes());
     const ReportDevice gpu{"Some GPU", "driver 1.2", "discrete"};
-    const std::string words = inWords(result, gpu);
-    EXPECT_NE(words.find("BROKEN"), words.npos) << words;
-    EXPECT_NE(words.find("a bug of the driver or of Diptych, on Some GPU with driver 1.2"), words.npos)
-        << words;
+    for (const std::string& words :
+         {output::inText(blocksOf(result, gpu)), output::inHtml(blocksOf(result, gpu))})
+        for (const char* told : {"broken", "a bug of the driver or of Diptych, on Some GPU with driver 1.2",
+                                 "forward_plus: broken", "lit: 1 pixel out of tolerance"})
+            EXPECT_NE(words.find(told), words.npos) << words;
     EXPECT_NE(blameInWords(result, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
-              words.npos);
+              std::string::npos);
     result.series[2] = series(Path::reference, false);
-    EXPECT_NE(blameInWords(result, gpu).find("the double-precision reference breaks it too"), words.npos);
+    EXPECT_NE(blameInWords(result, gpu).find("the double-precision reference breaks it too"),
+              std::string::npos);
     result.series[1] = series(Path::forward_plus, true);
     EXPECT_TRUE(result.passes()) << "the reference only tells whose fault it is";
     EXPECT_EQ(blameInWords(result, gpu), "");
@@ -480,10 +483,10 @@ TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
 TEST(Relations, ThePageHeadsEachWithItsVerdict) {
     SeriesResult drawn;
     drawn.series.path = Path::deferred;
-    RelationAudit audit;
-    audit.relations.push_back({relationsOf(std::array{std::string("moved")}).front(), "", {drawn}});
-    const std::string page = relationsHtml(audit, {});
+    const RelationResult moved{relationsOf(std::array{std::string("moved")}).front(), "", {drawn}};
+    const std::string page = output::inHtml(blocksOf(moved, {}));
     EXPECT_NE(page.find("<h3>moved <span class=\"verdict pass\">holds</span></h3>"), page.npos) << page;
+    EXPECT_EQ(output::inText(blocksOf(moved, {})), "moved               holds: equal\n");
 }
 
 TEST(Relations, AnUnknownNameIsRefused) {
