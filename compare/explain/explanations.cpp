@@ -20,6 +20,8 @@
 
 namespace diptych {
 
+using output::Block;
+
 namespace {
 
 bool isWanted(bool all, const Comparison& comparison) {
@@ -42,11 +44,16 @@ struct ShownScene {
     Renderer renderer;
 };
 
+// A line for a terminal, and blocks for a page.
+std::vector<Block> linesOf(const std::string& line, Block page) {
+    page.where = Block::page;
+    return {{output::List{{line}}, Block::terminal}, std::move(page)};
+}
+
 // The part of an explanation that a report shows. `shown`: an image of the scene, of the same size, as
 // background of the map of causes.
 Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown) {
-    Explained explained{{{output::Paragraph{headlineOf(explanation)}, output::Block::terminal},
-                         {output::Box{"", blocksOf(explanation, of)}, output::Block::page}},
+    Explained explained{linesOf(headlineOf(explanation), output::Box{"", blocksOf(explanation, of)}),
                         jsonText(toJson(explanation, of), -1),
                         {}};
     if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
@@ -55,7 +62,8 @@ Explained explainedOf(const Explanation& explanation, const ExplainedPictures& o
 
 // The reason why there is no explanation, in one line.
 Explained notExplained(const std::string& because) {
-    return {{output::Paragraph{"differences in lit cannot be explained: " + because, "soft"}},
+    const std::string line = "differences in lit cannot be explained: " + because;
+    return {linesOf(line, output::Paragraph{line, "soft"}),
             jsonText(nlohmann::json{{"not_explained", because}}, -1),
             {}};
 }
