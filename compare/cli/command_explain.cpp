@@ -10,6 +10,7 @@
 #include "compare/explain/write.h"
 #include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
+#include "compare/output/writers.h"
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
@@ -71,7 +72,7 @@ void leave(const Options& options, const PictureChoice& picture, const Explanati
     if (options.json) {
         printOut("{}", json.empty() ? jsonText(toJson(explanation, of)) + "\n" : json);
     } else if (!options.quiet) {
-        printColored(options, inWords(explanation, of));
+        printColored(options, inText(blocksOf(explanation, of)));
         if (!options.out.empty()) printOut("page: {}\n", (options.out / "index.html").string());
     }
 }

@@ -2,6 +2,7 @@
 #include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/explain/pixel_breakdown.h"
+#include "compare/output/writers.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
 
@@ -75,7 +76,7 @@ int runPixel(const Options& options) {
     if (options.json)
         printOut("{}\n", jsonText(toJson(breakdown)));
     else if (!options.quiet)
-        printColored(options, inWords(breakdown));
+        printColored(options, inText(blocksOf(breakdown)));
     return 0;
 }
 

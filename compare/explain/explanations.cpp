@@ -6,7 +6,6 @@
 #include "compare/explain/pictures.h"
 #include "compare/explain/write.h"
 #include "compare/frames/frame_facts.h"
-#include "compare/page/text.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
@@ -16,11 +15,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 
 namespace diptych {
+
+using output::Block;
 
 namespace {
 
@@ -44,48 +44,28 @@ struct ShownScene {
     Renderer renderer;
 };
 
-// "lit differs because of albedo 69.1 %, roughness 10.9 %, ...; unexplained 0.0 %".
-std::string inShort(const Explanation& e) {
-    if (e.distance == 0) return "lit does not differ";
-    const auto listed = [&](const auto& parts, const char* before) {
-        std::string list;
-        for (const auto& part : parts)
-            list += fmt::format("{} {} {:.1f} %", list.empty() ? before : ",", part.name,
-                                100 * e.shareOf(part.share));
-        return list;
-    };
-    return fmt::format("lit differs{}; unexplained {:.1f} %{}",
-                       e.causes.empty() ? " for an unknown reason" : listed(e.causes, " because of"),
-                       100 * e.shareOf(e.unexplained), listed(e.devices, "; across devices by"));
+// A line for a terminal, and blocks for a page.
+std::vector<Block> linesOf(const std::string& line, Block page) {
+    page.where = Block::page;
+    return {{output::List{{line}}, Block::terminal}, std::move(page)};
 }
 
 // The part of an explanation that a report shows. `shown`: an image of the scene, of the same size, as
 // background of the map of causes.
 Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown) {
-    Explained explained;
-    explained.words = inShort(explanation);
-    explained.json = jsonText(toJson(explanation, of), -1);
+    Explained explained{linesOf(headlineOf(explanation), output::Box{"", blocksOf(explanation, of)}),
+                        jsonText(toJson(explanation, of), -1),
+                        {}};
     if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
-    // Without the maps of single causes, which the report does not show.
-    const auto kept = std::make_shared<Explanation>(explanation);
-    for (Cause& cause : kept->causes) cause.map = Image();
-    kept->unexplained_map = Image();
-    explained.html = [kept, of](const std::string& map) {
-        return explanationSection(
-            *kept, of, [&](const std::string& name) { return name == dominantFile ? map : std::string(); });
-    };
     return explained;
 }
 
 // The reason why there is no explanation, in one line.
 Explained notExplained(const std::string& because) {
-    return {"differences in lit cannot be explained: " + because,
+    const std::string line = "differences in lit cannot be explained: " + because;
+    return {linesOf(line, output::Paragraph{line, "soft"}),
             jsonText(nlohmann::json{{"not_explained", because}}, -1),
-            {},
-            [because](const std::string&) {
-                return fmt::format("<p class=\"soft\">Differences in lit cannot be explained: {}</p>\n",
-                                   page::markup(because));
-            }};
+            {}};
 }
 
 Explained explained(const ExplanationQuestion& question, Device& device, ShownScene& drawing,

@@ -4,6 +4,7 @@
 // the paths differ.
 #pragma once
 
+#include "compare/output/document.h"
 #include "compare/render/renderer.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/rules.h"
@@ -125,7 +126,7 @@ PixelBreakdown pixelBreakdown(Renderer& renderer, SceneViews& views, const Pixel
 // The largest absolute component.
 double largest(const glm::dvec3& value);
 
-std::string inWords(const PixelBreakdown& breakdown);
+std::vector<output::Block> blocksOf(const PixelBreakdown& breakdown);
 nlohmann::ordered_json toJson(const PixelBreakdown& breakdown);
 
 // "the first step that differs by more than rounding: roughness (0.301 against 0.298, 0.003 in its metric,

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// An explanation as text, JSON, a section of a page, a page, and a folder.
+// An explanation as a document, JSON and a folder.
 #pragma once
 
 #include "compare/explain/explanation.h"
+#include "compare/output/document.h"
 #include "shared/image/png.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
-#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace diptych {
@@ -29,26 +27,12 @@ struct ExplainedPictures {
     std::string device{};             // that lights the channels
 };
 
-// Above this fraction of the distance the text calls the unexplained part significant.
-inline constexpr double worthUnexplained = 0.05;
+// "lit differs because of albedo 69.1 %, roughness 10.9 %, ...; unexplained 0.0 %".
+std::string headlineOf(const Explanation& explanation);
+// The headline, the causes, the unexplained part and remarks; without pictures.
+std::vector<output::Block> blocksOf(const Explanation& explanation, const ExplainedPictures& of);
 
-// "78 % on material 12, Lantern glass; 9 % on background": the first parts, at most `most`, each with at
-// least `least` of the cause's share. `before`: "on ".
-std::string partsOf(const Cause& cause, const std::vector<CausePart>& parts, std::string_view before,
-                    std::string_view noun, std::size_t most, double least);
-// One line each: interacting pairs, differences without effect, what relighting misses, lights left out.
-std::vector<std::string> remarksOn(const Explanation& explanation, const ExplainedPictures& of);
-
-std::string inWords(const Explanation& explanation, const ExplainedPictures& of);
 nlohmann::ordered_json toJson(const Explanation& explanation, const ExplainedPictures& of);
-
-// The address of an image for a page: a relative path, or a data URI. Empty: the image is not kept.
-using PictureSource = std::function<std::string(const std::string& name)>;
-
-// The map of causes with its legend, the table of causes, pairs, and caveats; for a page with the style of
-// compare/page.
-std::string explanationSection(const Explanation& explanation, const ExplainedPictures& of,
-                               const PictureSource& source);
 
 // index.html, without external resources but the images of writeExplanation().
 std::string explanationHtml(const Explanation& explanation, const ExplainedPictures& of);

@@ -135,6 +135,11 @@ struct Terms {
     std::vector<std::pair<Text, Text>> items;
     std::string box{};
 };
+// An image and what it shows.
+struct Picture {
+    std::string source, alt;
+    Text caption;
+};
 // A plot or a part of a page that has no other form.
 struct Drawing {
     std::string markup;
@@ -153,10 +158,10 @@ concept among = (std::same_as<One, All> || ...);
 struct Block {
     enum Where { everywhere, page, terminal };
 
-    template <among<Heading, Paragraph, List, Terms, Table, Drawing, Box> One>
+    template <among<Heading, Paragraph, List, Terms, Table, Picture, Drawing, Box> One>
     Block(One of, Where its_where = everywhere) : content(std::move(of)), where(its_where) {}
 
-    std::variant<Heading, Paragraph, List, Terms, Table, Drawing, Box> content;
+    std::variant<Heading, Paragraph, List, Terms, Table, Picture, Drawing, Box> content;
     Where where;
 };
 

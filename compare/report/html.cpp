@@ -210,6 +210,12 @@ std::string exrLinks(const ReportLayout& layout, const Comparison& comparison) {
     return "<p class=\"soft camera\">Every channel as float32:" + links + "</p>\n";
 }
 
+// `map`: the path of the map of causes; empty: none.
+std::string explanation(const Comparison& comparison, const std::string& map) {
+    if (!comparison.explained) return {};
+    return inHtml(comparison.explained->blocks) + (map.empty() ? "" : inHtml(causeMap(map)));
+}
+
 }  // namespace
 
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index) {
@@ -222,7 +228,7 @@ std::string section(const Report& report, const ReportLayout& layout, std::size_
                        layout.part ? std::string(titleLater) : sectionTitle(report, layout, index)) +
            leadingCards(report, layout, index) + "<h2>Channels</h2>\n" +
            inHtml(channelTable(comparison, layout.ids[index])) +
-           (comparison.explained ? comparison.explained->html(layout.source(layout.cause_maps[index])) : "") +
+           explanation(comparison, layout.source(layout.cause_maps[index])) +
            otherCards(report, layout, index) + checksSection(report, layout, index) +
            "<h2>What was compared</h2>\n" + frameTables(report, comparison) + exrLinks(layout, comparison) +
            "</section>\n";

@@ -91,7 +91,7 @@ std::string comparisonTable(const Report& report, const Comparison& comparison) 
             out += fmt::format(" ({}{}{})\n", channel.rule, channel.rule.empty() ? "" : ", because ",
                                channel.tolerance.because);
         }
-    if (comparison.explained) out += "  " + comparison.explained->words + "\n";
+    if (comparison.explained) out += inText(comparison.explained->blocks);
     for (const ChannelDiff& channel : comparison.channels)
         if (!channel.rule.empty() && channel.verdict == Verdict::pass)
             out += fmt::format("  {}: {}\n", channel.mode->name, channel.rule);

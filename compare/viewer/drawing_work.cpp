@@ -2,6 +2,7 @@
 #include "compare/viewer/drawing_work.h"
 
 #include "compare/frames/frame_facts.h"
+#include "compare/output/writers.h"
 #include "compare/render/path_plan.h"
 #include "compare/verdict/pair_reports.h"
 #include "compare/viewer/facts.h"
@@ -424,7 +425,7 @@ private:
                                .progress = stage("this pixel")};
         auto next = std::make_shared<Breakdown>(
             Breakdown{both_, *order_.pixel, pixelBreakdown(pair_.renderer(), pair_.views(), query), {}});
-        next->words = inWords(next->breakdown);
+        next->words = inText(blocksOf(next->breakdown));
         broken_down_ = std::pair(both_, *order_.pixel);
         const std::lock_guard lock(box_.mutex);
         box_.breakdown = std::move(next);

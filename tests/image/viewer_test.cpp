@@ -2,6 +2,7 @@
 // The window's drawing thread produces the same results as the other commands, and it survives errors.
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/frames/frame_facts.h"
+#include "compare/output/writers.h"
 #include "compare/picture/picture.h"
 #include "compare/render/renderer.h"
 #include "compare/viewer/drawing_thread.h"
@@ -148,7 +149,7 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
                                                 .test = forward,
                                                 .reference = referenceSettings(order.subject.settings),
                                                 .device = reportDevice(device)});
-    EXPECT_EQ(breakdown->words, inWords(same));
+    EXPECT_EQ(breakdown->words, inText(blocksOf(same)));
 }
 
 TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {

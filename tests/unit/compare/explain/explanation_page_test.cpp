@@ -2,6 +2,7 @@
 // Images and page of a hand-made explanation.
 #include "compare/explain/pictures.h"
 #include "compare/explain/write.h"
+#include "compare/output/writers.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -116,11 +117,25 @@ TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
         EXPECT_EQ(countOf(page, "src=\"dominant.png\""), count > 0 ? 1u : 0u);
         EXPECT_NE(page.find("diptych explain a"), std::string::npos);
     }
-    // Without stored images the page shows none.
-    const std::string bare =
-        explanationSection(made(2), of, [](const std::string&) { return std::string(); });
-    EXPECT_EQ(countOf(bare, "<img"), 0u);
-    EXPECT_EQ(countOf(bare, "<tr><td>"), 2u);
+    // A report shows the same without the images.
+    EXPECT_EQ(countOf(inHtml(blocksOf(made(2), of)), "<img"), 0u);
+}
+
+TEST(ExplanationPage, TerminalAndPageSayTheSame) {
+    const ExplainedPictures of{"a.glb", "deferred", "forward_plus", {}, "a device"};
+    Explanation e = made(2);
+    e.unexplained = 0.25;
+    e.nonfinite = 3;
+    e.devices = {{"textures", "decoding", 0.5}};
+    const std::string text = inText(blocksOf(e, of)), page = inHtml(blocksOf(e, of));
+    for (const char* words : {"lit differs because of --haze 50.0 %, cause 1 50.0 %; unexplained 25.0 %; "
+                              "across devices by textures",
+                              "lit of forward_plus differs from that of deferred by 1 W/(sr m^2) on average",
+                              "excluded: 3 pixels with NaN or infinity", "decoding", "100 % background"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+        EXPECT_NE(page.find(words), std::string::npos) << page;
+    }
+    EXPECT_NE(inText(blocksOf(Explanation(), of)).find("no cause: lit is the same"), std::string::npos);
 }
 
 }  // namespace

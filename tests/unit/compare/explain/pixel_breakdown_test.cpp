@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Text of a pixel breakdown for given steps and light terms, without drawing.
 #include "compare/explain/pixel_breakdown.h"
+#include "compare/output/writers.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 
@@ -55,14 +56,14 @@ TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
         firstDifference(breakdown),
         "the first step that differs by more than rounding: roughness (0.30012 against 0.3, 0.00012 in its "
         "metric, absolute, tolerance 0.002: half a step)");
-    std::string words = inWords(breakdown);
+    std::string words = inText(blocksOf(breakdown));
     EXPECT_NE(words.find("2 channels differ: roughness, lit\n"), std::string::npos) << words;
     EXPECT_NE(words.find("FAIL: at this pixel beyond tolerance: lit\n"), std::string::npos) << words;
     // Rounding does not count as a difference.
     breakdown.steps[1].differs = breakdown.steps[2].differs = false;
     breakdown.steps[2].beyond = false;
     EXPECT_EQ(firstDifference(breakdown), "no step differs by more than rounding");
-    words = inWords(breakdown);
+    words = inText(blocksOf(breakdown));
     EXPECT_NE(words.find("pass: at this pixel all 3 shared channels"), std::string::npos) << words;
     EXPECT_EQ(toJson(breakdown)["first_difference"], nullptr);
 }

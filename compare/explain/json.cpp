@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Explanations and breakdowns of pixels as JSON.
+#include "shared/text/json.h"
+#include "compare/explain/pixel_breakdown.h"
+#include "compare/explain/write.h"
+#include "compare/files/frame_json.h"
+#include "compare/files/our_files.h"
+#include "shared/contract/debug_mode.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace diptych {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double namedPart = 0.01;  // of a cause's share
+
+// By PixelTerm::Kind.
+constexpr std::array kinds{"light", "other_lights", "environment", "ambient", "emission", "transmittance",
+                           "haze",  "blended",      "sum",         "lit",     "residual"};
+
+std::string kindOf(const PixelTerm& term) {
+    return kinds.at(static_cast<std::size_t>(term.kind));
+}
+
+// null without values.
+Json numbersJson(std::span<const double> values) {
+    if (values.empty()) return nullptr;
+    Json list = Json::array();
+    for (const double v : values) list.push_back(finiteOrNull(v));
+    return list;
+}
+Json numbersJson(const glm::dvec3& value) {
+    return numbersJson(std::span(&value.x, 3));
+}
+
+Json stepsJson(const PixelBreakdown& breakdown) {
+    Json steps = Json::array();
+    for (const PixelStep& step : breakdown.steps) {
+        Json one{{"number", channelNumber(step.mode->channel)}, {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->metric)},         {"baseline", numbersJson(step.values[0])},
+                 {"test", numbersJson(step.values[1])},         {"reference", numbersJson(step.values[2])}};
+        if (step.isCompared()) {
+            one["difference"] = finiteOrNull(step.difference);
+            one["differs"] = step.differs;
+            one["tolerance"] = finiteOrNull(step.tolerance.max);
+            one["within"] = !step.beyond;
+            if (step.explained) one["explained"] = *step.explained;
+        }
+        one["because"] = step.tolerance.because;
+        steps.push_back(std::move(one));
+    }
+    return steps;
+}
+
+Json lightsJson(const PixelBreakdown& breakdown) {
+    Json lights = Json::array();
+    for (std::size_t i = 0; i < breakdown.lights.size(); ++i) {
+        const PixelLightFacts& facts = breakdown.lights[i];
+        Json one{{"light", i},
+                 {"name", facts.name},
+                 {"kind", facts.kind},
+                 {"distance", finiteOrNull(facts.distance)},
+                 {"range", finiteOrNull(facts.range)},
+                 {"casts", facts.casts}};
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto& list = breakdown.lists.at(side);
+            one[side == 0 ? "in_baseline_list" : "in_test_list"] =
+                list ? Json(std::ranges::binary_search(*list, i)) : Json(nullptr);
+        }
+        lights.push_back(std::move(one));
+    }
+    return lights;
+}
+
+Json termsJson(const PixelBreakdown& breakdown) {
+    Json terms = Json::array();
+    for (const PixelTerm& term : breakdown.terms)
+        terms.push_back({{"kind", kindOf(term)},
+                         {"lights", term.lights},
+                         {"baseline", numbersJson(term.values[0])},
+                         {"test", numbersJson(term.values[1])},
+                         {"reference", term.has_reference ? numbersJson(term.values[2]) : Json(nullptr)},
+                         {"uncertainty", term.uncertainty},
+                         {"difference", finiteOrNull(term.difference)},
+                         {"differs", term.differs}});
+    return terms;
+}
+
+}  // namespace
+
+nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {
+    Json causes = Json::array(), pairs = Json::array(), devices = Json::array();
+    for (const DeviceShare& part : e.devices)
+        devices.push_back({{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}});
+    const auto partsJson = [&](const Cause& cause, const std::vector<CausePart>& parts, const char* index) {
+        Json all = Json::array();
+        for (const CausePart& part : parts)
+            if (std::abs(part.share) >= namedPart * std::abs(cause.share))
+                all.push_back({{index, part.index}, {"name", part.name}, {"share", e.shareOf(part.share)}});
+        return all;
+    };
+    for (const Cause& cause : e.causes)
+        causes.push_back({{"name", cause.name},
+                          {"share", e.shareOf(cause.share)},
+                          {"interval", e.shareOf(cause.interval)},
+                          {"where", {cause.worst_x, cause.worst_y}},
+                          {"shows", cause.shows},
+                          {"alone", e.shareOf(cause.alone)},
+                          {"last", e.shareOf(cause.last)},
+                          {"dominates", cause.dominates},
+                          {"flip_share", e.shareOfFlip(cause.flip)},
+                          {"materials", partsJson(cause, cause.materials, "id")},
+                          {"lights", partsJson(cause, cause.lights, "place")}});
+    for (const CausePair& pair : e.pairs)
+        pairs.push_back({{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
+                         {"interaction", e.shareOf(pair.interaction)}});
+    return {{"schema", 1},
+            {"software", softwareName},
+            {"scene", of.scene},
+            {"baseline", of.baseline},
+            {"test", of.test},
+            {"distance", e.distance},
+            {"flip", e.flip},
+            {"causes", std::move(causes)},
+            {"unexplained", e.shareOf(e.unexplained)},
+            {"flip_unexplained", e.flip_unexplained},
+            {"pairs", std::move(pairs)},
+            {"devices", std::move(devices)},
+            {"inert", e.without_effect},
+            {"reproduction", {e.reproduction[0], e.reproduction[1]}},
+            {"shaded", e.subsets},
+            {"lights_drawn", e.lights_drawn},
+            {"lights_left_out", e.lights_left_out},
+            {"nonfinite", e.nonfinite},
+            {"drawn", e.frames},
+            {"command", of.commands.empty() ? Json(nullptr) : Json(of.commands.front().line)}};
+}
+
+nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
+    const auto [step, term] = breakdown.first();
+    Json first = nullptr;
+    if (step) first = step->mode->name;
+    if (term)
+        first = kindOf(*term) +
+                (term->kind == PixelTerm::Kind::light ? fmt::format(" {}", term->lights.front()) : "");
+    return {
+        {"schema", 1},
+        {"scene", breakdown.scene},
+        {"camera", breakdown.camera},
+        {"pixel", {breakdown.x, breakdown.y}},
+        {"size", {breakdown.settings[0].size.width, breakdown.settings[0].size.height}},
+        {"baseline", breakdown.names[0]},
+        {"test", breakdown.names[1]},
+        {"settings",
+         {parseOrderedJson(toJson(breakdown.settings[0])), parseOrderedJson(toJson(breakdown.settings[1]))}},
+        {"background", !breakdown.shown},
+        {"blended", breakdown.blended},
+        {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
+                                     : Json(nullptr)},
+        {"position", breakdown.shown ? numbersJson(breakdown.position) : Json(nullptr)},
+        {"steps", stepsJson(breakdown)},
+        {"lights", lightsJson(breakdown)},
+        {"drawn_alone", breakdown.drawn_alone},
+        {"terms", termsJson(breakdown)},
+        {"residual_rounding", numbersJson(breakdown.residual_rounding)},
+        {"first_difference", std::move(first)},
+        {"summary", firstDifference(breakdown)}};
+}
+
+}  // namespace diptych
