@@ -182,17 +182,21 @@ std::vector<Block> blocksOf(const RelationResult& of, const ReportDevice& device
         {Paragraph{fmt::format("{:<19} {}: {}", relation.name, verdict, summary)}, Block::terminal},
         {Paragraph{fmt::format("{}; {}", relation.changes, relation.because)},
          broken ? Block::everywhere : Block::page},
-        {Paragraph{Span(summary, broken ? Span::strong : Span::words), "soft small"}, Block::page}};
+        {Paragraph{Span(summary, broken ? Span::strong : Span::words), broken ? "" : "soft small"},
+         Block::page}};
     for (const SeriesResult& series : of.series) {
         if (!broken || !series.lacks.empty()) continue;
-        output::List list{{seriesText(series.series, fmt::format("{}: {}: {}", seriesInWords(series),
-                                                                 verdictOf(series), worstInWords(series)))},
-                          "how small"};
-        if (!series.comparison.passes()) list.items.emplace_back("allowed: " + series.tolerance.inWords());
+        const std::string name = seriesInWords(series);
+        const bool holds = series.comparison.passes();
+        output::List list{
+            {seriesText(series.series,
+                        fmt::format("{}: {}: {}{}", name, verdictOf(series), worstInWords(series),
+                                    holds ? "" : "; tolerance: " + series.tolerance.inWords()))},
+            "how small"};
         for (const ChannelResult& channel : series.comparison.channels)
             if (channel.beyond > 0)
                 list.items.emplace_back(
-                    fmt::format("{}: {} out of tolerance, the worst at {},{}: {}, allowed {}",
+                    fmt::format("{}, {}: {} out of tolerance, the worst at {},{}: {}, allowed {}", name,
                                 debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                                 channel.y, number(channel.error), number(channel.allowed)));
         blocks.insert(blocks.end(), {list, picturesOf(of, series)});

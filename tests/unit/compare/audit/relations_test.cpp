@@ -466,7 +466,7 @@ TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
     for (const std::string& words :
          {output::inText(blocksOf(result, gpu)), output::inHtml(blocksOf(result, gpu))})
         for (const char* told : {"broken", "a bug of the driver or of Diptych, on Some GPU with driver 1.2",
-                                 "forward_plus: broken", "lit: 1 pixel out of tolerance"})
+                                 "forward_plus: broken", "forward_plus, lit: 1 pixel out of tolerance"})
             EXPECT_NE(words.find(told), words.npos) << words;
     EXPECT_NE(blameInWords(result, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
               std::string::npos);
