@@ -100,7 +100,7 @@ output::Table causeTable(const Explanation& e) {
 output::Table deviceTable(const Explanation& e) {
     output::Table table{
         .columns = {{"across devices"}, {"share", Column::number}, {"description", Column::prose}},
-        .box = "box scroll",
+        .box = "box scroll devices",
         .indent = 2};
     for (const DeviceShare& part : e.devices)
         table.rows.push_back({{part.name, percent(e.shareOf(part.share)), part.shows}});
