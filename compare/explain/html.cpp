@@ -171,7 +171,7 @@ std::string explanationSection(const Explanation& e, const ExplainedPictures& of
                 blocks.end(),
                 {Heading{2, "Each cause alone"},
                  Paragraph{fmt::format("Each cause's share of the difference at each pixel, all on one "
-                                       "scale: black 0, pale yellow {} W/(sr m^2), cyan beyond; green "
+                                       "scale: black 0, pale yellow {} W/(sr m^2), cyan beyond; blue "
                                        "where it cancels others.",
                                        number(topOfMaps(e))),
                            "soft"},
