@@ -113,8 +113,7 @@ std::string pageOf(const Audited& audited, const std::string& title, const std::
                               audited.settings.size.height, audited.device.name, audited.device.driver),
                   Span(audited.camera, Span::foreign)},
         .blocks = std::move(blocks),
-        .files = files,
-        .style = plotStyle};
+        .files = files};
     const char* const verdict = passes.value_or(true) ? "pass" : "fail";
     if (passes) page.heading = {Span(verdict, Span::verdict, verdict), " ", Span(audited.scene, Span::name)};
     return inHtml(page);
