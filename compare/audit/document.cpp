@@ -136,8 +136,7 @@ std::string pageOf(const Audited& audited, const std::string& title, const std::
                               audited.settings.size.height, audited.device.name, audited.device.driver),
                   Span(audited.camera, Span::foreign)},
         .blocks = std::move(blocks),
-        .files = files,
-        .style = plotStyle};
+        .files = files};
     if (passes) {
         const char* const verdict = *passes ? "pass" : "fail";
         page.heading = {Span(verdict, Span::verdict, verdict), " ", Span(audited.scene, Span::name)};

@@ -5,7 +5,7 @@
 #include "compare/audit/audit.h"
 #include "compare/audit/relate.h"
 #include "compare/output/document.h"
-#include "compare/plot/drawing.h"
+#include "compare/plot/plot.h"
 
 #include <nlohmann/json.hpp>
 

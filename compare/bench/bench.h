@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/bench/cases.h"
-#include "compare/plot/drawing.h"
+#include "compare/plot/plot.h"
 #include "compare/render/renderer.h"
 #include "shared/frame/frame.h"
 

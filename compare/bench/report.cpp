@@ -157,7 +157,6 @@ std::string benchHtml(const Bench& bench) {
                              bench.device.driver),
         .blocks = findings(bench),
         .files = {benchManifest, experiment::rowsFile},
-        .style = plotStyle,
         .skip = "rows"};
     output::Box rows{"", {}, "rows"};
     if (!bench.rows.empty()) {

@@ -4,7 +4,7 @@
 #include "compare/files/listed_folder.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
-#include "compare/plot/error_over_time.h"
+#include "compare/plot/plot.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -261,30 +261,40 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
 std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     const Choice& choice = report.choice;
     const std::string_view figure = titleOf(report.budget.figure);
-    ErrorPlot plot{.title = fmt::format("{} over time of the measured candidates, {}", figure, report.scene),
-                   .error_name = fmt::format("{} against the reference", figure),
-                   .most_ms = report.budget.ms,
-                   .most_error = report.budget.error};
+    PlotPanel panel{.across = {"time of a frame, ms"},
+                    .up = {fmt::format("{} against the reference", figure)}};
+    if (const auto& most = report.budget.error)
+        panel.limits.push_back({.y = most, .name = fmt::format("at most {:.4g}", *most)});
+    if (const auto& most = report.budget.ms)
+        panel.limits.push_back({.x = most, .name = fmt::format("at most {:.4g} ms", *most)});
+    std::string interval;
     std::vector<experiment::TimeError> points;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
         const Candidate& candidate = choice.candidates[i];
         if (!candidate.isJudged() || candidate.timings == 0) continue;
         const double ms = candidate.ms(), error = candidate[report.budget.figure];
         const bool raced = candidate.status == CandidateStatus::raced;
-        if (raced) plot.bar = "finalist, 99 % interval";
+        if (raced) interval = "finalist, 99 % interval";
         points.push_back({ms, error});
-        plot.points.push_back({candidate.settings.path, ms, endOf(candidate, &TimeRatio::low),
-                               endOf(candidate, &TimeRatio::high), error, error, error, i + 1,
-                               fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, figure, error,
-                                           candidate.statusName().words),
-                               false, raced,
-                               i == choice.chosen      ? "chosen"
-                               : i == choice.runner_up ? "runner-up"
-                               : i == choice.nearest   ? "nearest"
-                                                       : ""});
+        panel.pointsOf(std::string(nameOf(candidate.settings.path)), candidate.settings.path, false)
+            .push_back({.x = ms,
+                        .y = error,
+                        .words = fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, figure,
+                                             error, candidate.statusName().words),
+                        .across = {endOf(candidate, &TimeRatio::low), endOf(candidate, &TimeRatio::high)},
+                        .row = i + 1,
+                        .best = raced,
+                        .label = i == choice.chosen      ? "chosen"
+                                 : i == choice.runner_up ? "runner-up"
+                                 : i == choice.nearest   ? "nearest"
+                                                         : ""});
     }
-    for (const std::size_t i : experiment::paretoFront(points)) plot.points[i].front = true;
-    return errorPlot(plot, place, "img");
+    for (const std::size_t i : experiment::paretoFront(points))
+        panel.front.emplace_back(points[i].time, points[i].error);
+    return svgOf({.title = fmt::format("{} over time of the measured candidates, {}", figure, report.scene),
+                  .panels = {panel},
+                  .interval = interval},
+                 place);
 }
 
 }  // namespace
@@ -386,8 +396,7 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
     output::Document page{.title = "a choice, " + title,
                           .heading = title,
                           .about = fmt::format("{} ({})", first.device.name, first.device.driver),
-                          .blocks = {},
-                          .style = plotStyle};
+                          .blocks = {}};
     ListedFolder folder(path, choiceManifest, force);
     std::vector<const experiment::Row*> rows;  // every scene's candidates, then those of the joint choice
     const auto add = [&](const std::vector<Block>& blocks, const auto& candidates) {

@@ -148,7 +148,7 @@ std::vector<Block> pictureBlocks(const Explanation& e, const ExplainedPictures& 
     if (e.distance > 0)
         blocks.insert(blocks.begin() + 1,
                       Paragraph{fmt::format("The difference and each cause's share of it are on one scale: "
-                                            "black 0, pale yellow {} W/(sr m^2), cyan beyond; green where "
+                                            "black 0, pale yellow {} W/(sr m^2), cyan beyond; blue where "
                                             "the cause cancels others.",
                                             number(topOfMaps(e))),
                                 "soft"});

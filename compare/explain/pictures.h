@@ -40,7 +40,7 @@ Image8 dominantPicture(const Explanation& explanation, const Image8& shown);
 // pixels that differ.
 double topOfMaps(const Explanation& explanation);
 
-// W x H x 1 shares in the colours of errorPicture(); green where negative.
+// W x H x 1 shares in the colours of errorPicture(); blue where negative.
 Image8 sharePicture(const Image& shares, double top);
 
 // Both sides' lit as an image, with one exposure: channelPicture().

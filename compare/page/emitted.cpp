@@ -29,11 +29,10 @@ constexpr Grammar pages{
     " a article b bdi button code dd details div dl dt figcaption figure footer h1 h2 h3 h4 header i kbd "
     "li ol p pre section span summary svg table tbody td th thead tr ul ",
     " br img input wbr ",
-    " circle defs g image line path rect text title use ",
+    " circle defs g image path rect text title use ",
     " alt aria-hidden aria-label aria-pressed class colspan cx cy d data-do data-figure data-mode "
     "data-names data-pixel data-row data-show data-shows data-unit data-value data-values height href id "
-    "loading max min preserveAspectRatio r role src step style tabindex title type value viewBox width x "
-    "x1 x2 xmlns y y1 y2 ",
+    "loading max min r role src step style tabindex title transform type value viewBox width x xmlns y ",
     " data-same hidden open ",
     "",
     {1, 2}};

@@ -48,7 +48,7 @@ std::string words(double count) {
 
 std::array<std::uint8_t, 3> heatColor(double t) {
     constexpr std::array<std::array<double, 3>, 6> stops{
-        {{20, 20, 90}, {20, 130, 190}, {40, 190, 90}, {235, 215, 60}, {250, 150, 110}, {255, 255, 255}}};
+        {{20, 20, 90}, {40, 70, 155}, {30, 122, 145}, {75, 170, 110}, {220, 210, 85}, {255, 255, 255}}};
     const double at = std::clamp(t, 0.0, 1.0) * (stops.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     Rgb8 color{};

@@ -9,7 +9,8 @@
 
 namespace diptych {
 
-// t in [0, 1]: dark blue, cyan, green, yellow, red, white.
+// t in [0, 1]: dark blue, blue, teal, green, yellow, white. As in viridis (van der Walt and Smith 2015),
+// lightness rises all the way, also for protan and deutan vision.
 std::array<std::uint8_t, 3> heatColor(double t);
 
 // The top of a map with this largest count: the next of 1, 2, 5 times a power of ten.

@@ -2,11 +2,13 @@
 // Positions labels of points without overlap.
 #pragma once
 
-#include "compare/plot/drawing.h"
-
 #include <vector>
 
 namespace diptych {
+
+struct PlotBox {
+    double left, top, right, bottom;  // edges; y grows downwards
+};
 
 // A name beside a point; lengths are in the drawing's own units.
 struct Label {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The distribution of a channel's errors: a histogram, and links to the worst pixels.
+#include "compare/plot/plot.h"
 #include "compare/report/html.h"
 #include "compare/report/titles.h"
 #include "shared/text/counted.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace diptych {
 
@@ -17,116 +17,58 @@ using page::unitOf;
 
 namespace {
 
-// The bars are stretched over the figure's width; labels are placed at percentages of it.
-class Histogram {
-public:
-    Histogram(const ChannelDiff& channel, const ChannelPictures& pictures)
-        : channel_(channel),
-          mode_(*channel.mode),
-          limit_(pictures.error_limit),
-          beyond_(limit_ && !pictures.worst.empty() && pictures.worst.front().error > *limit_),
-          errors_(pictures.histogram) {}
+// The kind of error, in a word or two.
+std::string kindOf(const ChannelDiff& channel) {
+    if (channel.shown_error && channel.shown_error_name != nameOf(Metric::relative))
+        return channel.shown_error_name;
+    if (channel.shown_error) return "relative error";
+    const Metric metric = channel.mode->metric;
+    return isAngle(metric) ? "angle" : fmt::format("{} error", nameOf(metric));
+}
 
-    std::string html() const {
-        if (errors_.bins.empty()) return {};
-        return fmt::format(
-            "<figure class=\"histogram\"><div class=\"plot{}\"><svg viewBox=\"0 0 {} 100\" "
-            "preserveAspectRatio=\"none\" role=\"img\" aria-label=\"histogram of error\">{}</svg>{}</div>"
-            "<div class=\"axis\">{}</div><figcaption>{}</figcaption></figure>\n",
-            limit_ ? "" : " unbounded", errors_.bins.size(), bars(), limit(), axis(), markup(words()));
+// If an error exceeds the limit, the bin that contains the limit is split at it. The right part is coloured
+// as out of tolerance.
+std::string histogram(const ChannelDiff& channel, const ChannelPictures& pictures) {
+    const ErrorHistogram& errors = pictures.histogram;
+    if (errors.bins.empty()) return {};
+    const std::string unit = unitOf(*channel.mode);
+    const auto size = [&](double error) { return number(error) + unit; };
+    const std::optional<double>& limit = pictures.error_limit;
+    const bool beyond = limit && !pictures.worst.empty() && pictures.worst.front().error > *limit;
+    const double first = errors.edge(0), last = errors.edge(errors.bins.size());
+    PlotPanel panel{
+        .across = {.name = kindOf(channel) + (unit.empty() ? "" : ", " + unit), .shown = {first, last}},
+        .up = {.name = "pixels", .shown = {1}}};
+    std::uint64_t all = errors.equal + errors.infinite;
+    for (std::size_t i = 0; i < errors.bins.size(); ++i) {
+        const std::uint64_t count = errors.bins[i];
+        if (count == 0) continue;
+        all += count;
+        const double left = errors.edge(i), right = errors.edge(i + 1),
+                     cut = beyond ? std::clamp(*limit, left, right) : right;
+        const PlotRange up{0, static_cast<double>(count)};
+        const std::string words = fmt::format(
+            "{} to {}: {}{}", size(left), size(right), counted(count, "pixel"),
+            i == 0 && errors.smaller > 0 ? fmt::format(", {} of them below", errors.smaller) : "");
+        if (left < cut) panel.bars.push_back({{left, cut}, up, limit ? 0 : mostParts - 1, words});
+        if (cut < right) panel.bars.push_back({{cut, right}, up, 0, words, true});
     }
-
-private:
-    std::string size(double error) const { return number(error) + unitOf(mode_); }
-
-    // If an error exceeds the limit, the bin that contains the limit is split at it. The right part is
-    // coloured as out of tolerance.
-    std::string bars() const {
-        const std::uint64_t most = std::ranges::max(errors_.bins);
-        const double line = drawn() ? binAt(*limit_) : 0;
-        std::string out;
-        for (std::size_t i = 0; i < errors_.bins.size(); ++i) {
-            const std::uint64_t count = errors_.bins[i];
-            if (count == 0) continue;
-            const double height =
-                100 * std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(most));
-            const auto left = static_cast<double>(i),
-                       cut = beyond_ ? std::clamp(line, left, left + 1) : left + 1;
-            const std::string title = fmt::format(
-                "{} to {}: {}{}", size(errors_.edge(i)), size(errors_.edge(i + 1)), counted(count, "pixel"),
-                i == 0 && errors_.smaller > 0 ? fmt::format(", {} of them below", errors_.smaller) : "");
-            out += bar("", left, cut, height, title) + bar(" class=\"beyond\"", cut, left + 1, height, title);
-        }
-        return out;
-    }
-
-    static std::string bar(const char* style, double from, double to, double height,
-                           const std::string& title) {
-        if (!(from < to)) return {};
-        return fmt::format(
-            "<rect{} x=\"{:.5g}\" y=\"{:.1f}\" width=\"{:.3g}\" height=\"{:.1f}\"><title>{}</title></rect>",
-            style, from, 100 - height, to - from, height, title);
-    }
-
-    double binAt(double error) const {
-        return (std::log10(error) - errors_.first_decade) * errors_.bins_per_decade;
-    }
-    double percent(double error) const {
-        return 100 * binAt(error) / static_cast<double>(errors_.bins.size());
-    }
-
-    // Whether a logarithmic axis can show the limit.
-    bool drawn() const { return limit_ && *limit_ > 0; }
-
-    // A limit outside the plot is marked at its edge; words() states its value.
-    std::string limit() const {
-        if (!drawn()) return {};
-        return fmt::format("<i class=\"limit\" style=\"left:{:.2f}%\"></i>",
-                           std::clamp(percent(*limit_), 0.0, 100.0));
-    }
-
-    std::string axis() const {
-        const int decades = static_cast<int>(errors_.bins.size()) / errors_.bins_per_decade,
-                  step = (decades + 4) / 5;  // at most six labels fit on a phone
-        std::string out;
-        for (int d = 0; d <= decades; d += step)
-            out += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100.0 * d / decades,
-                               size(std::pow(10.0, errors_.first_decade + d)));
-        return out;
-    }
-
-    std::string words() const {
-        std::uint64_t all = errors_.equal + errors_.infinite;
-        for (const std::uint64_t count : errors_.bins) all += count;
-        std::string out =
-            fmt::format("pixels by {}; bar height is the logarithm of their number; {} of {} are equal",
-                        kind(), errors_.equal, all);
-        if (errors_.infinite > 0) out += fmt::format("; {} have an infinite error", errors_.infinite);
-        if (drawn())
-            out +=
-                fmt::format("; line: {} {}{}", channel_.rule.empty() ? "tolerance" : "limit", size(*limit_),
-                            percent(*limit_) > 100 ? ", beyond the right edge"
-                            : percent(*limit_) < 0 ? ", beyond the left edge"
-                                                   : "");
-        if (!limit_ && channel_.criterion)
-            out += fmt::format("; the limit applies to {}, not to these errors", channel_.criterion->figure);
-        return out;
-    }
-
-    // The kind of error, in a word or two.
-    std::string kind() const {
-        if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
-            return channel_.shown_error_name;
-        if (channel_.shown_error) return "relative error";
-        return isAngle(mode_.metric) ? "angle" : fmt::format("{} error", nameOf(mode_.metric));
-    }
-
-    const ChannelDiff& channel_;
-    const DebugMode& mode_;
-    const std::optional<double> limit_;
-    const bool beyond_;
-    const ErrorHistogram& errors_;
-};
+    if (limit && *limit > 0)
+        panel.limits.push_back(
+            {.x = limit,
+             .name = fmt::format("{} {}{}", channel.rule.empty() ? "tolerance" : "limit", size(*limit),
+                                 *limit > last    ? ", beyond the right edge"
+                                 : *limit < first ? ", beyond the left edge"
+                                                  : "")});
+    std::string words = fmt::format("{} of {} pixels are equal", errors.equal, all);
+    if (errors.infinite > 0) words += fmt::format("; {} have an infinite error", errors.infinite);
+    if (!limit && channel.criterion)
+        words += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->figure);
+    return fmt::format(
+        "<figure class=\"histogram\">{}<figcaption>{}</figcaption></figure>\n",
+        svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotPlace::page),
+        markup(words));
+}
 
 std::string worstList(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
     std::string items;
@@ -148,9 +90,8 @@ std::string worstList(const ChannelDiff& channel, const ChannelPictures& picture
 
 std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
     if (pictures.worst.empty()) return {};
-    const std::string histogram =
-        channel.mode->metric == Metric::exact ? "" : Histogram(channel, pictures).html();
-    return "<div class=\"spread\">" + histogram + worstList(channel, pictures, id) + "</div>\n";
+    const std::string spread = channel.mode->metric == Metric::exact ? "" : histogram(channel, pictures);
+    return "<div class=\"spread\">" + spread + worstList(channel, pictures, id) + "</div>\n";
 }
 
 }  // namespace diptych

@@ -5,7 +5,7 @@
 #include "compare/files/our_files.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
-#include "compare/plot/drawing.h"
+#include "compare/plot/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"

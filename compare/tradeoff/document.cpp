@@ -195,10 +195,6 @@ std::vector<Block> resultBlocks(const Tradeoff& tradeoff) {
     return blocks;
 }
 
-std::string pageStyle() {
-    return std::string(plotStyle) + tradeoffStyle;
-}
-
 }  // namespace
 
 std::string frontsText(const Tradeoff& tradeoff) {
@@ -210,7 +206,7 @@ std::string tradeoffEnd(const Tradeoff& tradeoff) {
 }
 
 void checkTradeoffHtml(std::string_view page) {
-    output::checkPage(page, pageStyle(), tradeoffScript);
+    output::checkPage(page, tradeoffStyle, tradeoffScript);
 }
 
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
@@ -228,7 +224,7 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         .blocks = {output::Drawing{switches() + plots(tradeoff)},
                    output::Box{"", {Heading{2, "Every row"}, sweepTable(tradeoff)}, "rows"}},
         .files = {"tradeoff.json", "tradeoff.csv", experiment::rowsFile},
-        .style = pageStyle(),
+        .style = tradeoffStyle,
         .script = tradeoffScript,
         .skip = "rows"};
     for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));

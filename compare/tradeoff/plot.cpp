@@ -2,7 +2,6 @@
 #include "compare/tradeoff/plot.h"
 
 #include "compare/page/text.h"
-#include "compare/plot/error_over_time.h"
 
 #include <fmt/format.h>
 
@@ -13,23 +12,32 @@ namespace diptych::tradeoff {
 std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path,
                          PlotPlace place) {
     const std::string title(errorFigures[figure].title);
-    ErrorPlot plot{.title = fmt::format("{} over time, {}{}", title, tradeoff.scene,
-                                        path ? ", " + std::string(nameOf(*path)) : ""),
-                   .error_name = title,
-                   .legend = !path};
+    PlotPanel panel{.across = {"time of a frame, ms"}, .up = {title}};
     const std::vector<std::size_t> front = frontOf(tradeoff, figure, path);
     for (const std::size_t i : rowsOf(tradeoff, path)) {
         const TradeoffRow& row = tradeoff.rows[i];
         const Spread error = spreadOf(row, errorMeasure(figure));
         const bool best = std::ranges::count(front, i) > 0;
-        plot.points.push_back({row.settings.path, row[Measure::ms], row[Measure::ms_min],
-                               row[Measure::ms_max], error.value, error.low, error.high, i + 1,
-                               fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
-                                           inWords(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
-                                           title, page::number(error.value), best ? ", on the front" : ""),
-                               best, best, best ? fmt::format("{}", i + 1) : ""});
+        if (best) panel.front.emplace_back(row[Measure::ms], error.value);
+        panel.pointsOf(std::string(nameOf(row.settings.path)), row.settings.path, false)
+            .push_back(
+                {.x = row[Measure::ms],
+                 .y = error.value,
+                 .words = fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
+                                      inWords(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
+                                      title, page::number(error.value), best ? ", on the front" : ""),
+                 .across = {row[Measure::ms_min], row[Measure::ms_max]},
+                 .up = {error.low, error.high},
+                 .row = i + 1,
+                 .best = best,
+                 .label = best ? fmt::format("{}", i + 1) : ""});
     }
-    return errorPlot(plot, place, "button");
+    return svgOf({.title = fmt::format("{} over time, {}{}", title, tradeoff.scene,
+                                       path ? ", " + std::string(nameOf(*path)) : ""),
+                  .panels = {panel},
+                  .interval = "least to greatest",
+                  .chooses = true},
+                 place);
 }
 
 std::string plotName(std::size_t figure, std::optional<Path> path) {

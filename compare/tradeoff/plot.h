@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/plot/drawing.h"
+#include "compare/plot/plot.h"
 #include "compare/tradeoff/tradeoff.h"
 
 #include <optional>

@@ -57,7 +57,7 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
         .map(image => image.src), cards: cards.length,
              unread: cards.filter(card => card.querySelector('.readout').children.length < 2)
                .map(card => card.id),
-             timed: bars.filter(width => width > 20).length, plots: $$('.plot rect').length > 50,
+             timed: bars.filter(width => width > 20).length, plots: $$('.histogram rect').length > 50,
              marks: $$('.checks tr').length > 5 });)");
     EXPECT_EQ(seen.console, "");
     ASSERT_TRUE(seen.told.is_object()) << seen.told;

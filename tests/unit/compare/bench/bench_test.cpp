@@ -264,10 +264,10 @@ TEST(BenchOutput, JsonReadsBack) {
     EXPECT_TRUE(without["rows"][0]["light_count"].is_null());
 }
 
-// Positions in the plot of a mode's points, in order.
-std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::string& mode) {
+// Positions of a series' points, in order.
+std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::string& series) {
     std::vector<std::array<double, 2>> points;
-    const std::regex line("<g class=\"series " + mode + "\"><path class=\"trace\" d=\"M([^\"]*)\"");
+    const std::regex line("<g class=\"series " + series + "\"><path class=\"trace\" d=\"M([^\"]*)\"");
     std::smatch match;
     if (!std::regex_search(svg, match, line)) return points;
     std::string words = match[1];
@@ -280,7 +280,7 @@ std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::s
 TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
     const Bench bench = several();
     const std::string svg = benchPlot(bench, PlotPlace::file);
-    const auto every = pointsOf(svg, "deferred every"), clustered = pointsOf(svg, "forward_plus clustered");
+    const auto every = pointsOf(svg, "deferred v0"), clustered = pointsOf(svg, "forward_plus v0");
     ASSERT_EQ(every.size(), 2u) << svg;
     ASSERT_EQ(clustered.size(), 2u);
     EXPECT_LT(every[0][0], every[1][0]) << "more lights stand to the right";

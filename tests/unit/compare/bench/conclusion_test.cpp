@@ -151,7 +151,7 @@ TEST(BenchPlot, PassesBeyondItsColoursAreOnePart) {
     for (int i = 0; i < 12; ++i) bench.rows[0].passes.push_back({"pass " + std::to_string(i), 0.01});
     const std::string svg = benchPlot(bench, PlotPlace::file);
     EXPECT_NE(svg.find(">other passes</text>"), std::string::npos);
-    EXPECT_EQ(svg.find("part8"), std::string::npos) << "no colour that is not there";
+    EXPECT_EQ(svg.find("class=\"part part8"), std::string::npos) << "no colour that is not there";
     EXPECT_NE(svg.find("deferred, clustered, pass 11: 0.01 ms"), std::string::npos) << "each is named";
 }
 

@@ -233,7 +233,7 @@ TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
     };
     EXPECT_EQ(countOf(">covered, %<"), 2u);
     EXPECT_EQ(countOf("class=\"trace\" d=\""), 2u * 3 + 3) << "and in the legend";
-    EXPECT_EQ(countOf("series deferred layers\""), 3u);
+    EXPECT_EQ(countOf("series deferred v1\""), 3u);
     EXPECT_EQ(countOf("deferred by forward, 25 % coated: 26 (26 to 26) ms"), 1u);
 }
 

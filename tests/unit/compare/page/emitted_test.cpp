@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Markup from another machine: all that the writers emit passes, and nothing that leaves its place.
 #include "compare/page/emitted.h"
-#include "compare/plot/drawing.h"
+#include "compare/plot/plot.h"
 #include "tests/support/errors.h"
 #include "tests/support/sources.h"
 
@@ -77,7 +77,7 @@ TEST(Emitted, SuitesOfJunit) {
 }
 
 TEST(Emitted, PlotsInFiles) {
-    const std::string plot = plotElement(2, 1, "a & b", PlotPlace::file, "<g><line x1=\"1\"/></g>");
+    const std::string plot = svgOf({.title = "a & b"}, PlotPlace::file);
     EXPECT_EQ(faultOf([&] { checkPlot(plot); }), "");
     EXPECT_NE(faultOf([&] { checkPlot(plot + "<style></style>"); }), "");
     EXPECT_NE(faultOf([&] { checkPlot("<svg><script>a</script></svg>"); }), "");

@@ -251,17 +251,17 @@ TEST(ChannelPicture, ARangeIsOfBothPanelsAndStated) {
 
 // ---- Light counts ----
 
-// Dark blue, cyan, green, yellow, red, white at fifths of the top, interpolated linearly.
-constexpr Rgb heatStops[] = {{20, 20, 90},   {20, 130, 190},  {40, 190, 90},
-                             {235, 215, 60}, {250, 150, 110}, {255, 255, 255}};
+// Dark blue, blue, teal, green, yellow, white at fifths of the top, interpolated linearly.
+constexpr Rgb heatStops[] = {{20, 20, 90},   {40, 70, 155},  {30, 122, 145},
+                             {75, 170, 110}, {220, 210, 85}, {255, 255, 255}};
 
 TEST(HeatPicture, CountsHaveTheLegendsColours) {
     const auto [picture, words] =
         shown(Channel::light_count, {rowFrame(Channel::light_count, {0, 4, 8, 12, 16, 20, 2, 10})});
     EXPECT_EQ(words, "heat map, 0 to 20 lights");
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(pixelOf(picture, i), heatStops[i]) << 4 * i << " of 20";
-    EXPECT_EQ(pixelOf(picture, 6), (Rgb{20, 75, 140})) << "a tenth: half way from dark blue to cyan";
-    EXPECT_EQ(pixelOf(picture, 7), (Rgb{138, 203, 75})) << "half: between green and yellow";
+    EXPECT_EQ(pixelOf(picture, 6), (Rgb{30, 45, 123})) << "a tenth: half way from dark blue to blue";
+    EXPECT_EQ(pixelOf(picture, 7), (Rgb{53, 146, 128})) << "half: between teal and green";
 }
 
 TEST(HeatPicture, TheTopIsTheNextRoundNumber) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The output of a sweep: table, CSV, JSON, plots and page.
 #include "compare/cli/command_line.h"
-#include "compare/plot/error_over_time.h"
-#include "compare/plot/log_axis.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -246,56 +244,6 @@ TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
     EXPECT_DOUBLE_EQ(drift->value, 1);
     EXPECT_DOUBLE_EQ(drift->low, 0.5);
     EXPECT_DOUBLE_EQ(drift->high, 2);
-}
-
-TEST(ErrorOverTime, ZeroAndInfiniteErrorsHaveLanesBehindALine) {
-    const auto gapsOf = [](const std::vector<double>& points) {
-        const ErrorOverTime plot({0, 0, 100, 100}, {1, 10}, {1e-3, 1}, points);
-        const std::string axes = plot.axes("FLIP");
-        std::size_t gaps = 0;
-        for (std::size_t at = axes.find("\"gap\""); at != axes.npos; at = axes.find("\"gap\"", at + 1))
-            ++gaps;
-        return gaps;
-    };
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(gapsOf({1e-3, 1}), 0u);
-    EXPECT_EQ(gapsOf({0, 1}), 1u);
-    EXPECT_EQ(gapsOf({1, infinite}), 1u);
-    EXPECT_EQ(gapsOf({0, 1e-3, infinite}), 2u);
-}
-
-TEST(LogAxis, TicksLieWithinAndSome) {
-    for (const std::vector<double>& values : std::vector<std::vector<double>>{
-             {1e-7, 1}, {3, 4}, {100, 100.5}, {5}, {0.02, 60}, {}, {0, -1, inf}, {1e-30, 1e30}}) {
-        const LogAxis axis(values);
-        std::size_t named = 0;
-        double last = -1;
-        for (const Tick& tick : axis.ticks()) {
-            if (tick.text.empty()) continue;
-            ++named;
-            EXPECT_GE(tick.value, axis.low() * 0.999999);
-            EXPECT_LE(tick.value, axis.high() * 1.000001);
-            EXPECT_GT(tick.value, last);
-            EXPECT_NEAR(std::stod(tick.text), tick.value, 1e-3 * tick.value) << tick.text;
-            last = tick.value;
-        }
-        EXPECT_GE(named, 2u) << axis.low() << " to " << axis.high();
-        EXPECT_LE(named, 12u) << axis.low() << " to " << axis.high();
-        for (const double v : values)
-            if (v > 0 && v < inf) {
-                EXPECT_GT(axis.place(v), 0);
-                EXPECT_LT(axis.place(v), 1);
-            }
-    }
-    const LogAxis axis({1, 100});
-    EXPECT_NEAR(axis.place(10), 0.5, 1e-12);
-    EXPECT_EQ(axis.place(0), 0);
-}
-
-TEST(LogAxis, AboutADecadeHasTicksAtOneTwoAndFive) {
-    std::vector<double> values;
-    for (const Tick& tick : LogAxis({1.5, 12}).ticks()) values.push_back(tick.value);
-    EXPECT_EQ(values, (std::vector<double>{2, 5, 10}));
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Labels in plots: none overlaps another, and each belongs to its own point.
-#include "compare/tradeoff/plot.h"
-#include "compare/plot/error_over_time.h"
 #include "compare/plot/labels.h"
-#include "compare/tradeoff/tradeoff.h"
+#include "compare/plot/plot.h"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +13,6 @@
 #include <regex>
 
 namespace diptych {
-
-using namespace tradeoff;
-
 namespace {
 
 bool meet(const PlotBox& a, const PlotBox& b) {
@@ -52,25 +47,28 @@ TEST(PlotLabels, StandsAboveOnTheRightUnlessAMarkIsThere) {
     EXPECT_TRUE(meet(crowded, area));
 }
 
-TradeoffRow timed(const char* path, double ms, double error) {
-    TradeoffRow made;
-    made.settings.set("path", path);
-    made.measured.set(FrameTime{ms, ms, ms, 5});
-    made.measured.set(Measure::flip, Errors{error, error, error});
-    return made;
+// Points whose labels are the numbers of their rows.
+std::string labelled(const std::vector<std::pair<double, double>>& points, bool all = true) {
+    PlotPanel panel;
+    const auto isBest = [&](const auto& point) {
+        return std::ranges::none_of(points, [&](const auto& other) {
+            return other != point && other.first <= point.first && other.second <= point.second;
+        });
+    };
+    for (std::size_t i = 0; i < points.size(); ++i)
+        panel.pointsOf("deferred", Path::deferred)
+            .push_back({.x = points[i].first,
+                        .y = points[i].second,
+                        .row = i + 1,
+                        .label = all || isBest(points[i]) ? std::to_string(i + 1) : ""});
+    return svgOf({.panels = {panel}}, PlotPlace::page);
 }
 
-// Twelve rows on the front within a hundredth of an axis: each has its number, and the numbers do not
-// overlap.
-TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
-    Tradeoff tradeoff;
-    tradeoff.scene = "s";
-    for (int i = 0; i < 12; ++i)
-        tradeoff.rows.push_back(timed(i % 2 ? "deferred" : "forward_plus", 5 + 0.01 * i, 0.1 - 1e-4 * i));
-    tradeoff.rows.push_back(timed("deferred", 1, 0.9));
-    tradeoff.rows.push_back(timed("deferred", 90, 1e-4));
-    ASSERT_EQ(frontOf(tradeoff, 0).size(), 14u);
-    const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
+// Twelve points within a hundredth of an axis: each has its number, and the numbers do not overlap.
+TEST(PlotLabels, NumbersOfCrowdedPointsStandApart) {
+    std::vector<std::pair<double, double>> points{{1, 0.9}, {90, 1e-4}};
+    for (int i = 0; i < 12; ++i) points.emplace_back(5 + 0.01 * i, 0.1 - 1e-4 * i);
+    const std::string svg = labelled(points);
     const std::regex label(R"re(<text class="row middle" x="([\d.]+)" y="([\d.]+)">(\d+)</text>)re");
     std::vector<PlotBox> boxes;
     std::vector<int> numbers;
@@ -89,20 +87,20 @@ TEST(TradeoffPlot, NumbersOfTheFrontStandApart) {
     EXPECT_NE(svg.find("class=\"lead\""), std::string::npos) << "a number that went far is led to";
 }
 
-// Scattered rows: a number that is closer to another row's mark gets a line to its own.
-TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
+// Scattered points: a number that is closer to another point gets a line to its own.
+TEST(PlotLabels, ANumberNearerToAnotherPointIsLedTo) {
     int near = 0;
     for (unsigned seed = 1; seed <= 40; ++seed) {
-        Tradeoff tradeoff;
-        tradeoff.scene = "s";
         unsigned state = seed;
         const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
-        for (int i = 0; i < 60; ++i)
-            tradeoff.rows.push_back(timed("deferred", std::pow(10.0, 1e-3 * (next() % 1000)),
-                                          std::pow(10.0, -1e-3 * (next() % 1000))));
-        const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
+        std::vector<std::pair<double, double>> points;
+        for (int i = 0; i < 60; ++i) {
+            const double x = std::pow(10.0, 1e-3 * (next() % 1000));
+            points.emplace_back(x, std::pow(10.0, -1e-3 * (next() % 1000)));
+        }
+        const std::string svg = labelled(points, false);
         const std::regex mark(
-            R"re(data-row="(\d+)"[^>]*>(?:<path[^>]*>)?<circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
+            R"re(data-row="(\d+)"[^>]*>(?:<(?:title|path)[^>]*>)*(?:</title>)?<circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
             label(R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" )re"
                   R"re(y="([\d.]+)">(\d+)</text>)re");
         std::map<int, std::array<double, 2>> marks;
@@ -120,28 +118,6 @@ TEST(TradeoffPlot, ANumberNearerToAnotherPointIsLedTo) {
         }
     }
     EXPECT_GT(near, 0) << "there are such numbers, not far from their points";
-}
-
-TEST(TradeoffPlot, TheErrorIsNamedAboveItsAxis) {
-    Tradeoff tradeoff;
-    tradeoff.scene = "s";
-    tradeoff.rows = {timed("deferred", 1, 0.002), timed("deferred", 2, 0.001)};
-    const std::string svg = tradeoffPlot(tradeoff, 0, {}, PlotPlace::page);
-    EXPECT_EQ(svg.find("rotate"), std::string::npos);
-    const std::regex name(R"re(<text class="name" x="([\d.]+)" y="([\d.]+)">FLIP</text>)re"),
-        tick(R"re(<text class="tick end" x="[\d.]+" y="([\d.]+)">)re");
-    std::smatch found;
-    ASSERT_TRUE(std::regex_search(svg, found, name));
-    for (std::sregex_iterator i(svg.begin(), svg.end(), tick), end; i != end; ++i)
-        EXPECT_GT(std::stod((*i)[1]), std::stod(found[2]) + 12) << "no tick's label in its line";
-}
-
-// A square has about the area of a circle of that radius.
-TEST(PlotMarks, ASquareIsForwardPlusAndACircleDeferred) {
-    EXPECT_EQ(pathMark(Path::forward_plus, 10, 20, 5),
-              "<rect class=\"mark\" x=\"5.5\" y=\"15.5\" width=\"9.0\" height=\"9.0\"/>");
-    EXPECT_EQ(pathMark(Path::deferred, 10, 20, 5),
-              "<circle class=\"mark\" cx=\"10.0\" cy=\"20.0\" r=\"5.0\"/>");
 }
 
 }  // namespace

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// The plot that all commands share: axes, lanes, series, legend, colours; and data that has no place on an
+// axis.
+#include "compare/plot/plot.h"
+#include "compare/page/emitted.h"
+#include "compare/plot/axis.h"
+#include "tests/support/color_vision.h"
+#include "tests/support/report_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+namespace diptych {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
+
+std::vector<std::string> allOf(const std::string& svg, const std::string& pattern) {
+    const std::regex expression(pattern);
+    std::vector<std::string> found;
+    for (std::sregex_iterator i(svg.begin(), svg.end(), expression), end; i != end; ++i)
+        found.push_back((*i)[1]);
+    return found;
+}
+
+Plot plotOf(const std::vector<PlotPoint>& points) {
+    PlotPanel panel{.across = {"time"}, .up = {"error"}};
+    panel.pointsOf("deferred", Path::deferred) = points;
+    return {.title = "a plot", .panels = {panel}};
+}
+
+// Well-formed, of the shape that pages may have, and without a length that is no number.
+void expectSound(const Plot& plot) {
+    for (const PlotPlace place : {PlotPlace::file, PlotPlace::page}) {
+        const std::string svg = svgOf(plot, place);
+        EXPECT_EQ(markupFault(svg), "");
+        EXPECT_NO_THROW(checkPlot(svg));
+        EXPECT_EQ(allOf(svg, "([a-z0-9]+=\"[^\"]*(?:nan|inf)\\b[^\"]*\")"), std::vector<std::string>());
+        EXPECT_EQ(svg.find("xmlns=") != svg.npos, place == PlotPlace::file);
+    }
+}
+
+// ---- Axes ----
+
+struct Named {
+    std::vector<double> values, positions;
+};
+Named namesOf(const Axis& axis) {
+    Named named;
+    for (const PlotTick& tick : axis.ticks()) {
+        if (tick.text.empty() || std::string_view(tick.kind) == "gap") continue;
+        named.values.push_back(std::stod(tick.text));
+        named.positions.push_back(tick.at);
+    }
+    return named;
+}
+
+TEST(PlotAxis, SomeTicksAreNamedAndNoNamesOverlap) {
+    for (const bool logarithmic : {true, false})
+        for (const std::vector<double>& values : std::vector<std::vector<double>>{{1e-7, 1},
+                                                                                  {3, 4},
+                                                                                  {100, 100.5},
+                                                                                  {5},
+                                                                                  {0.02, 60},
+                                                                                  {9, 47},
+                                                                                  {},
+                                                                                  {0, -1, infinite},
+                                                                                  {1e-30, 1e30},
+                                                                                  {1e300, 1e-300},
+                                                                                  {5e-324},
+                                                                                  {1.7e308},
+                                                                                  {-1e300, 0, 1e300},
+                                                                                  {none}})
+            for (const double length : {270.0, 622.0}) {
+                const Axis axis({.logarithmic = logarithmic}, values, {}, 0, length, false);
+                EXPECT_LT(axis.ticks().size(), 500u);
+                const auto [named, positions] = namesOf(axis);
+                EXPECT_GE(named.size(), 2u) << testing::PrintToString(values) << logarithmic;
+                for (std::size_t i = 0; i < named.size(); ++i) {
+                    EXPECT_NEAR(axis.at(named[i]), positions[i], 0.1) << named[i] << " is where it says";
+                    for (std::size_t k = 0; k < i; ++k) EXPECT_GE(std::abs(positions[i] - positions[k]), 19);
+                }
+                for (const double value : values) {
+                    EXPECT_GE(axis.at(value), 0);
+                    EXPECT_LE(axis.at(value), length);
+                }
+            }
+}
+
+TEST(PlotAxis, ADecadeHasTicksAtOneTwoAndFive) {
+    std::vector<double> values = namesOf(Axis({}, {1.5, 12}, {}, 0, 600, false)).values;
+    std::ranges::sort(values);
+    EXPECT_EQ(values, (std::vector<double>{2, 5, 10}));
+}
+
+TEST(PlotAxis, PositionsAreLogarithmicLinearOrEven) {
+    const Axis logarithmic({}, {1, 100}, {}, 0, 100, false);
+    EXPECT_NEAR(logarithmic.at(10), 50, 1e-9);
+    const Axis linear({.logarithmic = false}, {}, {4}, 100, 0, true);
+    EXPECT_EQ(linear.at(0), 100) << "from 0";
+    EXPECT_EQ(linear.at(1), 75);
+    const Axis even({.places = {"a", "b"}}, {}, {}, 0, 100, false);
+    EXPECT_EQ(even.at(0), 25);
+    EXPECT_EQ(even.at(1), 75);
+    EXPECT_EQ(even.ticks().at(1).text, "b");
+}
+
+TEST(PlotAxis, ZeroAndInfiniteValuesHaveLanesBehindALine) {
+    const auto lanesOf = [](const std::vector<double>& points, bool logarithmic = true) {
+        std::string lanes;
+        for (const PlotTick& tick :
+             Axis({.logarithmic = logarithmic}, points, {1e-3, 1}, 100, 0, true).ticks())
+            if (std::string_view(tick.kind) == "gap") lanes += tick.text + " ";
+        return lanes;
+    };
+    EXPECT_EQ(lanesOf({1e-3, 1}), "");
+    EXPECT_EQ(lanesOf({0, 1}), "0 ");
+    EXPECT_EQ(lanesOf({1, infinite}), "\u221e ");
+    EXPECT_EQ(lanesOf({-1, 1e-3, none}), "0 \u221e/NaN ");
+    EXPECT_EQ(lanesOf({0, infinite}, false), "\u221e ") << "a linear axis has 0";
+    const Axis axis({}, {0, 1e-3, 1, infinite}, {}, 100, 0, true);
+    EXPECT_GT(axis.at(0), axis.at(1e-3) + 10);
+    EXPECT_LT(axis.at(infinite), axis.at(1) - 10);
+    EXPECT_EQ(axis.at(none), axis.at(infinite));
+}
+
+// ---- Data ----
+
+TEST(Plot, AnyDataIsDrawn) {
+    expectSound({});
+    expectSound({.title = "empty panels", .panels = {{}, {}, {}}, .columns = 2});
+    expectSound(plotOf({}));
+    for (const double x : {0.0, -1.0, 1.0, 1e308, 5e-324, infinite, -infinite, none})
+        for (const double y : {0.0, 1.0, infinite, none})
+            expectSound(
+                plotOf({{.x = x, .y = y, .across = {x / 2, 2 * x}, .up = {0, infinite}, .label = "a"}}));
+    Plot bars{.panels = {{.across = {.logarithmic = false}, .up = {.places = {"a"}}}}, .parts = {"b"}};
+    for (const PlotRange& across : {PlotRange{0, 0}, {0, 1}, {0, infinite}, {none, 1}, {-1e308, 1e308}})
+        bars.panels[0].bars.push_back({across, barAt(0), 99, "c"});
+    expectSound(bars);
+    Plot limits = plotOf({{.x = 1, .y = 1}});
+    limits.panels[0].limits = {
+        {.x = infinite, .name = "a"}, {.y = 0, .name = "b"}, {.x = none, .y = none, .name = ""}};
+    limits.panels[0].front = {{infinite, 0}, {0, infinite}};
+    expectSound(limits);
+}
+
+TEST(Plot, ForeignTextIsEscapedEverywhere) {
+    const std::string hostile = "<b>\"a' & </svg>\x01";
+    Plot plot{.title = hostile, .parts = {hostile}, .interval = "i" + hostile, .chooses = true};
+    PlotPanel panel{.across = {.name = hostile, .places = {hostile}}, .up = {.name = hostile}};
+    panel.pointsOf("s" + hostile, {}).push_back({.words = hostile, .row = 1, .label = hostile});
+    panel.bars = {{{0, 1}, {0, 1}, 0, hostile}};
+    panel.limits = {{.x = 1, .name = "l" + hostile}};
+    plot.panels = {panel};
+    expectSound(plot);
+    for (const PlotPlace place : {PlotPlace::file, PlotPlace::page}) {
+        const std::string svg = svgOf(plot, place);
+        EXPECT_EQ(svg.find("<b>"), svg.npos);
+        EXPECT_GE(countOf(svg, "&lt;b&gt;&quot;a&#39; &amp; &lt;/svg&gt;\ufffd"), 10u);
+    }
+}
+
+TEST(Plot, PointsHaveMarksOfTheirPathAndIntervals) {
+    Plot plot = plotOf({{.x = 1, .y = 1, .up = {0.5, 2}, .row = 7}});
+    plot.panels[0].pointsOf("forward_plus", Path::forward_plus, false).push_back({.x = 2, .y = 1});
+    const std::string page = svgOf(plot, PlotPlace::page), file = svgOf(plot, PlotPlace::file);
+    EXPECT_EQ(countOf(page, "<circle class=\"mark\""), 2u) << "round, and in the legend";
+    EXPECT_EQ(countOf(page, "<rect class=\"mark\""), 2u) << "square";
+    EXPECT_EQ(countOf(page, "class=\"bar\""), 1u) << "equal ends are no interval";
+    EXPECT_EQ(countOf(page, "class=\"trace\""), 2u) << "a line, and in the legend";
+    EXPECT_EQ(countOf(page, "data-row=\"7\" tabindex=\"0\" role=\"img\""), 1u) << "the other has no row";
+    EXPECT_EQ(file.find("tabindex"), file.npos);
+    plot.chooses = true;
+    EXPECT_EQ(countOf(svgOf(plot, PlotPlace::page), "role=\"button\""), 1u);
+}
+
+// A path's series differ in dashes; series of one name are one in all panels.
+TEST(Plot, SeriesDifferAndAreNamedOnce) {
+    Plot plot{.panels = {{}, {}}};
+    for (PlotPanel& panel : plot.panels) {
+        panel.pointsOf("first", Path::deferred).push_back({1, 1});
+        panel.pointsOf("other", Path::forward_plus).push_back({1, 2});
+        panel.pointsOf("second", Path::deferred).push_back({1, 3});
+    }
+    const std::string svg = svgOf(plot, PlotPlace::page);
+    for (const char* classes : {"series deferred v0", "series deferred v1", "series forward_plus v0"})
+        EXPECT_EQ(countOf(svg, "\"" + std::string(classes) + "\""), 3u)
+            << classes << ": two panels and the legend";
+    for (const char* name : {"first", "second", "other"})
+        EXPECT_EQ(countOf(svg, ">" + std::string(name) + "<"), 1u);
+}
+
+TEST(Plot, AFrontIsAStepLineBelowAllItsPoints) {
+    Plot plot = plotOf({{.x = 1, .y = 1}, {.x = 10, .y = 0.1}, {.x = 100, .y = 0.01}});
+    EXPECT_EQ(svgOf(plot, PlotPlace::page).find("front"), std::string::npos);
+    plot.panels[0].front = {{10, 0.1}, {1, 1}};
+    const std::string svg = svgOf(plot, PlotPlace::page);
+    EXPECT_EQ(allOf(svg, "class=\"front\" d=\"M[0-9. ]+V([0-9.]+)H").size(), 1u) << "sorted, from the left";
+    EXPECT_EQ(allOf(svg, "(>Pareto front<)").size(), 1u);
+}
+
+// A name above its axis does not collide with ticks, and it is not rotated.
+TEST(Plot, AnAxisIsNamedAboveIt) {
+    const std::string svg = svgOf(plotOf({{.x = 1, .y = 0.002}, {.x = 2, .y = 0.001}}), PlotPlace::page);
+    EXPECT_EQ(svg.find("rotate"), std::string::npos);
+    const std::vector<std::string> name =
+        allOf(svg, "<text class=\"name\" x=\"[0-9.]+\" y=\"([0-9.]+)\">error<");
+    ASSERT_EQ(name.size(), 1u);
+    for (const std::string& tick : allOf(svg, "<text class=\"tick end\" x=\"[0-9.]+\" y=\"([0-9.]+)\">"))
+        EXPECT_GT(std::stod(tick), std::stod(name[0]) + 12);
+}
+
+// ---- Colours ----
+
+Rgb8 colorOf(const std::string& text) {
+    const unsigned long value = std::stoul(text, nullptr, 16);
+    return {static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255),
+            static_cast<std::uint8_t>(value & 255)};
+}
+// On a light and a dark ground.
+std::vector<Rgb8> colorsOf(const std::string& name) {
+    std::vector<Rgb8> colors;
+    for (const std::string& text : allOf(plotStyle, name + "[:{ fil]+#([0-9a-f]{6})"))
+        colors.push_back(colorOf(text));
+    return colors;
+}
+
+// Lightness of paths differs by 15 of CIELAB's L* for every reader; WCAG 2.2 asks for a contrast of 3
+// (1.4.11).
+TEST(PlotColors, PathsDifferInLightnessAndFromTheGround) {
+    const auto grounds = colorsOf("--ground");
+    ASSERT_EQ(grounds.size(), 2u);
+    std::vector<std::vector<Rgb8>> paths;
+    for (const auto& [path, name] : enumNames<Path>()) paths.push_back(colorsOf("--" + std::string(name)));
+    for (std::size_t theme = 0; theme < 2; ++theme)
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            ASSERT_EQ(paths[i].size(), 2u);
+            EXPECT_GE(contrastOf(paths[i][theme], grounds[theme]), 3);
+            for (const ColorVision& vision : colorVisions) {
+                const auto lightness = [&](std::size_t path) { return labOf(paths[path][theme], vision)[0]; };
+                if (i == 1) EXPECT_GT(std::abs(lightness(0) - lightness(1)), 15) << vision.name;
+                for (std::size_t k = 0; k < i; ++k)
+                    EXPECT_GT(distance(paths[i][theme], paths[k][theme], vision), 40) << vision.name;
+            }
+        }
+}
+
+TEST(PlotColors, PartsOfABarDifferForEveryReader) {
+    std::vector<Rgb8> parts;
+    for (std::size_t i = 0; i < mostParts; ++i) {
+        const std::vector<Rgb8> colors = colorsOf("part" + std::to_string(i));
+        ASSERT_EQ(colors.size(), 1u) << i;
+        parts.push_back(colors[0]);
+    }
+    for (const ColorVision& vision : colorVisions)
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) {
+                EXPECT_GT(distance(parts[i], parts[k], vision), 15) << vision.name << ": " << k << ", " << i;
+                if (k + 1 == i)
+                    EXPECT_GT(
+                        std::abs(labOf(parts[i], colorVisions[0])[0] - labOf(parts[k], colorVisions[0])[0]),
+                        9);
+            }
+}
+
+}  // namespace
+}  // namespace diptych
