@@ -177,9 +177,7 @@ std::string writeBench(const Bench& bench, const std::filesystem::path& path, bo
     folder.put("index.html", benchHtml(bench));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(allRows(bench))));
     if (!bench.rows.empty()) folder.put("bench.svg", benchPlot(bench, PlotPlace::file));
-    std::string json = benchJson(bench, folder.files());
-    folder.finish(json);
-    return json;
+    return folder.finish(benchJson(bench));
 }
 
 }  // namespace diptych::bench
