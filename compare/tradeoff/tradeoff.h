@@ -74,10 +74,8 @@ std::string tradeoffHtml(const Tradeoff& tradeoff);
 // Throws std::runtime_error unless tradeoffHtml() may have written the page.
 void checkTradeoffHtml(std::string_view page);
 
-// RFC 4180, one line per row.
-std::string tradeoffCsv(const Tradeoff& tradeoff);
-// tradeoff.json, schema 1. `files`: all files of the folder.
-std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files);
+// tradeoff.json, schema 1, without the list of files.
+nlohmann::ordered_json tradeoffJson(const Tradeoff& tradeoff);
 
 // Writes the folder; images come from `kept`. Returns tradeoff.json.
 std::string writeTradeoff(const Tradeoff& tradeoff, const std::filesystem::path& folder,
