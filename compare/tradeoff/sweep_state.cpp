@@ -46,9 +46,9 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
             return times > 0 && times <= blocks && times == row.cameras.front().blocks.size();
         };
         const bool whole = row.settings == settings && row.cameras.size() == cameras &&
-                           std::ranges::all_of(row.cameras, isVisited) &&
-                           row.picture == pictureOf(row) && row.errors_map == errorsOf(row) &&
-                           fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
+                           std::ranges::all_of(row.cameras, isVisited) && row.picture == pictureOf(row) &&
+                           row.errors_map == errorsOf(row) && fs::exists(kept_ / row.picture) &&
+                           fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
     });
 }
