@@ -33,7 +33,7 @@ for column, head in enumerate(heads):
             value = row[group].get(key, "") if isinstance(row[group], dict) else ""
             value = math.inf if value is None else value
             assert value == (line[column] and float(line[column])), (head, line[column], value)
-    elif name in schema["properties"]:
+    elif name in {**schema["properties"], **measured}:
         assert unit is None, head
     else:
         settings = {**data.get("settings", {}), **rows[0]["settings"]}
