@@ -7,6 +7,8 @@
 #include "compare/render/renderer.h"
 #include "shared/frame/frame.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -54,8 +56,8 @@ inline constexpr const char* starMeans =
 // greatest time. With one light count: a stacked bar of passes per mode. Of time and memory over the quantity
 // of --table growth; of time over the share that layers cover.
 std::string benchPlot(const Bench& bench, PlotPlace place);
-// bench.json, schema 2. `files`: all files of the folder.
-std::string benchJson(const Bench& bench, const std::vector<std::string>& files);
+// bench.json, schema 2, without the list of files.
+nlohmann::ordered_json benchJson(const Bench& bench);
 
 // Writes the folder; returns bench.json.
 std::string writeBench(const Bench& bench, const std::filesystem::path& folder, bool force);

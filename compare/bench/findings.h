@@ -119,8 +119,7 @@ std::uint64_t bytesPerSample(const BenchRow& row);
 // Images of the picture's size.
 double imageMib(const BenchRow& row);
 
-// One sentence per path: bytes per sample, compared with the 32 bytes of the paper's deferred renderer,
-// and the totals at 1920x1080.
+// One sentence per path: bytes per sample, and the totals at 1920x1080.
 std::vector<std::string> memoryInWords(const SampleTable& table);
 
 std::vector<output::Block> sampleBlocks(const Bench& bench);

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/findings.h"
+#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
-#include "shared/text/json_text.h"
-
-#include <nlohmann/json.hpp>
 
 namespace diptych::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json orNull(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 Json jsonOf(const Size& size) {
     return {size.width, size.height};
@@ -133,28 +126,24 @@ Json layersJson(const Bench& bench) {
 
 }  // namespace
 
-std::string benchJson(const Bench& bench, const std::vector<std::string>& files) {
+Json benchJson(const Bench& bench) {
     Json rows = Json::array(), skips = Json::array();
     for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
     for (const BenchRow& skip : bench.skips) skips.push_back(skipJson(skip));
     Json conclusions = Json::array();
     for (const Conclusion& conclusion : conclusionsOf(bench)) conclusions.push_back(jsonOf(conclusion));
-    const Json json = {
-        {"schema", 2},
-        {"software", softwareName},
-        {"device",
-         {{"name", bench.device.name}, {"driver", bench.device.driver}, {"type", bench.device.type}}},
-        {"scene", bench.scene},
-        {"runs", bench.runs},
-        {"max_ms", bench.options.max_ms},
-        {"conclusions", conclusions},
-        {"rows", rows},
-        {"msaa_tables", samplesJson(bench)},
-        {"growth", growthJson(bench)},
-        {"layers", layersJson(bench)},
-        {"skipped", skips},
-        {"files", files}};
-    return jsonText(json) + "\n";
+    return {{"schema", 2},
+            {"software", softwareName},
+            {"device", jsonOf(bench.device)},
+            {"scene", bench.scene},
+            {"runs", bench.runs},
+            {"max_ms", bench.options.max_ms},
+            {"conclusions", conclusions},
+            {"rows", rows},
+            {"msaa_tables", samplesJson(bench)},
+            {"growth", growthJson(bench)},
+            {"layers", layersJson(bench)},
+            {"skipped", skips}};
 }
 
 }  // namespace diptych::bench

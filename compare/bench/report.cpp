@@ -59,10 +59,6 @@ output::Table modeTable(const Bench& bench) {
     addMs("ms", Measure::ms);
     addMs("min", Measure::ms_min);
     addMs("max", Measure::ms_max);
-    add({"assign ms", Column::number, 9},
-        [](const BenchRow& row) { return fmt::format("{:.3g}", passMs(row, "assign")); });
-    add({"share", Column::number, 7},
-        [](const BenchRow& row) { return fmt::format("{:.1f} %", 100 * assignShare(row)); });
     add({"memory", Column::number, 9},
         [](const BenchRow& row) { return page::bytes(row.whole(Measure::memory)); });
     add({"passes, ms", Column::prose}, [](const BenchRow& row) {
@@ -130,8 +126,7 @@ output::List howItWasMeasured() {
          "and so are the ends of bars.",
          "All modes and sizes of one light count are interleaved, one frame of each per round, so a device "
          "that slows down affects all alike.",
-         "Pass times are medians over as many other frames, with each pass timed by itself. The share is the "
-         "fraction of pass time that makes light lists.",
+         "Pass times are medians over as many other frames, with each pass timed by itself.",
          "The ratio of two modes is the median over frames of the same round. Its interval comes from a sign "
          "test, which holds for any distribution of times."},
         "box how"};
@@ -176,9 +171,7 @@ std::string writeBench(const Bench& bench, const std::filesystem::path& path, bo
     folder.put("index.html", benchHtml(bench));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(allRows(bench))));
     if (!bench.rows.empty()) folder.put("bench.svg", benchPlot(bench, PlotPlace::file));
-    std::string json = benchJson(bench, folder.files());
-    folder.finish(json);
-    return json;
+    return folder.finish(benchJson(bench));
 }
 
 }  // namespace diptych::bench

@@ -11,8 +11,7 @@
 namespace diptych::bench {
 namespace {
 
-// The paper's deferred renderer: bytes per sample, and the image size for which it states memory.
-constexpr std::uint64_t paperBytes = 32, paperPixels = 1920 * 1080;
+constexpr std::uint64_t statedPixels = 1920 * 1080;  // image size for which memory is stated
 
 double mebibytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
@@ -60,24 +59,17 @@ std::vector<std::string> memoryInWords(const SampleTable& table) {
     for (const SampleTable::Line& line : table.lines) {
         if (std::ranges::count(told, line.path) > 0) continue;
         told.push_back(line.path);
-        std::vector<std::string> samples, bytes, ours, theirs;
+        std::vector<std::string> samples, bytes, mib;
         for (const auto& [count, row] : line.cells) {
             samples.push_back(fmt::format("{}", count));
             bytes.push_back(fmt::format("{}", bytesPerSample(*row)));
-            ours.push_back(
-                fmt::format("{:.0f}", mebibytes(row->whole(Measure::gbuffer_bytes) * paperPixels)));
-            theirs.push_back(fmt::format(
-                "{:.0f}", mebibytes(paperBytes * static_cast<std::uint64_t>(count) * paperPixels)));
+            mib.push_back(
+                fmt::format("{:.0f}", mebibytes(row->whole(Measure::gbuffer_bytes) * statedPixels)));
         }
-        const std::string paper =
-            hasGBuffer(line.path)
-                ? fmt::format("; Billeter, Olsson and Assarsson store {} B per sample: {} MiB", paperBytes,
-                              fmt::join(theirs, ", "))
-                : "";
         lines.push_back(fmt::format(
-            "{} stores {} B of {} per sample with {} samples per pixel: {} MiB at 1920x1080{}",
+            "{} stores {} B of {} per sample with {} samples per pixel: {} MiB at 1920x1080",
             nameOf(line.path), fmt::join(bytes, ", "), hasGBuffer(line.path) ? "G-buffer and depth" : "depth",
-            fmt::join(samples, ", "), fmt::join(ours, ", "), paper));
+            fmt::join(samples, ", "), fmt::join(mib, ", ")));
     }
     return lines;
 }
@@ -95,14 +87,13 @@ std::vector<output::Block> sampleBlocks(const Bench& bench) {
                               return cell != line.cells.end() ? textOf(*cell->second) : "-";
                           });
             };
-            shown.groups.emplace_back(counted(static_cast<std::uint64_t>(samples), "sample"), 5);
+            shown.groups.emplace_back(counted(static_cast<std::uint64_t>(samples), "sample"), 4);
             add("ms (min to max)", timeInWords);
             add("lighting ms",
                 [](const BenchRow& row) { return fmt::format("{:.3g}", passMs(row, "shade")); });
             add("MiB", [](const BenchRow& row) { return fmt::format("{:.4g}", imageMib(row)); });
             add("B/pixel",
                 [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); });
-            add("B/sample", [](const BenchRow& row) { return fmt::format("{}", bytesPerSample(row)); });
         }
         blocks.emplace_back(
             output::Heading{2, fmt::format("Samples per pixel: {}, {}x{}, {}", table.scene, table.size.width,

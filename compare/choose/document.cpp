@@ -153,7 +153,7 @@ void addSensitivities(std::vector<Block>& blocks, const SensitivityReport& repor
     blocks.emplace_back(
         Heading{3,
                 fmt::format("Properties that decide between {} and {}{}: here {:.4g} ms against {:.4g} ms{}",
-                            report.chosen, report.other,
+                            report.chosen_path, report.other,
                             report.other_fits ? "" : ", which does not fit and is compared by time only",
                             here.ms[0], here.ms[1], here.isSignificant() ? "" : ", not measurably different"),
                 "part"});
@@ -176,7 +176,7 @@ Span verdictOf(const Report& report) {
 
 // The chosen or nearest Settings, why, and the command. `figures`: of them; empty: none.
 template <class Report>
-output::Box outcomeBox(const Report& report, const std::string& figures, Sentences lines) {
+output::Box outcomeBox(const Report& report, const std::string& figures, const Sentences& lines) {
     const auto& choice = report.choice;
     output::Text title("no candidate could be drawn");
     const std::string nearest =
@@ -184,10 +184,6 @@ output::Box outcomeBox(const Report& report, const std::string& figures, Sentenc
     if (const std::optional<std::size_t> shown = choice.shown())
         title = {swatchOf(choice.candidates[*shown].settings), choice.chosen ? "" : nearest,
                  report.words[*shown]};
-    lines.emplace_back(fmt::format("{}: {} compared, {} timed{}, {:.1f} s",
-                                   counted(choice.candidates.size(), "candidate"),
-                                   counted(choice.judged, "picture"), counted(choice.timings, "frame"),
-                                   isJoint<Report> ? " in addition" : "", report.seconds));
     output::Box box{"box", {Heading{3, title}}};
     if (!figures.empty()) box.blocks.emplace_back(Paragraph{figures, "figures mono"});
     box.blocks.emplace_back(output::List{lines});

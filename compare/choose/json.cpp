@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "shared/text/json.h"
 #include "compare/choose/report.h"
+#include "compare/files/frame_json.h"
 
 namespace diptych::choose {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Value>
-Json orNull(const std::optional<Value>& value) {
-    return value ? Json(*value) : Json();
-}
-
-Json settingsJson(const std::optional<Settings>& settings) {
-    return settings ? parseOrderedJson(toJson(*settings)) : Json();
+Json jsonOf(const std::optional<Settings>& settings) {
+    return settings ? jsonOf(*settings) : Json();
 }
 
 Json jsonOf(const TimeRatio& of) {
@@ -30,7 +25,7 @@ void addCandidate(Json& candidate, const Report& report, std::size_t i) {
 template <class Report>
 void addOutcome(Json& json, const Report& report) {
     const auto& choice = report.choice;
-    json["settings"] = settingsJson(chosenSettings(choice));
+    json["settings"] = jsonOf(chosenSettings(choice));
     json["chosen"] = orNull(choice.chosen);
     json["runner_up"] = orNull(choice.runner_up);
     json["nearest"] = orNull(choice.nearest);
@@ -83,12 +78,11 @@ Json jsonOf(const SensitivityReport& report) {
 
 Json jsonOf(const ChoiceReport& report) {
     const Budget& budget = report.budget;
-    const ReportDevice& device = report.device;
     Json json{
         {"schema", 2},
         {"scene", report.scene},
         {"cameras", report.cameras},
-        {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
+        {"device", jsonOf(report.device)},
         {"figure", named(budget.figure).name},
         {"budget",
          {{"error", orNull(budget.error)}, {"ms", orNull(budget.ms)}, {"bytes", orNull(budget.bytes)}}}};
@@ -121,7 +115,7 @@ Json jsonOf(const CommonReport& report) {
             Json& row = rows.emplace_back(experiment::jsonOf(candidate.scenes[scene]));
             if (i == choice.chosen && choice.slower[scene]) row["to_its_own"] = jsonOf(*choice.slower[scene]);
         }
-        Json& one = candidates.emplace_back(Json{{"settings", settingsJson(candidate.settings)},
+        Json& one = candidates.emplace_back(Json{{"settings", jsonOf(candidate.settings)},
                                                  {"fits", candidate.fits},
                                                  {"proposed_by", candidate.proposed_by},
                                                  {"rows", std::move(rows)}});
@@ -138,7 +132,7 @@ nlohmann::ordered_json toJson(const Choices& choices) {
     Json scenes = Json::array();
     for (const ChoiceReport& report : choices.scenes) scenes.push_back(jsonOf(report));
     return {{"schema", 2},
-            {"settings", settingsJson(chosenSettings(choices))},
+            {"settings", jsonOf(chosenSettings(choices))},
             {"all", jsonOf(*choices.all)},
             {"scenes", std::move(scenes)}};
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/kept.h"
 
+#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/reference/key.h"
 #include "compare/run/version.h"
-#include "shared/text/json.h"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ Json keyOf(const std::string& scene, const std::string& truth, const Settings& s
             {"scene", scene},
             {"file", fileStamp(scene)},
             {"truth", truth},
-            {"settings", parseOrderedJson(toJson(settings))},
+            {"settings", jsonOf(settings)},
             {"device", device.name},
             {"driver", device.driver}};
 }

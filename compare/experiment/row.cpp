@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/row.h"
 
-#include "shared/text/json.h"
+#include "compare/files/frame_json.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -31,10 +31,6 @@ double joined(const std::vector<Row>& cameras, Measure measure) {
     }
 }
 
-Json jsonOf(const FrameTime& time) {
-    return {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}};
-}
-
 // Groups are objects of their measures.
 void addMeasures(Json& json, const Measures& measured) {
     for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -43,24 +39,23 @@ void addMeasures(Json& json, const Measures& measured) {
         Json& object = json[std::string(group)];
         if (!measured.has(measure)) continue;
         const double value = measured[measure];
-        object[std::string(name)] = !std::isfinite(value)   ? Json(nullptr)
-                                    : measures[i].isWhole() ? Json(static_cast<std::uint64_t>(value))
-                                                            : Json(value);
+        object[std::string(name)] = measures[i].isWhole() && std::isfinite(value)
+                                        ? Json(static_cast<std::uint64_t>(value))
+                                        : finiteOrNull(value);
     }
 }
 
 void addMeasured(Json& json, const Row& row) {
     addMeasures(json, row.measured);
-    Json visits = Json::array(), passes = Json::array(), cameras = Json::array();
+    Json visits = Json::array(), cameras = Json::array();
     for (const FrameTime& block : row.blocks) visits.push_back(jsonOf(block));
-    for (const PassTime& pass : row.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
     for (const Row& camera : row.cameras) {
         Json& one = cameras.emplace_back(Json{{"camera", camera.camera}});
         addMeasured(one, camera);
     }
     if (!row.ms.empty()) json["ms"]["all"] = row.ms;
     json["visits"] = std::move(visits);
-    json["passes"] = std::move(passes);
+    json["passes"] = jsonOf(row.passes);
     json["cameras"] = std::move(cameras);
     json["warnings"] = row.warnings;
 }
@@ -156,12 +151,11 @@ Spread spreadOf(const Row& row, Measure measure) {
 }
 
 Json jsonOf(const Row& row) {
-    const auto orNull = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
     Json json{{"scene", row.scene},
               {"varied", orNull(row.varied)},
               {"camera", orNull(row.camera)},
               {"path", nameOf(row.settings.path)},
-              {"settings", parseOrderedJson(toJson(row.settings))},
+              {"settings", jsonOf(row.settings)},
               {"renderer", orNull(row.renderer)},
               {"failed", orNull(row.failed)},
               {"judgement", orNull(row.judgement)}};

@@ -88,6 +88,16 @@ output::Cell cellOf(const Row& row, Measure measure);
 // A column for cellOf(). `width`: in a terminal.
 output::Column columnOf(Measure measure, std::size_t width = 0);
 
+// Parts of tables for files, which have all digits.
+std::string exactText(const Row& row, Measure measure);  // empty if it was not measured
+std::string pathOf(const Row& row);                      // the path's name, or another renderer's
+// Columns of the options that a sweep can vary, but the path; only those in which rows differ if `differing`.
+// Empty where a row ignores the option.
+void addOptions(output::Table& table, std::span<const Row* const> rows, bool differing);
+// A column for each pass, its name between `before` and `after`.
+void addPasses(output::Table& table, std::span<const Row* const> rows, std::string_view before,
+               std::string_view after = "");
+
 // Every row with the options in which rows differ and everything that any was measured for: rows.csv. Units
 // are in the heads; numbers have all digits.
 output::Table rowsTable(std::span<const Row* const> rows);

@@ -18,12 +18,6 @@ std::string roundedText(const NamedMeasure& measure, double value) {
     return measure.unit == "ms" ? fmt::format("{:.4g}", value) : page::number(value);
 }
 
-// All digits.
-std::string exactText(const Row& row, Measure measure) {
-    if (!row.measured.has(measure)) return "";
-    return named(measure).isWhole() ? fmt::format("{:.0f}", row[measure]) : fmt::format("{}", row[measure]);
-}
-
 }  // namespace
 
 output::Cell cellOf(const Row& row, Measure measure) {
@@ -35,6 +29,41 @@ output::Column columnOf(Measure measure, std::size_t width) {
     const NamedMeasure& of = named(measure);
     return {std::string(of.title), output::Column::number, width, output::Column::everywhere, "",
             std::string(of.means)};
+}
+
+std::string exactText(const Row& row, Measure measure) {
+    if (!row.measured.has(measure)) return "";
+    return named(measure).isWhole() ? fmt::format("{:.0f}", row[measure]) : fmt::format("{}", row[measure]);
+}
+
+std::string pathOf(const Row& row) {
+    return row.renderer.empty() ? std::string(nameOf(row.settings.path)) : row.renderer;
+}
+
+void addOptions(output::Table& table, std::span<const Row* const> rows, bool differing) {
+    for (const Field& field : settingFields()) {
+        if (field.sweep.empty() || field.option == "path") continue;
+        const auto valueOf = [&](const Row* row) {
+            return ignoredBecause(row->settings, field.option).empty() ? row->settings.valueOf(field.option)
+                                                                       : "";
+        };
+        if (!differing ||
+            std::ranges::any_of(rows, [&](const Row* row) { return valueOf(row) != valueOf(rows.front()); }))
+            addColumn(table, {std::string(field.option)}, rows, valueOf);
+    }
+}
+
+void addPasses(output::Table& table, std::span<const Row* const> rows, std::string_view before,
+               std::string_view after) {
+    std::vector<std::string> passes;
+    for (const Row* row : rows)
+        for (const PassTime& pass : row->passes)
+            if (std::ranges::count(passes, pass.name) == 0) passes.push_back(pass.name);
+    for (const std::string& pass : passes)
+        addColumn(table, {fmt::format("{}{}{}", before, pass, after)}, rows, [&](const Row* row) {
+            const auto found = std::ranges::find(row->passes, pass, &PassTime::name);
+            return found == row->passes.end() ? "" : fmt::format("{}", found->ms);
+        });
 }
 
 output::Table rowsTable(std::span<const Row* const> rows) {
@@ -51,19 +80,8 @@ output::Table rowsTable(std::span<const Row* const> rows) {
     if (any([](const Row& row) { return !row.varied.empty(); }))
         text("varied", [](const Row& row) { return row.varied; });
     text("camera", [](const Row& row) { return row.camera; });
-    text("path", [](const Row& row) {
-        return row.renderer.empty() ? std::string(nameOf(row.settings.path)) : row.renderer;
-    });
-    // Options in which rows differ. The path has its own column.
-    for (const Field& field : settingFields()) {
-        const auto valueOf = [&](const Row& row) {
-            return ignoredBecause(row.settings, field.option).empty() ? row.settings.valueOf(field.option)
-                                                                      : "";
-        };
-        if (!field.sweep.empty() && field.option != "path" &&
-            any([&](const Row& row) { return valueOf(row) != valueOf(*rows.front()); }))
-            text(std::string(field.option), valueOf);
-    }
+    text("path", pathOf);
+    addOptions(table, rows, true);
     for (std::size_t i = 0; i < measures.size(); ++i) {
         const auto measure = static_cast<Measure>(i);
         const NamedMeasure& of = measures[i];
@@ -74,15 +92,7 @@ output::Table rowsTable(std::span<const Row* const> rows) {
                    output::Column::everywhere, "", std::string(of.means)},
                   rows, [&](const Row* row) { return exactText(*row, measure); });
     }
-    std::vector<std::string> passes;
-    for (const Row* row : rows)
-        for (const PassTime& pass : row->passes)
-            if (std::ranges::count(passes, pass.name) == 0) passes.push_back(pass.name);
-    for (const std::string& pass : passes)
-        text(fmt::format("pass {} [ms]", pass), [&](const Row& row) {
-            const auto found = std::ranges::find(row.passes, pass, &PassTime::name);
-            return found == row.passes.end() ? "" : fmt::format("{}", found->ms);
-        });
+    addPasses(table, rows, "pass ", " [ms]");
     text("judgement", [](const Row& row) { return row.judgement; });
     text("failed", [](const Row& row) { return row.failed; });
     text("warnings", [](const Row& row) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });

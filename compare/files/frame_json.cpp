@@ -24,6 +24,24 @@ Json jsonOf(const FrameCamera& camera) {
             {"ymag", camera.ymag},     {"near", camera.near},     {"far", finiteOrNull(camera.far)}};
 }
 
+Json jsonOf(const FrameTime& time) {
+    return {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}};
+}
+
+Json jsonOf(const std::vector<PassTime>& passes) {
+    Json json = Json::array();
+    for (const PassTime& pass : passes) json.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    return json;
+}
+
+Json jsonOf(const ReportDevice& device) {
+    return {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
+}
+
+Json jsonOf(const Settings& settings) {
+    return parseOrderedJson(toJson(settings));
+}
+
 FrameCamera cameraFrom(const JsonAt<nlohmann::json>& json) {
     FrameCamera camera;
     camera.name = json.textOr("name", "");
@@ -62,15 +80,12 @@ Json countersJson(const FrameCounters& counters) {
 }  // namespace
 
 Json jsonOf(const Frame& frame) {
-    Json passes = Json::array();
-    for (const PassTime& pass : frame.passes) passes.push_back({{"name", pass.name}, {"ms", pass.ms}});
     // Settings of another program's file are unknown.
     const bool isUnknown =
         !frame.origin.file.empty() && frame.origin.device.empty() && !frame.origin.external;
     Json noise = Json::object();
     for (const auto& [mode, of] : frame.noise)
         noise[std::string(debugMode(mode).name)] = {{"pixels", of.pixels}, {"max", finiteOrNull(of.max)}};
-    const FrameTime& time = frame.time;
     Json repaired = Json::object();
     for (const auto& [mode, pixels] : frame.repaired) {
         const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
@@ -87,13 +102,13 @@ Json jsonOf(const Frame& frame) {
             {"scene", frame.scene},
             {"camera", jsonOf(frame.camera)},
             {"size", {frame.settings.size.width, frame.settings.size.height}},
-            {"settings", isUnknown ? Json(nullptr) : parseOrderedJson(toJson(frame.settings))},
-            {"ms", {{"median", time.median}, {"min", time.min}, {"max", time.max}, {"runs", time.runs}}},
-            {"host_ms", {{"record", time.record}, {"object_lists", time.object_lists}}},
+            {"settings", isUnknown ? Json(nullptr) : jsonOf(frame.settings)},
+            {"ms", jsonOf(frame.time)},
+            {"host_ms", {{"record", frame.time.record}, {"object_lists", frame.time.object_lists}}},
             {"made_in_ms", frame.made_in_ms},
             {"uncertainty", frame.relative_uncertainty},
             {"hidden_light", hidden},
-            {"passes", passes},
+            {"passes", jsonOf(frame.passes)},
             {"bytes",
              {{"images", frame.bytes.images},
               {"buffers", frame.bytes.buffers},

@@ -183,10 +183,6 @@ std::string textOf(const Json& json) {
 
 }  // namespace
 
-Json jsonOf(const ReportDevice& device) {
-    return {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
-}
-
 std::string innerJson(const Json& array) {
     if (array.empty()) return {};
     std::string text, all = textOf(array);

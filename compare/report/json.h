@@ -45,8 +45,6 @@ nlohmann::ordered_json comparisonsJson(const Report& report);
 nlohmann::ordered_json truthJson(const Report& report);
 std::string innerJson(const nlohmann::ordered_json& array);
 
-nlohmann::ordered_json jsonOf(const ReportDevice& device);
-
 // Writes report.json in pieces: each function passes all elements of its array to the sink, one or several
 // at once.
 using JsonSink = std::function<void(std::string_view)>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/parts.h"
 
+#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/page/emitted.h"
 #include "compare/report/encoder.h"

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+// A sweep for terminal, page and folder.
 #include "compare/tradeoff/tradeoff.h"
 
+#include "compare/files/listed_folder.h"
+#include "compare/files/output.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/tradeoff/page/page.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
+#include "shared/image/png.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -53,12 +57,19 @@ std::string switches() {
            "cameras.</span></div>\n";
 }
 
-std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
+// Markup of each error, of which the page shows one.
+template <class MarkupOf>
+std::string ofErrors(const MarkupOf& markupOf) {
     std::string out;
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
         out += fmt::format("<div data-figure=\"{}\"{}>{}</div>", errorFigures[figure].name,
-                           hiddenUnless(figure == 0), tradeoffPlot(tradeoff, figure, path, PlotPlace::page));
+                           hiddenUnless(figure == 0), markupOf(figure));
     return out;
+}
+
+std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
+    return ofErrors(
+        [&](std::size_t figure) { return tradeoffPlot(tradeoff, figure, path, PlotPlace::page); });
 }
 
 std::string pictures(const Tradeoff& tradeoff, const TradeoffRow& row) {
@@ -82,9 +93,7 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
                            spreadText(spreadOf(row, errorMeasure(figure))));
-    out += fmt::format("<dt>memory</dt><dd>{}</dd><dt>per pixel</dt><dd>{}</dd>",
-                       inHtml(cellOf(row, Measure::memory).text),
-                       inHtml(cellOf(row, Measure::gbuffer_bytes).text));
+    out += fmt::format("<dt>memory</dt><dd>{}</dd>", inHtml(cellOf(row, Measure::memory).text));
     for (const PassTime& pass : row.passes)
         out += fmt::format("<dt>{}</dt><dd>{:.3g} ms</dd>", markup(pass.name), pass.ms);
     out += "</dl>";
@@ -101,7 +110,9 @@ std::string plots(const Tradeoff& tradeoff) {
     const std::vector<std::size_t> front = frontOf(tradeoff, 0);
     const std::size_t first = front.empty() ? 0 : front.front();
     std::string out = "<div class=\"plots\"><div class=\"drawn\"><div class=\"box\">" +
-                      plotsOf(tradeoff, {}) + "</div><div class=\"each\">";
+                      plotsOf(tradeoff, {}) + "</div><div class=\"front\">" +
+                      ofErrors([&](std::size_t figure) { return inHtml(frontTable(tradeoff, figure)); }) +
+                      "</div><div class=\"each\">";
     for (const Path path : pathsOf(tradeoff))
         out += fmt::format("<div class=\"box\"><h3>{}</h3>{}</div>", nameOf(path), plotsOf(tradeoff, path));
     out += "</div></div><div class=\"box\">";
@@ -128,11 +139,8 @@ output::List frontList(const Tradeoff& tradeoff) {
 std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
     std::vector<std::string> lines;
     const SweepCost& cost = tradeoff.cost;
-    lines.push_back(fmt::format(
-        "It took {:.1f} s: {:.1f} s to read and upload the scene, {:.1f} s to draw the reference, "
-        "{:.1f} s to draw and time the rows, and {:.1f} s for everything else, such as comparing "
-        "them and writing files",
-        cost.whole / 1e3, cost.reading / 1e3, cost.reference / 1e3, cost.drawing / 1e3, cost.beyond() / 1e3));
+    lines.push_back(fmt::format("It took {:.1f} s, {:.1f} s of which to draw and time the rows",
+                                cost.whole / 1e3, cost.drawing / 1e3));
     if (tradeoff.kept > 0)
         lines.push_back(fmt::format("{} of {} rows come from an interrupted run and keep its times",
                                     tradeoff.kept, tradeoff.rows.size()));
@@ -230,6 +238,32 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
     for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));
     for (Block& block : resultBlocks(tradeoff)) page.blocks.push_back(std::move(block));
     return inHtml(page);
+}
+
+std::string writeTradeoff(const Tradeoff& measured, const std::filesystem::path& path,
+                          const std::filesystem::path& kept, const Image8& reference, bool force) {
+    ListedFolder folder(path, tradeoffManifest, force);
+    Tradeoff tradeoff = measured;
+    for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
+        for (const auto& [member, name] :
+             {std::pair{&TradeoffRow::picture, fmt::format("row-{:03}.png", i + 1)},
+              {&TradeoffRow::errors_map, fmt::format("row-{:03}.flip.png", i + 1)}}) {
+            linkOrCopy(kept, tradeoff.rows[i].*member, folder / name);
+            tradeoff.rows[i].*member = name;
+            folder.list(name);
+        }
+    tradeoff.reference_picture = "reference.png";
+    writePng(folder / tradeoff.reference_picture, reference);
+    folder.list(tradeoff.reference_picture);
+    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+        folder.put(plotName(figure, {}), tradeoffPlot(tradeoff, figure, {}, PlotPlace::file));
+        for (const Path one : pathsOf(tradeoff))
+            folder.put(plotName(figure, one), tradeoffPlot(tradeoff, figure, one, PlotPlace::file));
+    }
+    folder.put("tradeoff.csv", inCsv(csvTable(tradeoff)));
+    folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(experiment::pointersTo(tradeoff.rows))));
+    folder.put("index.html", tradeoffHtml(tradeoff));
+    return folder.finish(tradeoffJson(tradeoff));
 }
 
 }  // namespace diptych::tradeoff

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "shared/text/json.h"
+#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
-#include "shared/text/json_text.h"
 
 #include <span>
 
@@ -48,7 +47,21 @@ Json metricsJson(std::span<const experiment::NamedMeasure> metrics) {
 
 }  // namespace
 
-std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files) {
+Json jsonOf(const TradeoffRow& row) {
+    Json json = experiment::jsonOf(row);
+    json["drawing_ms"] = row.drawing_ms;
+    json["picture"] = row.picture;
+    json["error_picture"] = row.errors_map;
+    return json;
+}
+
+TradeoffRow tradeoffRowFrom(const Json& given) {
+    const JsonAt<Json> json(given);
+    return {experiment::rowFrom(json), json.at("drawing_ms").number(), json.at("picture").text(),
+            json.at("error_picture").text()};
+}
+
+Json tradeoffJson(const Tradeoff& tradeoff) {
     Json rows = Json::array(), skips = Json::array();
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
@@ -57,30 +70,24 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
                    row.renderer.empty() ? jsonOf(changesOf(row.settings, tradeoff.given)) : Json::object()}};
         json.update(jsonOf(row));
         json["measure"] = measuringCommand(tradeoff, row);
-        json["render"] = row.renderer.empty() ? Json(renderingCommand(tradeoff, row)) : Json(nullptr);
-        const std::string comparing = comparingCommand(tradeoff, row);
-        json["compare"] = comparing.empty() ? Json(nullptr) : Json(comparing);
+        json["render"] = orNull(renderingCommand(tradeoff, row));
+        json["compare"] = orNull(comparingCommand(tradeoff, row));
         rows.push_back(std::move(json));
     }
     for (const SweepSkip& skip : tradeoff.skips)
         skips.push_back({{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}});
     const SweepCost& cost = tradeoff.cost;
     const std::optional<Spread> drift = driftOf(tradeoff);
-    const Json json{
+    return {
         {"schema", 1},
         {"software", softwareName},
         {"commit", commitName()},
-        {"device",
-         {{"name", tradeoff.device.name},
-          {"driver", tradeoff.device.driver},
-          {"type", tradeoff.device.type}}},
+        {"device", jsonOf(tradeoff.device)},
         {"scene", tradeoff.scene},
         {"cameras", tradeoff.cameras},
         {"runs", tradeoff.runs},
-        {"settings", parseOrderedJson(toJson(tradeoff.given))},
-        {"reference",
-         {{"settings", parseOrderedJson(toJson(tradeoff.reference))},
-          {"picture", tradeoff.reference_picture}}},
+        {"settings", jsonOf(tradeoff.given)},
+        {"reference", {{"settings", jsonOf(tradeoff.reference)}, {"picture", tradeoff.reference_picture}}},
         {"errors", metricsJson(errorFigures)},
         {"shadow_figures", metricsJson(shadowFigures)},
         {"sample_figures", metricsJson(sampleFigures)},
@@ -96,9 +103,7 @@ std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string
           {"reading", cost.reading},
           {"reference", cost.reference},
           {"drawing", cost.drawing},
-          {"beyond", cost.beyond()}}},
-        {"files", files}};
-    return jsonText(json) + "\n";
+          {"beyond", cost.beyond()}}}};
 }
 
 }  // namespace diptych::tradeoff

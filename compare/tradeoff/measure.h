@@ -5,7 +5,7 @@
 #include "compare/experiment/references.h"
 #include "compare/picture/picture.h"
 #include "compare/render/renderer.h"
-#include "compare/tradeoff/row.h"
+#include "compare/tradeoff/tradeoff.h"
 
 #include <chrono>
 #include <span>

@@ -22,11 +22,11 @@ std::string nameOf(const Settings& settings) {
 std::string nameOf(const TradeoffRow& row) {
     return row.renderer.empty() ? nameOf(row.settings) : fingerprint(toJson(row.settings, -1) + row.renderer);
 }
-std::string pictureOf(const Settings& settings) {
-    return nameOf(settings) + ".png";
+std::string pictureOf(const TradeoffRow& row) {
+    return nameOf(row) + ".png";
 }
-std::string errorsOf(const Settings& settings) {
-    return nameOf(settings) + ".flip.png";
+std::string errorsOf(const TradeoffRow& row) {
+    return nameOf(row) + ".flip.png";
 }
 
 }  // namespace
@@ -46,17 +46,17 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
             return times > 0 && times <= blocks && times == row.cameras.front().blocks.size();
         };
         const bool whole = row.settings == settings && row.cameras.size() == cameras &&
-                           std::ranges::all_of(row.cameras, isVisited) &&
-                           row.picture == pictureOf(settings) && row.errors_map == errorsOf(settings) &&
-                           fs::exists(kept_ / row.picture) && fs::exists(kept_ / row.errors_map);
+                           std::ranges::all_of(row.cameras, isVisited) && row.picture == pictureOf(row) &&
+                           row.errors_map == errorsOf(row) && fs::exists(kept_ / row.picture) &&
+                           fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
     });
 }
 
 void SweepState::keep(MeasuredRow& measured) {
     TradeoffRow& row = measured.row;
-    row.picture = nameOf(row) + ".png";
-    row.errors_map = nameOf(row) + ".flip.png";
+    row.picture = pictureOf(row);
+    row.errors_map = errorsOf(row);
     writePng(kept_ / row.picture, measured.picture);
     writePng(kept_ / row.errors_map, measured.errors);
     renew(row);

@@ -45,8 +45,7 @@ using Fronts = std::array<std::vector<std::size_t>, errorFigures.size()>;
 output::Table sweepHead() {
     output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
     for (const auto& [measure, width] : sweepMeasures) table.columns.push_back(columnOf(measure, width));
-    table.columns.insert(table.columns.end(), {{"front", Column::words, 0, Column::page},
-                                               {"command", Column::prose, 0, Column::page}});
+    table.columns.push_back({"front", Column::words, 0, Column::page});
     table.sortable = true;
     return table;
 }
@@ -60,7 +59,6 @@ output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& 
     for (std::size_t f = 0; f < errorFigures.size(); ++f)
         if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
     cells.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
-    cells.cells.emplace_back(Span(measuringCommand(tradeoff, row), Span::command));
     return cells;
 }
 
@@ -118,6 +116,21 @@ constexpr std::size_t fewestWords = 24;
 
 }  // namespace
 
+output::Table frontTable(const Tradeoff& tradeoff, std::size_t figure) {
+    const Measure error = errorMeasure(figure);
+    output::Table table{
+        {{"row", Column::number}, {"settings", Column::prose}, columnOf(Measure::ms), columnOf(error)}};
+    table.box = "box scroll";
+    for (const std::size_t i : frontOf(tradeoff, figure)) {
+        const TradeoffRow& row = tradeoff.rows[i];
+        table.rows.push_back({{fmt::format("{}", i + 1), settingsCell(row, inWords(row, tradeoff.given)),
+                               cellOf(row, Measure::ms), cellOf(row, error)},
+                              "",
+                              i + 1});
+    }
+    return table;
+}
+
 output::Table sweepTable(const Tradeoff& tradeoff) {
     output::Table table = sweepHead();
     Fronts fronts;
@@ -161,15 +174,68 @@ std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
 }
 
 std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff) {
-    output::Table table = figureHead(Measure::shaded, Measure::elsewhere);
+    output::Table table = figureHead(Measure::shaded, Measure::differing);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (tradeoff.rows[i].measured.has(Measure::shaded))
-            table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", Measure::shaded, Measure::elsewhere));
+            table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", Measure::shaded, Measure::differing));
     return blocksOf("Samples that deferred lighting shades",
                     "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
                     "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
                     "is that of all samples. The other modes are compared with exact.",
                     table);
+}
+
+output::Table csvTable(const Tradeoff& tradeoff) {
+    const std::vector<const experiment::Row*> rows = experiment::pointersTo(tradeoff.rows);
+    output::Table table;
+    // `valueOf`: of a row and its index.
+    const auto add = [&](std::string title, const auto& valueOf) {
+        std::size_t index = 0;
+        addColumn(table, {std::move(title)}, tradeoff.rows,
+                  [&](const TradeoffRow& row) { return valueOf(row, index++); });
+    };
+    const auto addMeasure = [&](std::string title, Measure measure) {
+        add(std::move(title), [=](const TradeoffRow& row, auto) { return exactText(row, measure); });
+    };
+    const auto addCommand = [&](const char* title, const auto& commandOf) {
+        add(title, [&](const TradeoffRow& row, auto) { return commandOf(tradeoff, row); });
+    };
+    add("row", [](const auto&, std::size_t index) { return fmt::format("{}", index + 1); });
+    add("path", [](const TradeoffRow& row, auto) { return pathOf(row); });
+    addOptions(table, rows, false);
+    addMeasure("ms", Measure::ms);
+    addMeasure("ms_min", Measure::ms_min);
+    addMeasure("ms_max", Measure::ms_max);
+    add("runs", [&](const auto&, auto) { return fmt::format("{}", tradeoff.runs); });
+    using Part = std::pair<const char*, double Spread::*>;
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        for (const auto& [end, part] :
+             {Part{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}})
+            add(fmt::format("{}{}", errorFigures[f].name, end), [f, of = part](const TradeoffRow& row, auto) {
+                return fmt::format("{}", spreadOf(row, errorMeasure(f)).*of);
+            });
+    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+        add(fmt::format("front_{}", errorFigures[f].name),
+            [front = frontOf(tradeoff, f)](const auto&, std::size_t index) {
+                return std::ranges::count(front, index) > 0 ? "1" : "0";
+            });
+    for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+        addMeasure(fmt::format("shadow_{}", shadowFigures[f].name), Measure::shadow_error + f);
+    for (std::size_t f = 0; f < sampleFigures.size(); ++f)
+        addMeasure(fmt::format("samples_{}", sampleFigures[f].name), Measure::shaded + f);
+    // 0 for another renderer, whose bytes are not known.
+    for (const auto& [name, measure] : {std::pair{"image_bytes", Measure::image_bytes},
+                                        {"buffer_bytes", Measure::buffer_bytes},
+                                        {"gbuffer_bytes_per_pixel", Measure::gbuffer_bytes}})
+        add(name, [of = measure](const TradeoffRow& row, auto) { return fmt::format("{}", row.whole(of)); });
+    addPasses(table, rows, "ms: ");
+    add("warnings",
+        [](const TradeoffRow& row, auto) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
+    add("picture", [](const TradeoffRow& row, auto) { return row.picture; });
+    addCommand("measure", measuringCommand);
+    addCommand("render", renderingCommand);
+    addCommand("compare", comparingCommand);
+    return table;
 }
 
 TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables of a sweep's rows: all of them, and those with measures of shadows or samples.
+// Tables of a sweep's rows: all of them, those with measures of shadows or samples, and tradeoff.csv.
 #pragma once
 
 #include "compare/output/document.h"
@@ -14,6 +14,9 @@ namespace diptych::tradeoff {
 // Every row. The terminal's columns have fixed widths.
 output::Table sweepTable(const Tradeoff& tradeoff);
 
+// The Pareto front of time and one error, for a page.
+output::Table frontTable(const Tradeoff& tradeoff, std::size_t figure);
+
 // A row with an evaluated sun shadow. Dominated: another has no more error and no more time (or memory), and
 // less of one of them.
 struct ShadowRow {
@@ -27,6 +30,9 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff);
 // Each table has a heading and an explanation; no blocks without rows.
 std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff);
 std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff);
+
+// tradeoff.csv: a line a row, with all digits.
+output::Table csvTable(const Tradeoff& tradeoff);
 
 // Terminal table, written line by line. Lines fit `columns` if it has space for the row's number, time,
 // FLIP and some text. Drops other numbers and truncates Settings ("...") to fit. 0: no limit. `commands`:

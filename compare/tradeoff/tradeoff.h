@@ -2,11 +2,13 @@
 // A complete sweep and its outputs.
 #pragma once
 
+#include "compare/experiment/row.h"
 #include "compare/experiment/sweep.h"
 #include "compare/output/document.h"
 #include "compare/picture/picture.h"
-#include "compare/tradeoff/row.h"
 #include "compare/verdict/comparison.h"
+
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <string>
@@ -17,10 +19,31 @@ namespace diptych::tradeoff {
 
 using experiment::Change;
 using experiment::changesOf;
+using experiment::errorFigures;
+using experiment::Errors;
 using experiment::groupsOf;
 using experiment::inWords;
+using experiment::Measure;
+using experiment::sampleFigures;
+using experiment::SampleShares;
+using experiment::ShadowErrors;
+using experiment::shadowFigures;
 using experiment::SkipGroup;
+using experiment::Spread;
 using experiment::SweepSkip;
+
+// The measure of an error, an index in errorFigures.
+constexpr Measure errorMeasure(std::size_t figure) {
+    return Measure::flip + figure;
+}
+
+// One Settings of a sweep, with the first camera. Times of another renderer are those of its whole command,
+// so fronts and plots skip its rows.
+struct TradeoffRow : experiment::Row {
+    double drawing_ms = 0;     // wall-clock time of rendering and timing
+    std::string picture{};     // file name
+    std::string errors_map{};  // file name of the FLIP image
+};
 
 // Wall-clock time of this run, ms; excludes rows of an earlier run.
 struct SweepCost {
@@ -74,10 +97,11 @@ std::string tradeoffHtml(const Tradeoff& tradeoff);
 // Throws std::runtime_error unless tradeoffHtml() may have written the page.
 void checkTradeoffHtml(std::string_view page);
 
-// RFC 4180, one line per row.
-std::string tradeoffCsv(const Tradeoff& tradeoff);
-// tradeoff.json, schema 1. `files`: all files of the folder.
-std::string tradeoffJson(const Tradeoff& tradeoff, const std::vector<std::string>& files);
+nlohmann::ordered_json jsonOf(const TradeoffRow& row);
+// Reads the output of jsonOf(). Throws std::runtime_error naming the place of an error.
+TradeoffRow tradeoffRowFrom(const nlohmann::ordered_json& json);
+// tradeoff.json, schema 1, without the list of files.
+nlohmann::ordered_json tradeoffJson(const Tradeoff& tradeoff);
 
 // Writes the folder; images come from `kept`. Returns tradeoff.json.
 std::string writeTradeoff(const Tradeoff& tradeoff, const std::filesystem::path& folder,

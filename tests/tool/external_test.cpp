@@ -4,6 +4,7 @@
 #include "shared/vulkan/driver_probe.h"
 #include "tests/tool/fake_renderer.h"
 #include "tests/tool/running.h"
+#include "tests/tool/schema.h"
 
 #include <sys/stat.h>
 
@@ -46,22 +47,6 @@ TEST(External, WhatAJobSaysIsEnoughToDrawThePictureAgain) {
         ASSERT_FALSE(again.is_null());
         EXPECT_EQ(again["channels"][0]["max"], 0) << scene;
     }
-}
-
-// Validates with Python's jsonschema, which nothing else needs.
-bool hasValidator() {
-    return std::system("python3 -c 'import jsonschema' 2>/dev/null") == 0;
-}
-
-Ran validate(const Folder& folder, const fs::path& schema, const fs::path& file) {
-    folder.write("validate.py", R"py(
-import json, sys, jsonschema
-schema = json.load(open(sys.argv[1]))
-jsonschema.Draft202012Validator.check_schema(schema)
-jsonschema.Draft202012Validator(schema).validate(json.load(open(sys.argv[2])))
-)py");
-    return runShell(folder, "python3 validate.py '" + schema.string() + "' '" + file.string() + "'",
-                    folder.path());
 }
 
 TEST(External, JobsAreAsTheSchemaSays) {

@@ -10,13 +10,13 @@ let kept = $(`.row-card[data-row="${CSS.escape(choices.get('row') ?? '')}"]`)?.d
 
 function show(row) {
   for (const card of $$('.row-card')) card.hidden = card.dataset.row !== row;
-  for (const element of $$('.point[data-row], .rows tbody tr')) element.classList.toggle('on', element.dataset.row === row);
+  for (const element of $$('.point[data-row], tr[data-row]')) element.classList.toggle('on', element.dataset.row === row);
 }
 function keep(row) {
   show(kept = row);
   choose('row', row === first ? '' : row);
 }
-const rowOf = event => event.target.closest?.('.point[data-row], .rows tbody tr')?.dataset.row;
+const rowOf = event => event.target.closest?.('.point[data-row], tr[data-row]')?.dataset.row;
 
 addEventListener('pointerover', event => { if (event.target.closest?.('svg')) show(rowOf(event) ?? kept); });
 addEventListener('focusin', event => { if (event.target.matches('.point')) keep(rowOf(event)); });

@@ -87,7 +87,7 @@ TEST(BenchConclusion, StandsInTableJsonAndPage) {
     const std::string end = benchEnd(bench);
     EXPECT_TRUE(end.ends_with(words + "\n")) << "the last line: " << end;
     EXPECT_NE(benchHtml(bench).find(words), std::string::npos);
-    const nlohmann::json json = nlohmann::json::parse(benchJson(bench, {}));
+    const nlohmann::json json = benchJson(bench);
     EXPECT_EQ(json["conclusions"][0]["in_words"], words);
     EXPECT_EQ(json["conclusions"][0]["faster"], "deferred, clustered");
     EXPECT_EQ(json["conclusions"][0]["sure"], true);
@@ -100,7 +100,7 @@ TEST(BenchConclusion, AnotherPictureIsMarked) {
     EXPECT_NE(benchEnd(bench).find(starMeans), std::string::npos);
     EXPECT_NE(benchHtml(bench).find(starMeans), std::string::npos);
     EXPECT_NE(benchPlot(bench, PlotPlace::file).find("per_object *"), std::string::npos);
-    const nlohmann::json json = nlohmann::json::parse(benchJson(bench, {}));
+    const nlohmann::json json = benchJson(bench);
     EXPECT_EQ(json["rows"][0]["same_picture"], true);
     EXPECT_EQ(json["rows"][3]["same_picture"], false);
     Bench same = oneCount();

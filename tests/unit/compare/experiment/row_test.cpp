@@ -3,10 +3,12 @@
 #include "compare/experiment/row.h"
 
 #include "compare/output/writers.h"
+#include "shared/text/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 
 namespace diptych::experiment {
@@ -54,6 +56,25 @@ TEST(Rows, EveryMeasureIsAColumnAndAKey) {
     EXPECT_NE(csv.find("one; two"), csv.npos);
     EXPECT_EQ(headsOf(inCsv(rowsTable(pointersTo(std::vector{rows[1]})))).back(), "warnings");
     EXPECT_EQ(inCsv(rowsTable(pointersTo(std::vector{rows[1]}))).find("flip"), std::string::npos);
+}
+
+TEST(Rows, TheirSchemaHasEveryMeasureWithItsUnit) {
+    const std::filesystem::path room = std::filesystem::path(DIPTYCH_SOURCE_DIR) / "compare/experiment";
+    const Json groups = orderedJsonIn(room / "rows.schema.json")["$defs"]["measured"]["properties"];
+    std::vector<std::string> found, expected;
+    const auto line = [](std::string_view group, std::string_view name, std::string_view unit,
+                         std::string_view means, bool whole) {
+        return fmt::format("{}.{} [{}] {}: {}", group, name, unit, whole ? "integer" : "number", means);
+    };
+    for (const auto& [group, of] : groups.items())
+        for (const auto& [name, measure] : of.value("properties", Json::object()).items())
+            if (measure["type"].is_array())
+                found.push_back(line(group, name, measure.value("unit", ""),
+                                     measure["description"].get<std::string>(),
+                                     measure["type"] == Json{"integer", "null"}));
+    for (const NamedMeasure& of : measures)
+        expected.push_back(line(of.group, of.name, of.unit, of.means, of.isWhole()));
+    EXPECT_EQ(found, expected) << "rows.schema.json against measures.h";
 }
 
 TEST(Rows, AreReadBack) {

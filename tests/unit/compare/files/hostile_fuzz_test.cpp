@@ -6,9 +6,11 @@
 #include "compare/files/file_moves.h"
 #include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
+#include "compare/output/writers.h"
 #include "compare/report/trends.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/sweep_state.h"
+#include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/support/shards_builder.h"
@@ -108,8 +110,8 @@ tradeoff::MeasuredRow smallRow() {
 
 void makeOutputs(const tradeoff::Tradeoff& whole) {
     tradeoffHtml(whole);
-    tradeoffCsv(whole);
-    tradeoffJson(whole, {});
+    inCsv(csvTable(whole));
+    tradeoffJson(whole);
     tradeoffEnd(whole);
     for (std::size_t figure = 0; figure < tradeoff::errorFigures.size(); ++figure)
         tradeoffPlot(whole, figure, {}, PlotPlace::file);
@@ -136,8 +138,9 @@ TEST(HostileFuzz, Tradeoffs) {
     }
     fs::create_directory_symlink(root, shard / "a/link");
     ASSERT_EQ(::mkfifo((shard / "fifo.png").c_str(), 0600), 0);
-    const std::string scene = tradeoffJson(whole, {"row-001.png", "tradeoff.json"}), list = textOf(manifest),
-                      row = contentsOf(row_file);
+    Json swept = tradeoffJson(whole);
+    swept["files"] = {"row-001.png", "tradeoff.json"};
+    const std::string scene = swept.dump(2), list = textOf(manifest), row = contentsOf(row_file);
     std::ofstream(shard / "b/tradeoff.json") << scene;
     cli::Options options;
     options.command = "merge";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The output of a sweep: table, CSV, JSON, plots and page.
 #include "compare/cli/command_line.h"
+#include "compare/output/writers.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
@@ -73,7 +74,7 @@ std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
 }
 
 TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
-    const auto lines = parseCsv(tradeoffCsv(several()));
+    const auto lines = parseCsv(inCsv(csvTable(several())));
     ASSERT_EQ(lines.size(), 5u);
     for (const auto& line : lines) EXPECT_EQ(line.size(), lines[0].size());
     const auto at = [&](std::size_t line, const std::string& name) {
@@ -97,7 +98,7 @@ TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
     Tradeoff external = several();
     external.rows[0].renderer = "three";
     external.rows[0].measured = {};
-    const auto other = parseCsv(tradeoffCsv(external));
+    const auto other = parseCsv(inCsv(csvTable(external)));
     const auto column = std::ranges::find(other[0], "image_bytes") - other[0].begin();
     EXPECT_EQ(other[1][static_cast<std::size_t>(column)], "0") << "of another renderer";
 }
