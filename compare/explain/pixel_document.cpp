@@ -85,23 +85,23 @@ output::Row stepRow(const PixelStep& step) {
 }
 
 // By PixelTerm::Kind; titleOf() names lights.
-constexpr std::array kinds{"",
-                           "",
-                           "environment",
-                           "ambient, lightmap",
-                           "emission",
-                           "times transmittance",
-                           "haze",
-                           "blended fragments, transmission",
-                           "sum of the terms",
-                           "lit",
-                           "lit minus the sum"};
+constexpr std::array titles{"",
+                            "",
+                            "environment",
+                            "ambient, lightmap",
+                            "emission",
+                            "times transmittance",
+                            "haze",
+                            "blended fragments, transmission",
+                            "sum of the terms",
+                            "lit",
+                            "lit minus the sum"};
 
 std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
     if (term.kind == PixelTerm::Kind::other_lights)
         return counted(term.lights.size(),
                        term.lights.size() == breakdown.lights.size() ? "light" : "other light");
-    if (term.kind != PixelTerm::Kind::light) return kinds.at(static_cast<std::size_t>(term.kind));
+    if (term.kind != PixelTerm::Kind::light) return titles.at(static_cast<std::size_t>(term.kind));
     const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
     return fmt::format("light {}, {}{}", term.lights.front(), facts.kind,
                        facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
