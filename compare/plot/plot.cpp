@@ -18,7 +18,7 @@ using page::markup;
 namespace {
 
 constexpr double plotWidth = 720, plotLeft = 74, plotRight = plotWidth - 24;
-constexpr double between = 66;                     // columns of panels, for the ticks of the right one
+constexpr double columnGap = 66;                   // columns of panels, for the ticks of the right one
 constexpr double above = 40, below = 56;           // a panel's box: its name; ticks and the other axis' name
 constexpr double nameLeft = 64;                    // from the box to the left of its name
 constexpr double placeHeight = 52;                 // upwards: a place's name and its bar
@@ -283,7 +283,7 @@ std::string svgOf(const Plot& plot, PlotPlace place) {
         for (const PlotSeries& series : panel.series)
             if (std::ranges::count(styles.entries, series.name, &PlotSeries::name) == 0)
                 styles.entries.push_back(&series);
-    const double width = (plotRight - plotLeft + between) / static_cast<double>(plot.columns);
+    const double width = (plotRight - plotLeft + columnGap) / static_cast<double>(plot.columns);
     std::string inside;
     double top = 0, next = 0;
     for (std::size_t i = 0; i < plot.panels.size(); ++i) {
@@ -294,7 +294,7 @@ std::string svgOf(const Plot& plot, PlotPlace place) {
         const double inner = panel.up.places.empty()
                                  ? plot.height - above - below
                                  : placeHeight * static_cast<double>(panel.up.places.size());
-        const PlotBox box{left, top + above, left + width - between, top + above + inner};
+        const PlotBox box{left, top + above, left + width - columnGap, top + above + inner};
         inside += Panel(plot, panel, styles, box, place).svg();
         next = std::max(next, box.bottom + below);
     }
