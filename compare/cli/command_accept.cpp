@@ -1,135 +1,54 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
-#include "compare/files/linked_file.h"
-#include "compare/files/our_files.h"
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
+#include "compare/report/accept.h"
 #include "compare/run/print.h"
-#include "compare/verdict/rules.h"
-#include "shared/image/atomic_file.h"
 #include "shared/text/counted.h"
-#include "shared/text/fail.h"
-#include "shared/text/input_file.h"
-#include "shared/text/json.h"
-#include "shared/text/json_at.h"
-#include "shared/text/json_text.h"
-#include "shared/text/named.h"
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <filesystem>
-#include <map>
-#include <set>
-#include <stdexcept>
-#include <utility>
 
 namespace diptych::cli {
 namespace {
 
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-// The largest failing difference of a channel over a scene's cameras and pairs.
-struct Failing {
-    double max = 0;
-    std::string pair;
+struct AcceptLine : OutputGroup {
+    std::vector<std::string> words;  // a report, and maybe one of its scenes
+    std::string channel;             // empty: all failing channels
+    std::string because;             // empty: names the report
 };
-using AllFailing = std::map<std::pair<std::string, std::string>, Failing>;  // keys: scene, channel
 
-using Place = JsonAt<nlohmann::json>;
-
-// Reads only the keys of a report that `accept` needs.
-nlohmann::json reportIn(const fs::path& where) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
-    static const std::set<std::string> wanted{"software", "comparisons", "scene",   "baseline", "test",
-                                              "channels", "name",        "verdict", "max",      "failures"};
-    return parseJson(textIn(file, json_bytes),
-                     [](int, const std::string& key) { return wanted.contains(key); });
+void describeAccept(CLI::App& app, AcceptLine& options) {
+    addOption(app, "report", options.words, "DIR [SCENE]",
+              "a report, and one of its scenes (all failing ones)");
+    addOption(app, "--channel", options.channel, "NAME", "channel to accept (all failing ones)");
+    addOption(app, "--because", options.because, "TEXT", "reason, which reports print");
+    addFiles(app, options, "rules file to extend (accepted.json)");
+    addOutput(app, options);
 }
 
-AllFailing failingOf(const Place& comparisons, const std::string& scene, const std::string& channel) {
-    AllFailing all;
-    bool met = scene.empty();
-    for (const Place& comparison : comparisons.each()) {
-        const std::string name = comparison.textOr("scene", "");
-        if (!scene.empty() && name != scene) continue;
-        met = true;
-        for (const Place& of : comparison.at("channels").each()) {
-            const std::string its = of.textOr("name", "");
-            if (of.textOr("verdict", "") != "fail" || (!channel.empty() && its != channel)) continue;
-            if (!of.has("max") || !of.at("max").json().is_number())
-                fail(fmt::format("{}, {}: differs by NaN or infinity; no rule can accept that", name, its));
-            Failing& failing = all[{name, its}];
-            if (of.at("max").number() < failing.max) continue;
-            failing = {of.at("max").number(), fmt::format("{} against {}", comparison.textOr("test", ""),
-                                                          comparison.textOr("baseline", ""))};
-        }
-        if (!comparison.has("failures") || !channel.empty()) continue;
-        if (const std::vector<std::string> failures = comparison.at("failures").texts(); !failures.empty())
-            fail(fmt::format("{}: fails as a whole, not in one channel; no rule can accept that: {}", name,
-                             failures.front()));
-    }
-    if (!met) fail(fmt::format("accept {}: the report has no such scene", scene));
-    if (all.empty())
-        fail(fmt::format("accept{}{}: nothing fails, so there is nothing to accept",
-                         scene.empty() ? "" : " " + scene, channel.empty() ? "" : " --channel " + channel));
-    return all;
-}
-
-AllFailing failingIn(const fs::path& where, const std::string& scene, const std::string& channel) {
-    const nlohmann::json json = named("accept " + where.string(), [&] {
-        nlohmann::json report = reportIn(where);
-        const Place top(report);
-        if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
-            fail("is not a report written by compare; give its folder or its report.json");
-        return report;
-    });
-    return failingOf(Place(json).at("comparisons"), scene, channel);
-}
-
-// Rules of an existing file; none if there is no file.
-Json rulesIn(const fs::path& file) {
-    if (!fs::exists(file)) return {{"rules", Json::array()}};
-    readRules(file);  // throws if the file is not a rules file
-    return orderedJsonIn(file);
+int runAccept(const AcceptLine& options) {
+    if (options.words.empty() || options.words.size() > 2)
+        refuse(
+            "accept: give a report, and at most one of its scenes (none: all), for example accept report "
+            "Box.glb");
+    const std::filesystem::path out = options.out.empty() ? "accepted.json" : options.out;
+    if (out.extension() != ".json")
+        refuse("-o {}: rules go into a .json file; give a name that ends in .json", out.string());
+    const std::size_t rules = acceptDifferences({.report = options.words.front(),
+                                                 .scene = options.words.size() > 1 ? options.words[1] : "",
+                                                 .channel = options.channel,
+                                                 .because = options.because},
+                                                out);
+    if (!options.quiet)
+        printOut("{}: {} written; use with compare --tolerances {}\n", out.string(), counted(rules, "rule"),
+                 out.string());
+    return 0;
 }
 
 }  // namespace
 
-int runAccept(const Options& options) {
-    if (!options.scene_given || options.scenes.size() > 2)
-        throw std::runtime_error(
-            "accept: give a report, and at most one of its scenes (none: all), for example accept report "
-            "Box.glb");
-    const fs::path report = options.scenes.front();
-    const std::string scene = options.scenes.size() > 1 ? options.scenes[1] : "";
-    const fs::path out = options.out.empty() ? "accepted.json" : options.out;
-    if (out.extension() != ".json")
-        throw std::runtime_error(
-            fmt::format("-o {}: rules go into a .json file; give a name that ends in .json", out.string()));
-    Json rules = rulesIn(out);
-    const AllFailing failing = failingIn(report, scene, options.accept.channel);
-    for (const auto& [of, how] : failing) {
-        const auto& [name, channel] = of;
-        auto& all = rules["rules"];
-        all.erase(std::remove_if(all.begin(), all.end(),
-                                 [&, &n = name, &c = channel](const Json& rule) {
-                                     return rule.value("scene", "") == n && rule.value("channel", "") == c;
-                                 }),
-                  all.end());
-        all.push_back({{"scene", name},
-                       {"channel", channel},
-                       {"max", how.max},
-                       {"because", options.accept.because.empty()
-                                       ? fmt::format("accepted: {} as in {}", how.pair, report.string())
-                                       : options.accept.because}});
-    }
-    writeFile(linkedFile(out), jsonText(rules) + "\n");
-    if (!options.quiet)
-        printOut("{}: {} written; use with compare --tolerances {}\n", out.string(),
-                 counted(failing.size(), "rule"), out.string());
-    return 0;
+Command acceptCommand() {
+    return makeCommand<AcceptLine>(
+        {"accept", "Writes rules that accept the differences of a report",
+         "diptych accept diptych-report Box.glb --channel lit -o accepted.json"},
+        describeAccept, [](AcceptLine& options) { refuseLineBreaks(options.words); }, runAccept);
 }
 
 }  // namespace diptych::cli

@@ -1,49 +1,150 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/auditor.h"
+#include "compare/audit/case.h"
+#include "compare/audit/quantities.h"
+#include "compare/audit/relate.h"
+#include "compare/audit/relations.h"
 #include "compare/audit/report.h"
-#include "compare/cli/audit_opening.h"
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
-#include "compare/cli/commands.h"
 #include "compare/output/writers.h"
+#include "compare/render/host_memory.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
+#include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <filesystem>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace diptych::cli {
 
 namespace {
 
+struct AuditLine : SceneGroup {
+    std::vector<std::string> quantities;  // names; empty: all
+    // --require: magnitudes that must pass, by quantity.
+    std::vector<std::pair<std::string, double>> required;
+    bool relations = false;                     // --relations: test relations instead of quantities
+    std::vector<std::string> chosen_relations;  // --relation: names; empty: all
+    std::vector<std::string> required_words;    // NAME=MAGNITUDE
+};
+
+std::string namesOf(const auto& all) {
+    std::vector<std::string_view> names;
+    for (const auto& each : all) names.push_back(each.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void describeAudit(CLI::App& app, AuditLine& options) {
+    addScene(app, options, one_scene_help);
+    addFiles(app, options, "output folder");
+    addOutput(app, options);
+    app.option_defaults()->group("Stress test");
+    addList(app, "--quantity", options.quantities, "NAME,...",
+            fmt::format("quantities to push (all): {}. Defaults: --size 160x90; --shadows off, except for "
+                        "shadow quantities",
+                        namesOf(audit::quantities())));
+    addList(app, "--require", options.required_words, "NAME=MAGNITUDE,...",
+            "exit code 1 if a path's error reaches 1e-2 between the original scene and this magnitude; "
+            "repeatable");
+    app.add_flag("--relations", options.relations,
+                 "instead of pushing quantities, test changes that must not change the picture, on this "
+                 "device, without a reference; exit code 1 if a relation is broken");
+    addList(app, "--relation", options.chosen_relations, "NAME,...",
+            fmt::format("relations to test (all): {}", namesOf(audit::relations())));
+    app.get_option("--size")->description("picture size, WxH (160x90)");
+    app.get_option("--shadows")->description("shadow technique (off, except for shadow quantities)");
+    acceptUnread(app, {"--path", "--runs"});
+    acceptUnread(app, picture_group);
+}
+
+void resolveAudit(AuditLine& options) {
+    resolveScene(options);
+    audit::relationsOf(options.chosen_relations);
+    options.relations = options.relations || !options.chosen_relations.empty();
+    if (options.relations && !options.quantities.empty())
+        refuse("--quantity: --relations stresses no quantity; give one of the two");
+    if (options.relations && !options.required_words.empty())
+        refuse("--require: --relations stresses no quantity; give one of the two");
+    audit::quantitiesOf(options.quantities);  // throws for unknown names
+    for (const std::string& words : options.required_words) {
+        const std::size_t at = words.find('=');
+        double magnitude = -1;
+        const char* const end = words.data() + words.size();
+        const char* const begin = at == words.npos ? end : words.data() + at + 1;
+        if (std::from_chars(begin, end, magnitude).ptr != end || !(magnitude >= 0) ||
+            !std::isfinite(magnitude))
+            refuse("--require {}: takes NAME=MAGNITUDE with MAGNITUDE 0 or more, for example offset=1e7",
+                   words);
+        const std::string name = words.substr(0, at);
+        audit::quantitiesOf(std::array{name}, "--require");
+        options.required.emplace_back(name, magnitude);
+    }
+}
+
 // Defaults of an audit: a size that the reference renders in about 0.1 s, and no shadows. A shadow map's
 // filter is an error by itself, so shadows are on only for shadow quantities.
-Settings auditedSettings(const Options& options) {
+Settings auditedSettings(const AuditLine& options) {
     Settings settings = options.settings;
     if (!options.size_given) settings.size = {160, 90};
     if (!options.shadows_given) settings.shadows = Shadows::off;
     return settings;
 }
 
-void checkAuditOptions(const Options& options) {
+void checkAuditOptions(const AuditLine& options) {
     if (options.scenes.size() != 1)
-        throw std::runtime_error(
-            fmt::format("{}: audit takes one scene; run it once for each", options.scenes[1]));
+        refuse("{}: audit takes one scene; run it once for each", options.scenes[1]);
     if (options.cameras.size() != 1)
-        throw std::runtime_error(
-            fmt::format("--camera {}: audit takes one camera; run it once for each", options.cameras[1]));
-    if (options.path_given)
-        throw std::runtime_error("--path: audit compares both paths with the reference; leave it out");
+        refuse("--camera {}: audit takes one camera; run it once for each", options.cameras[1]);
+    if (options.path_given) refuse("--path: audit compares both paths with the reference; leave it out");
     if (options.settings.msaa > 1)
-        throw std::runtime_error(
-            "--msaa: audit compares one sample per pixel, like its reference; leave it out");
-    if (const auto problem = auditedSettings(options).problem()) throw std::runtime_error(*problem);
+        refuse("--msaa: audit compares one sample per pixel, like its reference; leave it out");
+    checkSettings(auditedSettings(options));
 }
+
+// The start of both forms: opens the output folder, the device and the scene.
+struct AuditOpening {
+    // `folder`, `what` and `manifest` go to outputFolder(). Loads the command line's only scene. `options`
+    // and `settings` must outlive the object. Throws std::runtime_error, one line.
+    AuditOpening(const SceneGroup& options, const Settings& settings, const char* folder, const char* what,
+                 const char* manifest)
+        : line(options),
+          out(outputFolder(options, folder, what, manifest)),
+          progress(progressOutput(options)),
+          device(deviceOptions(options)),
+          stage(progress, options.scenes.front()),
+          scene(loadShown(options.scenes.front(), settings, stage.part(0, 0.02))),
+          subject(audit::makeSubject(scene, settings)),
+          audited{options.scenes.front(), settings.camera.empty() ? subject.view_name : settings.camera,
+                  settings, reportDevice(device), scene.notes} {
+        say(options, "on " + device.info().name);
+        // An audit keeps up to six reference Frames at a time.
+        const std::vector<Settings> references(6, referenceSettings(settings));
+        RenderOptions drawing;
+        drawing.channels = {Channel::lit, Channel::material_id};
+        SceneViews views(scene);
+        checkHostMemory(views, references, drawing, device.profile().software);
+    }
+
+    // Prints on stdout, above the progress line. Does nothing with --json or --quiet.
+    void print(const std::string& words) { printLive(line, progress, words, line.color); }
+
+    const SceneGroup& line;
+    const std::filesystem::path out;  // the folder
+    Progress progress;
+    Device device;
+    const Stage stage;
+    const Scene scene;
+    const audit::Subject subject;
+    const audit::Audited audited;  // includes the scene's notes
+};
 
 // Runs a command exactly as the report would print it. Returns whether compare fails.
 bool compareFails(std::vector<std::string> words, const std::filesystem::path& folder) {
@@ -51,51 +152,85 @@ bool compareFails(std::vector<std::string> words, const std::filesystem::path& f
     // that it is in.
     const std::string out = (folder / "trial/report").string();
     words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
-    return runCommand(parseCommandLine(words)) == 1;
+    return parseCommandLine(words).command.run() == 1;
 }
 
-audit::AuditQuestion questionOf(const Options& options, const std::filesystem::path& folder) {
+audit::AuditQuestion questionOf(const AuditLine& options, const std::filesystem::path& folder) {
     std::vector<std::string> device;
     if (!options.device.empty()) device = {"--device", options.device};
-    return {options.audit.quantities, options.audit.required, folder, options.force, device, compareFails};
+    return {options.quantities, options.required, folder, options.force, device, compareFails};
 }
 
-int auditQuantities(const Options& options, const Settings& settings) {
+int auditQuantities(const AuditLine& options, const Settings& settings) {
     AuditOpening opened(options, settings, "diptych-audit", "audit", audit::auditManifest);
-    audit::Audited audited = opened.audited();
+    audit::Audited audited = opened.audited;
     if (!options.shadows_given)
         audited.notes.emplace_back(
-            "--shadows off, except for shadow quantities: a shadow filter's error would hide other "
-            "errors");
-    const audit::AuditQuestion question = questionOf(options, opened.folder());
-    audit::Auditor auditor(question, std::move(audited), opened.subject(), opened.device(),
+            "--shadows off, except for shadow quantities: a shadow filter's error would hide other errors");
+    const audit::AuditQuestion question = questionOf(options, opened.out);
+    audit::Auditor auditor(question, std::move(audited), opened.subject, opened.device,
                            [&](const std::string& step) { say(options, step); });
     if (auditor.isRenewed())
-        note(options,
-             "the results of an interrupted audit belong to another scene, device or Settings; starting "
-             "anew");
+        note(
+            options,
+            "the results of an interrupted audit belong to another scene, device or Settings; starting anew");
     sayWhenInterrupted("finished steps are kept: the same command continues from there");
-    auditor.measure(opened.stage(), [&](const audit::QuantityAudit& quantity) {
+    auditor.measure(opened.stage, [&](const audit::QuantityAudit& quantity) {
         opened.print(output::inText(audit::blocksOf(quantity)));
     });
-    checkValidation(opened.device());
-    opened.stage().at(0.98, "write");
+    checkValidation(opened.device);
+    opened.stage.at(0.98, "write");
     if (const std::size_t kept = auditor.audit().kept; kept > 0)
         note(options, fmt::format("{} kept from an interrupted run", counted(kept, "step")));
     const std::string json = auditor.write();
-    opened.progress().wipe();
+    opened.progress.wipe();
     opened.print(output::inText(audit::closingOf(auditor.audit())));
     if (options.json) printText(json);
-    opened.print((opened.folder() / "index.html").string() + "\n");
+    opened.print((opened.out / "index.html").string() + "\n");
     return auditor.audit().passes() ? 0 : 1;
+}
+
+int auditRelations(const AuditLine& options, const Settings& settings) {
+    AuditOpening opened(options, settings, "diptych-relations", "audit of relations",
+                        audit::relationsManifest);
+    audit::RelationAudit audited{opened.audited, {}};
+    if (!options.shadows_given)
+        audited.notes.emplace_back("--shadows off: most relations do not test shadow maps");
+    audit::RelationMeasurer measurer(opened.device, opened.subject,
+                                     [&](const std::string& step) { say(options, step); });
+    for (const std::string& left : measurer.leftOut()) audited.notes.push_back("not drawn: " + left);
+    const auto all = audit::relationsOf(options.chosen_relations);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        opened.stage.at(0.02 + 0.96 * static_cast<double>(i) / static_cast<double>(all.size()),
+                        std::string(all[i]->name));
+        audited.relations.push_back(measurer.measure(*all[i]));
+        opened.print(output::inText(audit::blocksOf(audited.relations.back(), audited.device)));
+    }
+    checkValidation(opened.device);
+    opened.stage.at(0.98, "write");
+    const std::string json = audit::writeRelations(audited, opened.out, options.force);
+    opened.progress.wipe();
+    opened.print(output::inText(audit::closingOf(audited)));
+    for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
+    if (options.json) printText(json);
+    opened.print((opened.out / "index.html").string() + "\n");
+    return audited.passes() ? 0 : 1;
+}
+
+int runAudit(const AuditLine& options) {
+    checkAuditOptions(options);
+    const Settings settings = auditedSettings(options);
+    return options.relations ? auditRelations(options, settings) : auditQuantities(options, settings);
 }
 
 }  // namespace
 
-int runAudit(const Options& options) {
-    checkAuditOptions(options);
-    const Settings settings = auditedSettings(options);
-    return options.audit.relations ? runRelations(options, settings) : auditQuantities(options, settings);
+Command auditCommand() {
+    return makeCommand<AuditLine>(
+        {"audit", "Pushes scene and camera to numerical extremes and finds where each path breaks",
+         "diptych audit helmet.glb --quantity near,fov",
+         "quantity require shadows lights camera size device out force json"},
+        describeAudit, resolveAudit, runAudit);
 }
 
 }  // namespace diptych::cli

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/choose/report.h"
 #include "compare/choose/scene_chooser.h"
-#include "compare/cli/commands.h"
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
+#include "compare/cli/option_groups.h"
 #include "compare/files/linked_file.h"
 #include "compare/files/scene_folders.h"
 #include "compare/output/writers.h"
@@ -11,16 +13,65 @@
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <stdexcept>
+#include <charconv>
+#include <cmath>
 
 namespace diptych::cli {
 
 namespace {
 
 using namespace choose;
+
+struct ChooseLine : SceneGroup, GridGroup, Budget {
+    std::string figure_word = "flip";  // name in experiment::errorFigures
+    std::string bytes_word;
+    bool explain = false;  // --explain-choice
+};
+
+void describeChoose(CLI::App& app, ChooseLine& options) {
+    addScene(app, options, many_scenes_help);
+    addFiles(app, options,
+             "X.json: the chosen Settings (several scenes: one choice for all); any other name: folder with "
+             "a page, choice.json and settings.json; without -o: no files");
+    addGrid(app, options, "each Setting alone, and helpful combinations");
+    addOutput(app, options);
+    app.option_defaults()->group("Budgets (one or two)");
+    addOption(app, "--max-error", options.error, "E",
+              "largest error of lit; finds the fastest Settings within it");
+    addOption(app, "--figure", options.figure_word, "flip|relative_rmse|relative_p99",
+              "error metric of --max-error (flip)");
+    addOption(app, "--max-ms", options.ms, "T",
+              "longest frame time, ms; without --max-error, finds the most accurate Settings within it");
+    addOption(app, "--max-bytes", options.bytes_word, "B",
+              "largest memory of a frame: bytes, or a number with KiB, MiB or GiB");
+    app.add_flag("--explain-choice", options.explain,
+                 "explain the choice of path: the effect of overdraw, lights per pixel, transparency, "
+                 "samples, materials, triangles and size, and the value at which each would reverse the "
+                 "choice; renders a few hundred more frames");
+    acceptUnread(app, {"--path", "--runs"});
+    acceptUnread(app, picture_group);
+}
+
+// Parses "64MiB". Empty for an empty word.
+std::optional<std::uint64_t> bytesOf(const std::string& word) {
+    if (word.empty()) return {};
+    double number = -1;
+    const char *const begin = word.data(), *const end = begin + word.size();
+    const std::string_view rest(std::from_chars(begin, end, number).ptr, end);
+    for (const auto& [unit, size] : {std::pair{"", 1.0}, {"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}})
+        if (rest == unit && number > 0 && number * size < 0x1p63)
+            return static_cast<std::uint64_t>(number * size);
+    refuse("--max-bytes {}: takes a number above 0, in bytes or with KiB, MiB or GiB", word);
+}
+
+void resolveChoose(ChooseLine& options) {
+    resolveScene(options);
+    options.bytes = bytesOf(options.bytes_word);
+    if (options.error && !(*options.error >= 0 && std::isfinite(*options.error)))
+        refuse("--max-error {}: must be 0 or more and finite", *options.error);
+    if (options.ms && !(*options.ms > 0 && std::isfinite(*options.ms)))
+        refuse("--max-ms {}: must be above 0 and finite", *options.ms);
+}
 
 bool isSettingsFile(const std::filesystem::path& out) {
     return out.extension() == ".json";
@@ -33,40 +84,29 @@ void checkSettingsFile(const std::filesystem::path& file, bool force) {
     try {
         settingsFromJson(textIn(file, json_bytes));
     } catch (const std::exception&) {
-        throw std::runtime_error(
-            fmt::format("-o {}: exists and does not contain Settings; --force replaces it", file.string()));
+        refuse("-o {}: exists and does not contain Settings; --force replaces it", file.string());
     }
 }
 
-void checkChooseOptions(const Options& options) {
-    const ChooseOptions& choose = options.choose;
-    if (!choose.max_error && !choose.max_ms && !choose.max_bytes)
-        throw std::runtime_error("choose: a budget is missing; give --max-error, --max-ms or --max-bytes");
+void checkChooseOptions(const ChooseLine& options) {
+    if (!options.error && !options.ms && !options.bytes)
+        refuse("choose: a budget is missing; give --max-error, --max-ms or --max-bytes");
     if (isSettingsFile(options.out))
         checkSettingsFile(options.out, options.force);
     else if (!options.out.empty())
         outputFolder(options, "", "choice (X.json: only its Settings)", choiceManifest);
-    if (isReference(options.settings.path))
-        throw std::runtime_error(
-            "--path reference: errors are measured against it; use deferred or forward_plus");
-    if (const auto problem = referenceSettings(options.settings).problem())
-        throw std::runtime_error(*problem);
+    checkMeasured(options.settings);
 }
 
-Question questionOf(const Options& options) {
-    const ChooseOptions& choose = options.choose;
-    return {options.settings,
-            options.camera_given ? options.cameras : std::vector<std::string>(),
-            options.grid,
-            {figureNamed(choose.figure), choose.max_error, choose.max_ms, choose.max_bytes},
-            choose.explain,
-            renderOptions(options),
-            pictureChoice(options)};
+Question questionOf(const ChooseLine& options) {
+    return {
+        options.settings,      options.camera_given ? options.cameras : std::vector<std::string>(),
+        options.grid,          {figureNamed(options.figure_word), options.error, options.ms, options.bytes},
+        options.explain,       renderOptions(options),
+        pictureChoice(options)};
 }
 
-}  // namespace
-
-int runChoose(const Options& options) {
+int runChoose(const ChooseLine& options) {
     checkChooseOptions(options);
     const std::vector<std::string> scenes = scenesOf(options.scenes);
     const Question question = questionOf(options);
@@ -96,6 +136,17 @@ int runChoose(const Options& options) {
     }
     if (options.json) printOut("{}\n", jsonText(toJson(choices)));
     return settings ? 0 : 1;
+}
+
+}  // namespace
+
+Command chooseCommand() {
+    return makeCommand<ChooseLine>({"choose",
+                                    "Finds the fastest Settings within an error budget, or the most accurate "
+                                    "within a time or memory budget",
+                                    "diptych choose helmet.glb --max-error 0.02 -o helmet-choice",
+                                    "max-error max-ms max-bytes figure grid lights size device out json"},
+                                   describeChoose, resolveChoose, runChoose);
 }
 
 }  // namespace diptych::cli

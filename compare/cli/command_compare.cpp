@@ -1,45 +1,100 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
-#include "compare/cli/compare_many.h"
-#include "compare/cli/scene_comparison.h"
+#include "compare/cli/command_compare.h"
+
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
-#include "compare/files/output.h"
 #include "compare/files/scene_folders.h"
-#include "compare/frames/frame_facts.h"
-#include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/report.h"
-#include "compare/run/print.h"
 #include "compare/verdict/baseline.h"
 #include "compare/verdict/pair_reports.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/image/picture_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <stdexcept>
-#include <utility>
 
 namespace diptych::cli {
 namespace {
 
+void describeCompare(CLI::App& app, CompareLine& options) {
+    options.frames_refused = "only render takes it; compare takes --times";
+    addScene(app, options, many_scenes_help);
+    addAgainst(app, options,
+               "also render each path on this device, and compare it with the same path on --device");
+    addSides(app, options);
+    addCompared(app, options, "report folder (diptych-report)");
+    addShard(app, options, "diptych-report");
+    addSince(app, options);
+    addJudged(app, options);
+    addOutput(app, options);
+    acceptUnread(app, {"--debug", "--heat"});
+    app.get_option("--path")->description("path that --update-baseline writes (the file's own)");
+}
+
+Pixel pixelOf(const std::string& words) {
+    Pixel pixel;
+    const char *at = words.data(), *const end = at + words.size();
+    const auto [comma, first] = std::from_chars(at, end, pixel.x);
+    bool sound = first == std::errc() && comma != end && *comma == ',';
+    if (sound) {
+        const auto [last, second] = std::from_chars(comma + 1, end, pixel.y);
+        sound = second == std::errc() && last == end && pixel.x >= 0 && pixel.y >= 0;
+    }
+    if (!sound) refuse("--pixel {}: takes X,Y in pixels from the top left, for example 320,180", words);
+    return pixel;
+}
+
+// Checks a multisampled comparison with the reference: the sample counts must match, and --channels have lit,
+// which alone is compared then.
+void checkSamples(const CompareLine& options, const std::vector<Settings>& settings,
+                  const std::optional<Frame>& baseline) {
+    std::optional<Settings> reference;
+    if (comparedOf(options).withReference()) reference = referenceSettings(options.settings);
+    if (baseline && isReferenceFrame(*baseline)) reference = baseline->settings;
+    if (!reference) return;
+    for (const Settings& s : settings) {
+        if (isReference(s.path) || s.msaa == 1) continue;
+        if (const std::string problem = samplesProblem(*reference, s); !problem.empty())
+            throw std::runtime_error(problem);
+        if (!options.channels.empty() && std::ranges::count(options.channels, Channel::lit) == 0)
+            refuse("--msaa {}: only lit is compared with the reference; add it to --channels", s.msaa);
+    }
+}
+
+// Refuses options that a cross-device comparison does not support.
+void checkAgainstDevice(const CompareLine& options, const std::vector<Settings>& settings) {
+    if (options.against_device.empty()) return;
+    if (comparedOf(options).withReference() || !options.baseline_file.empty())
+        refuseAgainst(options,
+                      "compares each path with itself on another device; leave out --baseline reference or "
+                      "FILE.exr");
+    if (options.pixel) refuseAgainst(options, "compares whole images; leave out --pixel");
+    if (!options.renderers.empty()) refuseAgainst(options, "compares two devices; leave out --renderer");
+    checkOneSample(options, settings);
+}
+
 // A baseline file is an image of one scene, camera and time.
-void checkOnePicture(const Options& options, const std::vector<Settings>& settings) {
+void checkOnePicture(const CompareLine& options, const std::vector<Settings>& settings) {
     if (options.scenes.size() != 1 || settings.size() != 2)
-        throw std::runtime_error(
-            fmt::format("--baseline {}: a file holds one view; give one scene, one camera{}",
-                        options.baseline_file.string(), options.times.size() > 1 ? " and one time" : ""));
+        refuse("--baseline {}: a file holds one view; give one scene, one camera{}",
+               options.baseline_file.string(), options.times.size() > 1 ? " and one time" : "");
 }
 
 // The Frame that becomes the new baseline: of --path, else of the old baseline's path.
-const Frame& renewing(const Options& options, const Frame* old, const ViewFrames& view) {
+const Frame& renewing(const CompareLine& options, const Frame* old, const ViewFrames& view) {
     const Path path = old && !options.path_given && !isReference(old->settings.path) ? old->settings.path
                                                                                      : options.settings.path;
     if (const Frame* const drawn = view.by(path)) return *drawn;
-    throw std::runtime_error(
-        fmt::format("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path)));
+    refuse("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path));
 }
 
-void noteUnused(const Options& options) {
+void noteUnused(const CompareLine& options) {
     if (options.path_given && !options.update_baseline)
         note(options, "--path is not used: compare renders both");
     if (options.heat)
@@ -48,14 +103,14 @@ void noteUnused(const Options& options) {
 }
 
 // The file of --baseline; empty without one, or if this command writes the first.
-std::optional<Frame> readBaseline(const Options& options, const std::vector<Settings>& settings) {
+std::optional<Frame> readBaseline(const CompareLine& options, const std::vector<Settings>& settings) {
     if (options.baseline_file.empty()) return {};
     checkOnePicture(options, settings);
     if (options.update_baseline && !std::filesystem::exists(options.baseline_file)) return {};
     return frameFromExr(options.baseline_file);
 }
 
-int compareOneScene(const Options& options, const std::vector<Settings>& settings,
+int compareOneScene(const CompareLine& options, const std::vector<Settings>& settings,
                     std::optional<Frame> baseline, const std::filesystem::path& folder) {
     const PictureChoice picture = pictureChoice(options);
     CompareOptions compare = compareOptions(options);
@@ -103,12 +158,10 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);
-    if (options.json)
-        printText(json);
-    else if (!options.quiet)
-        printColored(options, fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report),
-                                          sinceText(since.get(), report), exposureLine(report, picture),
-                                          (folder / "index.html").string()));
+    printResult(
+        options, json,
+        fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report), sinceText(since.get(), report),
+                    exposureLine(report, picture), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
     sayErrors(report.errors);
     if (!report.errors.empty()) return 2;
@@ -116,14 +169,12 @@ int compareOneScene(const Options& options, const std::vector<Settings>& setting
     return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
 }
 
-}  // namespace
-
-int runCompare(const Options& given) {
+int runCompare(const CompareLine& given) {
     if (given.pixel) {
         checkAgainstDevice(given, {});
         return runPixel(given);
     }
-    Options options = given;
+    CompareLine options = given;
     options.scenes = scenesOf(given.scenes);
     const std::vector<Settings> settings = settingsOf(options, comparedOf(options).paths());
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
@@ -131,9 +182,82 @@ int runCompare(const Options& given) {
     std::optional<Frame> baseline = readBaseline(options, settings);
     checkSamples(options, settings, baseline);
     checkAgainstDevice(options, settings);
+    if (!options.since.empty() && !options.shard.empty())
+        refuse("--since: a shard does not have all scenes; give --since to merge");
     checkSince(options);
     if (options.scenes.size() > 1 || !options.shard.empty()) return compareMany(options, settings, folder);
     return compareOneScene(options, settings, std::move(baseline), folder);
+}
+
+}  // namespace
+
+experiment::Compared comparedOf(const CompareLine& options) {
+    return {options.baseline, !options.baseline_file.empty(), options.renderers, options.renderer_words};
+}
+
+ExplanationQuestion explanationOf(const CompareLine& options) {
+    return {options.explain, options.settings, options.sides, renderOptions(options), options.picture};
+}
+
+bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
+    const auto traced = [](const Settings& s) {
+        return isReference(s.path) && s.reference_mode == ReferenceMode::scene;
+    };
+    return std::ranges::any_of(settings, traced) ||
+           (baseline && isReferenceFrame(*baseline) && traced(baseline->settings));
+}
+
+void addCompared(CLI::App& app, CompareLine& options, const char* out) {
+    addOption(app, "--times", options.settings_words.times, "S,S,...",
+              "several animation times in one report, seconds (--time)")
+        ->group(pixel_group)
+        ->excludes(app.get_option("--time"));
+    addFiles(app, options, out);
+    addBaseline(app, options,
+                "left panel: deferred or forward_plus; with reference or an EXR, both paths are compared "
+                "with it (deferred)",
+                "PATH|FILE.exr");
+    addRenderers(app, options, "another renderer to compare with the left panel");
+    addReport(app, options);
+}
+
+void addJudged(CLI::App& app, CompareLine& options) {
+    app.option_defaults()->group(output_group);
+    app.add_flag("--update-baseline", options.update_baseline,
+                 "replace the --baseline FILE.exr; the old one stays as FILE.exr.old");
+    addSelection(app, options);
+    addTolerances(app, options);
+    addOption(app, "--twice", options.twice_word, "all|lit|none",
+              "channels to render a second time; a difference between the two runs is a race (lit)");
+    app.add_flag("--allow-noise", options.allow_noise,
+                 "on a GPU, add the difference between two runs of one path to its tolerance");
+    app.option_defaults()->group(output_group);
+    app.add_flag("--explain", options.explain, "name the causes of a lit difference even if it passes");
+    addOption(app, "--pixel", options.pixel_word, "X,Y",
+              "instead of a report, print one pixel's breakdown: both surfaces, each light's term, the first "
+              "step that differs; exit code 0 if that succeeds");
+}
+
+void resolveCompare(CompareLine& options) {
+    resolveScene(options);
+    resolveKeep(options);
+    options.twice = valueNamed<Twice>("--twice", options.twice_word,
+                                      {{{"all", Twice::all}, {"lit", Twice::lit}, {"none", Twice::none}}});
+    resolveBaseline(options);
+    if (options.update_baseline &&
+        (options.baseline_file.empty() || !pictureName(options.baseline_file).part.empty()))
+        refuse("--update-baseline: needs --baseline FILE.exr (without ?part=), the file to replace");
+    resolveRenderers(options);
+    if (options.pixel_word) options.pixel = pixelOf(*options.pixel_word);
+    resolveSelection(options);
+}
+
+Command compareCommand() {
+    return makeCommand<CompareLine>(
+        {"compare", "Renders a scene with both paths and compares every channel: table, pictures, verdict",
+         "diptych compare helmet.glb --lights point:32 -o helmet-report",
+         "gbuffer assign shadows lights camera size baseline tolerances out json"},
+        describeCompare, resolveCompare, runCompare);
 }
 
 }  // namespace diptych::cli

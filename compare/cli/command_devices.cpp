@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
-
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
 #include "compare/run/print.h"
 #include "shared/material/texture_probe.h"
 #include "shared/text/json_text.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,6 +14,23 @@
 
 namespace diptych::cli {
 namespace {
+
+struct DevicesLine : SceneGroup {
+    bool probe = false;  // run the probes of compare/probe
+};
+
+void describeDevices(CLI::App& app, DevicesLine& options) {
+    addSettings(app, options);
+    addPicture(app, options);
+    addDevice(app, options);
+    app.add_flag("--probe", options.probe,
+                 "run the shaders' functions on millions of inputs and compare them with double precision, "
+                 "in ULP; exit code 1 if an error exceeds Vulkan's limit");
+    addFiles(app, options, "not accepted: devices writes no file; use --json");
+    addOutput(app, options);
+    acceptUnread(app, {"--out", "--force"});
+    for (const char* unread : {pixel_group, picture_group}) acceptUnread(app, unread);
+}
 
 using ProbeResults = std::map<int, std::vector<probe::Result>>;  // key: device index
 
@@ -48,10 +64,8 @@ void print(const DeviceInfo& device) {
                  fact.required && !fact.there ? " (required)" : "");
 }
 
-}  // namespace
-
-int runDevices(const Options& options) {
-    refuseOut(options);
+int runDevices(const DevicesLine& options) {
+    refuseOut(options, "devices");
     std::vector<DeviceInfo> devices = listDevices();
     if (!options.device.empty()) {
         const DeviceInfo chosen = Device({options.device, options.validate}).info();
@@ -87,6 +101,14 @@ int runDevices(const Options& options) {
             "To use devices of several drivers at once (compare --against-device), set "
             "VK_DRIVER_FILES=FILE.json:FILE.json\n");
     return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;
+}
+
+}  // namespace
+
+Command devicesCommand() {
+    return makeCommand<DevicesLine>(
+        {"devices", "Lists Vulkan devices and what each can and cannot do here", "diptych devices"},
+        describeDevices, resolveScene, runDevices);
 }
 
 }  // namespace diptych::cli

@@ -1,26 +1,88 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
+#include "compare/cli/command_diff.h"
+
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/picture_folders.h"
 #include "compare/report/picture_diff_report.h"
 #include "compare/report/picture_diff_text.h"
-#include "compare/run/print.h"
-#include "compare/verdict/picture_diff.h"
 #include "shared/text/counted.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 namespace diptych::cli {
 
+namespace {
+
+void describeDiff(CLI::App& app, DiffLine& options) {
+    PictureDiffOptions& diff = options.diff;
+    addOption(app, "images", options.pictures, "A B", "reference and test image")->expected(2)->required();
+    app.option_defaults()->group(selection_group);
+    addOption(app, "--metric", options.metric_word, "NAME",
+              "metric for the verdict: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)");
+    addOption(
+        app, "--tolerance", options.tolerance_given, "T",
+        "largest metric value that passes; for psnr and ssim the smallest (none: only equal values pass)");
+    addOption(app, "--warn", diff.warn, "T", "warn beyond this value");
+    addOption(app, "--failing", diff.failing, "SHARE",
+              "instead of --metric: fraction of pixels whose error may exceed the tolerance")
+        ->check(CLI::Range(0.0, 1.0));
+    addList(app, "--channels", diff.channels, "NAME,...",
+            "names of the channels to compare, * and ? allowed (all)");
+    addEach(app, "--map", diff.names, "NAME=CHANNEL,...",
+            "Diptych's names for another renderer's channels; repeatable");
+    addOption(app, "--blur", diff.blur, "PIXELS",
+              "blur both pictures first, standard deviation in pixels (0)")
+        ->check(CLI::Range(0.0, 100.0));
+    addOption(app, "--shift", diff.shift, "PIXELS", "allow features to move by up to this many pixels (0)")
+        ->check(CLI::Range(0, 16));
+    addOption(app, "--ppd", diff.flip.pixels_per_degree, "F",
+              "FLIP: pixels per degree of the view (67.0206)");
+    addOption(app, "--start-exposure", diff.flip.start_exposure, "STOPS",
+              "HDR-FLIP: the darkest exposure, stops (from the reference)");
+    addOption(app, "--stop-exposure", diff.flip.stop_exposure, "STOPS",
+              "HDR-FLIP: the brightest exposure, stops");
+    addOption(app, "--exposures", diff.flip.exposures, "N", "HDR-FLIP: number of exposures")
+        ->check(CLI::Range(1, 1000));
+    addSelection(app, options);
+    addTolerances(app, options);
+    addReport(app, options);
+    addFiles(app, options,
+             "X.exr: errors of every channel; X.png: errors of the deciding channel; any other name: report "
+             "folder; without -o: no files");
+    addOutput(app, options);
+}
+
+void resolveDiff(DiffLine& options) {
+    PictureDiffOptions& diff = options.diff;
+    refuseLineBreaks(options.pictures);
+    resolveKeep(options);
+    resolveSelection(options);
+    diff.selection = options.selection;
+    diff.strict = options.strict;
+    diff.allow_empty = options.allow_empty;
+    diff.metric_given = !options.metric_word.empty();
+    diff.metric = figureOfMetric(diff.metric_given ? options.metric_word : "flip");
+    if (diff.failing && diff.metric_given)
+        refuse("--failing: counts pixels by the channel's own error; leave out --metric");
+    if (!std::isfinite(diff.blur)) refuse("--blur: must be a finite number of pixels");
+    const Figure& figure = *findFigure(diff.metric);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
+    diff.tolerance = options.tolerance_given.value_or(identity);
+    diff.tolerance_given = options.tolerance_given.has_value();
+    if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
+        refuse("--tolerance {}: must be 0 or more", diff.tolerance);
+    if (diff.failing && !diff.tolerance_given)
+        refuse("--failing: needs --tolerance T, the error above which a pixel fails");
+}
+
 // Fraction of the time spent on reading and measuring; writing takes the rest.
 constexpr double measuring = 0.9;
-
-namespace {
 
 // Bytes per pixel allocated for writing while the images are in memory, measured. A folder needs the
 // images, their errors and one float image; else a PNG.
@@ -29,21 +91,13 @@ double outputBytes(const std::optional<Output>& output) {
     return output->kind == OutputKind::folder ? 13 : 4;
 }
 
-void print(const Options& options, const std::string& text) {
-    if (options.json)
-        printText(text);
-    else if (!options.quiet)
-        printColored(options, text);
-}
-
 // Compares all images whose names exist in both folders.
-int diffFolders(const Options& options, PictureDiffOptions settings, const std::optional<Output>& output) {
+int diffFolders(const DiffLine& options, PictureDiffOptions settings, const std::optional<Output>& output) {
     namespace fs = std::filesystem;
     if (output && output->kind != OutputKind::folder)
-        throw std::runtime_error(fmt::format(
-            "-o {}: comparing two folders writes a report folder; give a name without an extension",
-            output->path.string()));
-    FolderDiff diff{options.scenes.at(0), options.scenes.at(1), {}, {}, {}, {}};
+        refuse("-o {}: comparing two folders writes a report folder; give a name without an extension",
+               output->path.string());
+    FolderDiff diff{options.pictures.at(0), options.pictures.at(1), {}, {}, {}, {}};
     const fs::path left = diff.reference, right = diff.test;
     PictureFolders folders = pictureFolders(left, right);
     Progress progress(progressOutput(options));
@@ -63,55 +117,79 @@ int diffFolders(const Options& options, PictureDiffOptions settings, const std::
         }
     }
     if (diff.pictures.empty())
-        throw std::runtime_error(fmt::format("none of {} can be compared; the first: {}",
-                                             counted(folders.both.size(), "image"),
-                                             diff.errors.front().message));
+        refuse("none of {} can be compared; the first: {}", counted(folders.both.size(), "image"),
+               diff.errors.front().message);
     diff.reference_alone = std::move(folders.reference_alone);
     diff.test_alone = std::move(folders.test_alone);
     const bool passed = diff.passed();
     const std::string text = options.json ? folderDiffJson(diff) : folderDiffTable(diff);
     if (output)
         writePictureDiffs(std::move(diff.pictures), output->path,
-                          {pictureChoice(options), options.single_file, options.keep, options.force,
-                           stage.part(measuring, 1)},
+                          {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
                           wordsOfWhatCounts(options), diff.errors, diff.failures());
     progress.wipe();
-    print(options, text);
+    printResult(options, text, text);
     sayErrors(diff.errors);
     return !diff.errors.empty() ? 2 : passed ? 0 : 1;
 }
 
-}  // namespace
-
-int runDiff(const Options& options) {
+int runDiff(const DiffLine& options) {
     const std::optional<Output> output =
         options.out.empty() ? std::nullopt : std::optional(outputOf(options.out));
     if (output) checkReplaceable(*output, "report.json", options.force);
     PictureDiffOptions settings = options.diff;
-    settings.strict = options.strict;
-    settings.allow_empty = options.allow_empty;
     settings.output_bytes = outputBytes(output);
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
     const auto isFolder = [&](std::size_t i) {
         std::error_code ignored;  // diffPictures() reports unreadable files
-        return std::filesystem::is_directory(options.scenes.at(i), ignored);
+        return std::filesystem::is_directory(options.pictures.at(i), ignored);
     };
     if (isFolder(0) && isFolder(1)) return diffFolders(options, std::move(settings), output);
     Progress progress(progressOutput(options));
-    const Stage stage(progress, options.scenes.at(1));
+    const Stage stage(progress, options.pictures.at(1));
     settings.progress = stage.part(0, measuring);
-    PictureDiff diff = diffPictures(options.scenes.at(0), options.scenes.at(1), settings);
+    PictureDiff diff = diffPictures(options.pictures.at(0), options.pictures.at(1), settings);
     stage.at(measuring, "write");
     const bool passed = diff.passed();
     const std::string text = options.json ? pictureDiffJson(diff) : pictureDiffTable(diff);
     if (output)
         writePictureDiff(std::move(diff), *output,
-                         {pictureChoice(options), options.single_file, options.keep, options.force,
-                          stage.part(measuring, 1)},
+                         {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
                          wordsOfWhatCounts(options));
     progress.wipe();
-    print(options, text);
+    printResult(options, text, text);
     return passed ? 0 : 1;
+}
+
+}  // namespace
+
+std::vector<std::string> wordsOfWhatCounts(const DiffLine& options) {
+    const PictureDiffOptions &diff = options.diff, defaults;
+    WordList words;
+    words.add("--tolerances", options.tolerances.string());
+    words.add("--metric", diff.metric, defaults.metric);
+    if (std::isfinite(diff.tolerance)) words.add("--tolerance", diff.tolerance, defaults.tolerance);
+    words.add("--warn", diff.warn);
+    words.add("--failing", diff.failing);
+    for (const std::string& name : diff.names) words.add("--map", std::optional(name));
+    words.add("--blur", diff.blur);
+    words.add("--shift", diff.shift);
+    words.add("--ppd", diff.flip.pixels_per_degree, defaults.flip.pixels_per_degree);
+    words.add("--start-exposure", diff.flip.start_exposure);
+    words.add("--stop-exposure", diff.flip.stop_exposure);
+    words.add("--exposures", diff.flip.exposures);
+    words.add(options.selection);
+    words.add("--strict", options.strict);
+    words.add("--allow-empty", options.allow_empty);
+    return words.words;
+}
+
+Command diffCommand() {
+    return makeCommand<DiffLine>(
+        {"diff", "Compares any two EXR, PNG, JPEG, TIFF, HDR or PFM images from any renderer",
+         "diptych diff reference.exr test.exr --metric flip --tolerance 0.01 -o difference",
+         "metric tolerance failing channels map mask crop tolerances out json"},
+        describeDiff, resolveDiff, runDiff);
 }
 
 }  // namespace diptych::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
-#include "compare/cli/scene_comparison.h"
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/experiment/two_devices.h"
 #include "compare/explain/conventions.h"
 #include "compare/explain/device_shares.h"
@@ -11,7 +11,6 @@
 #include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
 #include "compare/output/writers.h"
-#include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
 #include "compare/run/still_working.h"
@@ -22,46 +21,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
-#include <stdexcept>
-#include <string>
 #include <string_view>
-#include <utility>
 
 namespace diptych::cli {
 
 namespace {
 
+struct ExplainLine : SceneGroup, BaselineGroup, RendererGroup {
+    std::string scene_file;  // scene of two EXR files; empty: as declared
+    // Settings in which the test differs from the baseline, as words of Settings::set().
+    std::vector<std::pair<std::string, std::string>> test;
+    std::vector<std::string> test_words;
+};
+
+void describeExplain(CLI::App& app, ExplainLine& options) {
+    addScene(app, options, "a glTF file or builtin:NAME (builtin:gallery); or two EXR files");
+    addAgainst(app, options, "render the baseline's path on this device too, and explain the difference");
+    addSides(app, options);
+    addFiles(app, options, "folder for the page, maps and JSON; without -o: no files");
+    addBaseline(app, options, "picture taken as correct (deferred)", "deferred|forward_plus");
+    addRenderers(app, options, "another renderer as the second picture");
+    addOption(app, "--scene", options.scene_file, "FILE", "scene of two EXR files, if they do not name it");
+    addEach(app, "--test", options.test_words, "NAME=VALUE",
+            "Setting of the second picture, such as gbuffer=compact; repeatable (path: the other path)");
+    addOutput(app, options);
+    acceptUnread(app, {"--debug", "--heat", "--channels", "--list-channels", "--path", "--runs"});
+}
+
+void resolveExplain(ExplainLine& options) {
+    resolveScene(options);
+    resolveBaseline(options);
+    for (const std::string& given : options.test_words) {
+        const std::size_t at = given.find('=');
+        if (at == std::string::npos || at == 0)
+            refuse("--test {}: takes NAME=VALUE, for example gbuffer=compact", given);
+        const std::string name = given.substr(0, at);
+        if (std::ranges::none_of(settingFields(), [&](const Field& field) { return field.option == name; }))
+            refuse("--test {}: there is no Setting {}", given, name);
+        options.test.emplace_back(name, given.substr(at + 1));
+    }
+    resolveRenderers(options);
+}
+
 // The test Settings: those of --test, else the other path.
-Settings testOf(const Options& options, const Settings& baseline, std::string& name) {
+Settings testOf(const ExplainLine& options, const Settings& baseline, std::string& name) {
     if (!options.test.empty() && options.sides.any())
-        throw std::runtime_error(
-            "--test: --deferred and --forward-plus already define both images; leave out --test");
+        refuse("--test: --deferred and --forward-plus already define both images; leave out --test");
     const Path other = otherPath(options.baseline);
     Settings test = options.sides.of(options.settings, options.test.empty() ? other : options.baseline);
     for (const SettingDifference& of : settingDifferences(baseline, test))
         name += fmt::format(" --{} {}", of.option, of.test);
     for (const auto& [option, value] : options.test) {
         if (std::ranges::find(viewOptions(), std::string_view(option)) != viewOptions().end())
-            throw std::runtime_error(
-                fmt::format("--test {0}={1}: both images show one view of one scene; give --{0} {1} instead",
-                            option, value));
+            refuse("--test {0}={1}: both images show one view of one scene; give --{0} {1} instead", option,
+                   value);
         test.set(option, value);
         if (option != "path") name += fmt::format(" --{} {}", option, value);
     }
     name = fmt::format("{}{}", nameOf(test.path), name);
     if (isReference(test.path))
-        throw std::runtime_error(
+        refuse(
             "--test path=reference: explain works with the two rendered paths; use deferred or forward_plus");
-    if (test == baseline)
-        throw std::runtime_error("--test: both images have the same Settings; give one that differs");
-    if (const auto problem = test.problem()) throw std::runtime_error(*problem);
+    if (test == baseline) refuse("--test: both images have the same Settings; give one that differs");
+    checkSettings(test);
     return test;
 }
 
 // Prints the explanation, and writes it if -o is given.
-void leave(const Options& options, const PictureChoice& picture, const Explanation& explanation,
+void leave(const ExplainLine& options, const PictureChoice& picture, const Explanation& explanation,
            const ExplainedPictures& of, const Frame& baseline, const Frame& test) {
     std::string json;
     if (!options.out.empty())
@@ -78,43 +105,39 @@ void leave(const Options& options, const PictureChoice& picture, const Explanati
 }
 
 // The view of `ours`, rendered by the one --renderer.
-Frame drawnByOther(const Options& options, SceneViews& views, const Frame& ours, Renderer& drawing,
+Frame drawnByOther(const ExplainLine& options, SceneViews& views, const Frame& ours, Renderer& drawing,
                    const RenderOptions& render) {
     const external::Renderer& renderer = options.renderers.front();
     external::Attempt attempt = external::drawExternally(renderer, views.scene(),
                                                          views.at(viewRequest(ours.settings)), ours.settings);
     if (!attempt.frame)
-        throw std::runtime_error(
-            fmt::format("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem));
+        refuse("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem);
     for (const std::string& line : attempt.frame->notes)
         if (std::ranges::count(ours.notes, line) == 0) note(options, line);
     return substituteChannels(*attempt.frame, ours, drawing, render);
 }
 
 // Checks the options of one scene. Returns the baseline's Settings.
-Settings checkedBaseline(const Options& options) {
+Settings checkedBaseline(const ExplainLine& options) {
     if (options.scenes.size() != 1)
-        throw std::runtime_error(
-            fmt::format("{}: explain takes one scene; run it once for each", options.scenes[1]));
+        refuse("{}: explain takes one scene; run it once for each", options.scenes[1]);
     if (!options.scene_file.empty())
-        throw std::runtime_error(
-            fmt::format("--scene {}: names the scene of two EXR files; the scene here is {}",
-                        options.scene_file, options.scenes.front()));
+        refuse("--scene {}: names the scene of two EXR files; the scene here is {}", options.scene_file,
+               options.scenes.front());
     const Settings baseline = options.sides.of(options.settings, options.baseline);
-    if (const auto problem = baseline.problem()) throw std::runtime_error(*problem);
+    checkSettings(baseline);
     const bool external = !options.renderers.empty();
     if (external && (options.renderers.size() > 1 || !options.test.empty()))
-        throw std::runtime_error("--renderer: explain compares two images; give one renderer and no --test");
+        refuse("--renderer: explain compares two images; give one renderer and no --test");
     if (options.against_device.empty()) return baseline;
     if (external || !options.test.empty())
-        throw std::runtime_error(
-            fmt::format("--against-device {}: explain compares two images; give no --renderer and no --test",
-                        options.against_device));
-    checkAgainstDevice(options, {baseline});
+        refuse("--against-device {}: explain compares two images; give no --renderer and no --test",
+               options.against_device);
+    checkOneSample(options, {baseline});
     return baseline;
 }
 
-void addCommands(const Options& options, const Settings& baseline, const Settings& test,
+void addCommands(const ExplainLine& options, const Settings& baseline, const Settings& test,
                  ExplainedPictures& of) {
     const bool external = !options.renderers.empty(), across = !options.against_device.empty();
     std::vector<std::string> again =
@@ -133,7 +156,7 @@ void addCommands(const Options& options, const Settings& baseline, const Setting
              shellLine(withWords(commandWords("compare", of.scene, baseline), wordsOf(options.sides)))});
 }
 
-int explainScene(const Options& options) {
+int explainScene(const ExplainLine& options) {
     const Settings baseline = checkedBaseline(options);
     ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
     const bool external = !options.renderers.empty();
@@ -186,7 +209,7 @@ bool isExr(const std::string& name) {
 }
 
 // Reads an EXR. Settings that it does not declare come from the command line.
-Frame readPicture(const Options& options, const std::string& file) {
+Frame readPicture(const ExplainLine& options, const std::string& file) {
     Frame frame = frameFromExr(file);
     frame.name = file;
     if (frame.scene.empty()) {
@@ -196,39 +219,38 @@ Frame readPicture(const Options& options, const std::string& file) {
         checkAsked(file, options.scene_file.empty() ? frame.scene : "", frame.settings);
     }
     if (isReferenceFrame(frame))
-        throw std::runtime_error(
-            fmt::format("{}: is an image of the reference, which does not light from the channels that "
-                        "explain replaces; give images of deferred or forward_plus",
-                        file));
+        refuse(
+            "{}: is an image of the reference, which does not light from the channels that explain replaces; "
+            "give images of deferred or forward_plus",
+            file);
     if (isReference(frame.settings.path)) frame.settings.path = unencoded_path;  // from another renderer
     const Image& any = frame.channels.begin()->second;
     frame.settings.size = {any.width, any.height};
     return frame;
 }
 
-int explainFiles(const Options& options) {
+int explainFiles(const ExplainLine& options) {
     Progress progress(progressOutput(options));
     std::optional<StillWorking> working(std::in_place, Stage(progress, options.scenes[1]).part(0, 0), "read");
     const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
     working.reset();
     if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
-        throw std::runtime_error(
-            fmt::format("{} shows {}, {} shows {}: explain takes one scene; if both are the same scene, give "
-                        "--scene FILE",
-                        options.scenes[0], a.scene, options.scenes[1], b.scene));
+        refuse(
+            "{} shows {}, {} shows {}: explain takes one scene; if both are the same scene, give --scene "
+            "FILE",
+            options.scenes[0], a.scene, options.scenes[1], b.scene);
     for (int i = 0; i < 3 && !a.scene.empty() && !b.scene.empty(); ++i)
         if (std::abs(a.camera.eye[i] - b.camera.eye[i]) > 1e-6 * (1 + std::abs(a.camera.eye[i])))
-            throw std::runtime_error(
-                fmt::format("{} and {} have different camera positions; explain needs two images of one view",
-                            options.scenes[0], options.scenes[1]));
+            refuse("{} and {} have different camera positions; explain needs two images of one view",
+                   options.scenes[0], options.scenes[1]);
     if (!a.scene.empty() && !(options.settings == Settings()))
         note(options, "Settings come from the files; those of the command line are not used");
     std::string where = options.scene_file;
     for (const Frame* frame : {&a, &b})
         if (where.empty()) where = frame->scene;
     if (where.empty())
-        throw std::runtime_error(fmt::format("{}, {}: neither file names its scene; give --scene FILE",
-                                             options.scenes[0], options.scenes[1]));
+        refuse("{}, {}: neither file names its scene; give --scene FILE", options.scenes[0],
+               options.scenes[1]);
     std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
     if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);
     ExplainedPictures of{
@@ -251,26 +273,32 @@ int explainFiles(const Options& options) {
     return 0;
 }
 
-}  // namespace
-
-int runExplain(const Options& options) {
+int runExplain(const ExplainLine& options) {
     if (!options.out.empty()) outputFolder(options, "", "explanation", explanationManifest);
     if (options.cameras.size() != 1)
-        throw std::runtime_error(
-            fmt::format("--camera {}: explain takes one view; run it once for each", options.cameras[1]));
+        refuse("--camera {}: explain takes one view; run it once for each", options.cameras[1]);
     if (isReference(options.baseline) || !options.baseline_file.empty())
-        throw std::runtime_error(
-            "--baseline reference or FILE.exr: explain works with the two rendered paths; "
-            "use deferred or forward_plus");
+        refuse(
+            "--baseline reference or FILE.exr: explain works with the two rendered paths; use deferred or "
+            "forward_plus");
     if (std::ranges::none_of(options.scenes, isExr)) return explainScene(options);
     if (options.scenes.size() != 2 || !std::ranges::all_of(options.scenes, isExr))
-        throw std::runtime_error(
-            fmt::format("{}: explain takes one scene or two EXR files", options.scenes.front()));
+        refuse("{}: explain takes one scene or two EXR files", options.scenes.front());
     if (!options.test.empty())
-        throw std::runtime_error(
-            fmt::format("--test {}={}: the two files define both images; leave out --test",
-                        options.test[0].first, options.test[0].second));
+        refuse("--test {}={}: the two files define both images; leave out --test", options.test[0].first,
+               options.test[0].second);
     return explainFiles(options);
+}
+
+}  // namespace
+
+Command explainCommand() {
+    return makeCommand<ExplainLine>(
+        {"explain",
+         "Ranks the causes of a lit difference: which channels and Settings, by how much, and where",
+         "diptych explain helmet.glb --gbuffer compact -o helmet-causes",
+         "gbuffer test baseline scene lights camera size device out json"},
+        describeExplain, resolveExplain, runExplain);
 }
 
 }  // namespace diptych::cli

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // render --frames: loads and uploads the scene once, and writes each image as soon as it is rendered.
-#include "compare/cli/render_output.h"
+#include "compare/cli/command_render.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/output_folder.h"
 #include "compare/metrics/channel.h"
-#include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/report/titles.h"
 #include "compare/run/print.h"
@@ -16,10 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
-#include <optional>
 #include <set>
-#include <stdexcept>
 
 namespace diptych::cli {
 namespace {
@@ -39,17 +35,16 @@ fs::path numberedFile(fs::path file, const std::string& number) {
 }
 
 // --frames takes one scene and one camera.
-void checkOneView(const Options& options) {
+void checkOneView(const RenderLine& options) {
     if (options.scenes.size() > 1 || options.cameras.size() > 1)
-        throw std::runtime_error(
-            fmt::format("--frames {}: takes one scene and one camera; {} are given", options.frames,
-                        options.scenes.size() > 1 ? fmt::format("{} scenes", options.scenes.size())
-                                                  : fmt::format("{} cameras", options.cameras.size())));
+        refuse("--frames {}: takes one scene and one camera; {} are given", options.frames,
+               options.scenes.size() > 1 ? fmt::format("{} scenes", options.scenes.size())
+                                         : fmt::format("{} cameras", options.cameras.size()));
 }
 
 class FrameWriter {
 public:
-    FrameWriter(const Options& options, const ReportDevice& made)
+    FrameWriter(const RenderLine& options, const ReportDevice& made)
         : options_(options),
           made_(made),
           output_(outputIn(options)),
@@ -145,7 +140,7 @@ private:
         flushText();
     }
 
-    const Options& options_;
+    const RenderLine& options_;
     const ReportDevice made_;
     const Output output_;
     const ShownChannels shown_;
@@ -177,7 +172,7 @@ private:
 
 }  // namespace
 
-int runFrames(const Options& options) {
+int runFrames(const RenderLine& options) {
     checkOneView(options);
     Settings settings = settingsOf(options, {options.settings.path}).front();
     checkChannels(options);

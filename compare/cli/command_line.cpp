@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
 
-#include "compare/cli/command_options.h"
 #include "compare/cli/manual.h"
-#include "compare/cli/resolve_options.h"
 #include "compare/run/version.h"
-#include "compare/viewer/keys.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/counted.h"
 #include "shared/text/did_you_mean.h"
-#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -42,12 +39,6 @@ std::string inOurWords(const std::string& error) {
                        error.substr(at + tooOften.size()));
 }
 
-std::vector<std::string> commandNames() {
-    std::vector<std::string> names;
-    for (const Command& command : allCommands()) names.push_back(command.name);
-    return names;
-}
-
 std::vector<std::string> builtinScenes() {
     std::vector<std::string> names;
     for (const BuiltinName& row : builtinNames()) names.push_back("builtin:" + row.name);
@@ -65,60 +56,83 @@ std::string meantOption(const std::string& error, const CLI::App& app) {
     return didYouMean(word, names);
 }
 
-// The words of the command line, apart from those that CLI11 does not parse.
-struct CommandWords {
-    std::vector<std::string> parsed, submitted;  // submit: of the command after --
-    bool every_option = false;                   // "--help all"; "--help" prints the most used ones
-};
+Command& commandOf(std::vector<Command>& commands, const CLI::App& sub) {
+    return *std::ranges::find(commands, sub.get_name(), &Command::name);
+}
 
-CommandWords splitWords(const std::vector<std::string>& given) {
-    CommandWords words{given, {}};
-    std::vector<std::string>& parsed = words.parsed;
-    if (!given.empty() && given.front() == "submit") {
-        const auto end = std::ranges::find(parsed, "--");
-        if (end != parsed.end()) words.submitted.assign(end + 1, parsed.end());
-        parsed.erase(end, parsed.end());
-    }
-    for (std::size_t i = 1; i < parsed.size(); ++i)
-        if (parsed[i] == "all" && (parsed[i - 1] == "--help" || parsed[i - 1] == "-h")) {
-            parsed.erase(parsed.begin() + static_cast<std::ptrdiff_t>(i));
-            words.every_option = true;
+// Removes the word of "--help all"; "--help" prints the options used most. Returns whether it was there.
+bool takeAll(std::vector<std::string>& words) {
+    bool taken = false;
+    for (std::size_t i = 1; i < words.size(); ++i)
+        if (words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h")) {
+            words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
+            taken = true;
         }
-    return words;
+    return taken;
 }
 
-void refuseUnknownCommand(const std::vector<std::string>& words) {
-    if (words.empty()) throw std::runtime_error("a command is missing; see diptych --help");
-    const auto known = [&](const Command& command) { return command.name == words.front(); };
-    if (!words.front().starts_with('-') && std::ranges::none_of(allCommands(), known))
-        throw std::runtime_error(fmt::format("{}: no such command{}; see diptych --help", words.front(),
-                                             didYouMean(words.front(), commandNames())));
+// The command that the first word names; nullptr if it is an option.
+const Command* commandIn(const std::vector<Command>& commands, const std::vector<std::string>& words) {
+    if (words.empty()) refuse("a command is missing; see diptych --help");
+    const auto found = std::ranges::find(commands, words.front(), &Command::name);
+    if (found != commands.end()) return &*found;
+    if (words.front().starts_with('-')) return nullptr;
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.name);
+    refuse("{}: no such command{}; see diptych --help", words.front(), didYouMean(words.front(), names));
 }
 
-void describeProgram(CLI::App& app, Options& options, ParsedOptions& parsed) {
+// CLI11 accepts C literals: "0x10" would mean 16.
+void refuseHexadecimals(CLI::App& app) {
+    constexpr std::array<std::string_view, 9> numbers{"F",      "N",     "K",     "T",     "E",
+                                                      "PIXELS", "STOPS", "SHARE", "ID,..."};
+    for (CLI::Option* option : app.get_options())
+        if (std::ranges::count(numbers, option->get_type_name()) > 0)
+            option->check([](const std::string& word) {
+                return word.find_first_of("xX") == word.npos
+                           ? std::string()
+                           : word + " is not a decimal number; write for example 0.5";
+            });
+}
+
+void describeProgram(CLI::App& app, const std::vector<Command>& commands) {
     app.set_version_flag("--version", std::string("diptych ") + versionName());
     app.require_subcommand(0, 1);
     app.get_formatter()->column_width(44);
     app.footer(
         "Example: diptych compare builtin:gallery\nCOMMAND --help lists its common options, COMMAND --help "
         "all every option.\nExit codes: 0 parity, 1 difference beyond tolerance, 2 error.");
-    for (const Command& command : allCommands()) {
+    for (const Command& command : commands) {
         CLI::App& sub = *app.add_subcommand(command.name, command.does);
-        sub.footer("Example: " + command.example +
-                   (command.name == "view" ? "\n\nKeys:\n" + viewer::keyColumns() : ""));
-        describe(sub, command.name, options, parsed);
+        sub.footer("Example: " + command.example + command.more_help);
+        command.describe(sub);
+        refuseHexadecimals(sub);
     }
 }
 
+// Hides all options but the most used ones. Returns how many it hid.
+std::size_t hideSeldomUsed(CLI::App& app, const std::string& most_used) {
+    if (most_used.empty()) return 0;
+    const std::string names = " " + most_used + " ";
+    std::size_t hidden = 0;
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_group().empty() || option->get_positional() || option == app.get_help_ptr()) continue;
+        const bool shown = std::ranges::any_of(option->get_lnames(), [&](const std::string& name) {
+            return names.find(" " + name + " ") != names.npos;
+        });
+        if (shown) continue;
+        option->group("");
+        ++hidden;
+    }
+    return hidden;
+}
+
 // The help of the given command, or of the program.
-std::string helpText(CLI::App& app, bool every_option) {
+std::string helpText(CLI::App& app, std::vector<Command>& commands, bool every_option) {
     const CLI::App* chosen = &app;
     for (CLI::App* sub : app.get_subcommands()) {
         chosen = sub;
-        const std::size_t more =
-            every_option
-                ? 0
-                : hideSeldomUsed(*sub, *std::ranges::find(allCommands(), sub->get_name(), &Command::name));
+        const std::size_t more = every_option ? 0 : hideSeldomUsed(*sub, commandOf(commands, *sub).most_used);
         if (more > 0)
             sub->footer(fmt::format("{}: diptych {} --help all\n\n{}", counted(more, "more option"),
                                     sub->get_name(), sub->get_footer()));
@@ -137,89 +151,41 @@ std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-Options parseCommandLine(const std::vector<std::string>& given) {
-    const CommandWords words = splitWords(given);
-    Options options;
-    options.submit.words = words.submitted;
-    options.scenes.clear();
-    ParsedOptions parsed;
+CommandLine parseCommandLine(const std::vector<std::string>& given) {
+    std::vector<Command> commands = allCommands();
+    std::vector<std::string> words = given;
+    const Command* const first = commandIn(commands, words);
+    if (first != nullptr && first->submitted != nullptr) {
+        const auto end = std::ranges::find(words, "--");
+        if (end != words.end()) first->submitted->assign(end + 1, words.end());
+        words.erase(end, words.end());
+    }
+    const bool every_option = takeAll(words);
     CLI::App app(
         "Renders a glTF scene with a deferred and a forward+ renderer and reports where the two differ,\nby "
         "how much, why, and what each costs.",
         "diptych");
     bool manual = false;
     std::string shell;
-    describeProgram(app, options, parsed);
+    describeProgram(app, commands);
     app.add_flag("--manual", manual, "print the manual page (view it with man -l -)");
-    app.add_option("--completion", shell, "print a shell completion script")
-        ->type_name(std::string(completedShells));
-    refuseUnknownCommand(words.parsed);
+    addOption(app, "--completion", shell, std::string(completedShells), "print a shell completion script");
     try {
-        const std::vector<std::string> joined = joinFlagValues(words.parsed);
-        app.parse(std::vector<std::string>(joined.rbegin(), joined.rend()));  // CLI11 reads from the back
-        if (manual) {
-            options.help = manualPage(app, std::string("diptych ") + versionName());
-            return options;
-        }
-        if (!shell.empty()) {
-            options.help = completion(app, shell, builtinScenes());
-            return options;
-        }
-        if (app.get_subcommands().empty())
-            throw std::runtime_error("a command is missing; see diptych --help");
+        words = joinFlagValues(words);
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 reads from the back
     } catch (const CLI::CallForHelp&) {
-        options.help = helpText(app, words.every_option);
-        return options;
+        return {helpText(app, commands, every_option)};
     } catch (const CLI::CallForVersion& version) {
-        options.help = std::string(version.what()) + "\n";
-        return options;
+        return {std::string(version.what()) + "\n"};
     } catch (const CLI::ParseError& error) {
         throw std::runtime_error(parseErrorText(app, error));
     }
-    options.command = app.get_subcommands().front()->get_name();
-    resolve(options, parsed);
-    return options;
-}
-
-Options parseReported(const std::vector<std::string>& words) {
-    constexpr std::array taken{"--baseline", "--tolerances",  "--against-device", "--device",
-                               "--mask",     "--ids",         "--ignore-edges",   "--crop",
-                               "--deferred", "--forward-plus"};
-    constexpr std::array flags{"--allow-noise", "--strict", "--allow-empty"};
-    constexpr std::array left_out{"-o", "--renderer"};
-    const auto isOneOf = [](const auto& options, const std::string& name) {
-        return std::ranges::find(options, name) != options.end();
-    };
-    const auto isSetting = [](const std::string& name) {
-        return std::ranges::any_of(
-            settingFields(), [&](const Field& field) { return name == "--" + std::string(field.option); });
-    };
-    std::vector<std::string> read{"view"};
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        const std::string& word = words[i];
-        const std::string name = word.substr(0, word.find('='));
-        if (word == "--") {  // scenes follow
-            read.insert(read.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
-            break;
-        }
-        if (!word.starts_with('-') || isOneOf(flags, word)) {
-            read.push_back(word);
-            continue;
-        }
-        const bool unread = isOneOf(left_out, name);
-        if (!unread && !isOneOf(taken, name) && !isSetting(name))
-            throw std::runtime_error(
-                fmt::format("the command of the comparison has {}: view takes only scene, Settings and "
-                            "comparison options from a report",
-                            oneLine(name)));
-        if (name == word && i + 1 == words.size())
-            throw std::runtime_error(
-                fmt::format("the command of the comparison ends after {}, without its value", name));
-        // Joined with "=", so that CLI11 never reads a value as an option.
-        const std::string value = name == word ? name + "=" + words[++i] : word;
-        if (!unread) read.push_back(value);
-    }
-    return parseCommandLine(read);
+    if (manual) return {manualPage(app, std::string("diptych ") + versionName())};
+    if (!shell.empty()) return {completion(app, shell, builtinScenes())};
+    if (app.get_subcommands().empty()) refuse("a command is missing; see diptych --help");
+    Command& chosen = commandOf(commands, *app.get_subcommands().front());
+    chosen.resolve();
+    return {"", std::move(chosen)};
 }
 
 }  // namespace diptych::cli

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Parses the words of the command line into Options.
+// Parses the words of the command line.
 #pragma once
 
-#include "compare/cli/options.h"
-
-#include <string>
-#include <vector>
+#include "compare/cli/command.h"
 
 namespace diptych::cli {
 
+// A text to print (--help, --version, --manual, --completion), or a command to run.
+struct CommandLine {
+    std::string help;
+    Command command{};
+};
+
 // `words` come from the shell, without the program's name. Throws std::runtime_error, one line, for a
 // usage error.
-Options parseCommandLine(const std::vector<std::string>& words);
-
-// Parses the words of a comparison in a report ("compare ...") as words of `view`. Reports are untrusted
-// input: only the scene, Settings and options that influence a verdict are read. Output paths and external
-// renderers are skipped. Any other option throws std::runtime_error naming it.
-Options parseReported(const std::vector<std::string>& words);
+CommandLine parseCommandLine(const std::vector<std::string>& words);
 
 }  // namespace diptych::cli

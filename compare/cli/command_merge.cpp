@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
-#include "compare/cli/compare_many.h"
-#include "compare/cli/tradeoff_many.h"
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
+#include "compare/cli/command_compare.h"
+#include "compare/cli/command_tradeoff.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/all_scenes.h"
 #include "shared/text/counted.h"
 #include "shared/text/json_at.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,30 +15,37 @@ namespace diptych::cli {
 
 namespace {
 
+struct MergeLine : OutputGroup, SinceGroup {
+    std::vector<std::string> shards;  // their folders
+};
+
+void describeMerge(CLI::App& app, MergeLine& options) {
+    addOption(app, "folders", options.shards, "DIR...", "report folders of all shards");
+    addFiles(app, options, "report folder (diptych-report)");
+    addSince(app, options);
+    addOutput(app, options);
+}
+
 Keep keepOf(const nlohmann::ordered_json& plan) {
     const JsonAt asked = JsonAt(plan, "merge: the plan of the shards").at("asked");
     return asked.has("keep") ? static_cast<Keep>(asked.at("keep").whole(0, 2)) : Keep::all;
 }
 
-}  // namespace
-
-int runMerge(const Options& options) {
-    if (!options.scene_given)
-        throw std::runtime_error(
-            "merge: the folders of the shards are missing; for example diptych merge shard-*/ -o report");
-    const bool tradeoffs = std::ranges::any_of(options.scenes, [](const std::string& shard) {
+int runMerge(const MergeLine& options) {
+    if (options.shards.empty())
+        refuse("merge: the folders of the shards are missing; for example diptych merge shard-*/ -o report");
+    const bool tradeoffs = std::ranges::any_of(options.shards, [](const std::string& shard) {
         return std::filesystem::exists(std::filesystem::path(shard) / tradeoff::tradeoffsManifest);
     });
-    if (tradeoffs) return mergeTradeoffs(options);
+    if (tradeoffs) return mergeTradeoffs(options, options.shards);
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     checkSince(options);
-    shards::Joined joined = shards::join({options.scenes.begin(), options.scenes.end()});
+    shards::Joined joined = shards::join({options.shards.begin(), options.shards.end()});
     if (joined.report.parts.empty() && joined.report.errors.empty() && !joined.problems.empty())
         throw std::runtime_error(joined.problems.front());
     if (joined.report.parts.empty() && !joined.report.errors.empty())
-        throw std::runtime_error(fmt::format("none of {} was rendered; the first: {}",
-                                             counted(joined.manifest.items.size(), "scene"),
-                                             joined.report.errors.front().message));
+        refuse("none of {} was rendered; the first: {}", counted(joined.manifest.items.size(), "scene"),
+               joined.report.errors.front().message);
     ReportOptions report;
     report.keep = keepOf(joined.manifest.plan);
     report.force = options.force;
@@ -53,6 +59,14 @@ int runMerge(const Options& options) {
     }
     sayProblems(options, joined.problems, folder / "index.html");
     return 2;
+}
+
+}  // namespace
+
+Command mergeCommand() {
+    return makeCommand<MergeLine>(
+        {"merge", "Merges the reports of shards, in any order, into one", "diptych merge shard-*/ -o report"},
+        describeMerge, [](MergeLine& options) { refuseLineBreaks(options.shards); }, runMerge);
 }
 
 }  // namespace diptych::cli

@@ -1,50 +1,41 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/commands.h"
+#include "compare/cli/command_compare.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/output/writers.h"
-#include "compare/run/print.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
-
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace diptych::cli {
 
 namespace {
 
 // Throws for options that a pixel breakdown does not support.
-void checkOnePixel(const Options& options) {
+void checkOnePixel(const CompareLine& options) {
     const auto [x, y] = *options.pixel;
     const std::string pixel = fmt::format("--pixel {},{}", x, y);
     if (options.scenes.size() != 1)
-        throw std::runtime_error(fmt::format("{}: takes one scene, and {} are given; run it once for each",
-                                             pixel, options.scenes.size()));
+        refuse("{}: takes one scene, and {} are given; run it once for each", pixel, options.scenes.size());
     if (options.cameras.size() != 1 || options.times.size() != 1)
-        throw std::runtime_error(fmt::format(
-            "{}: takes one view; give one --camera and one --time, or run it once for each", pixel));
+        refuse("{}: takes one view; give one --camera and one --time, or run it once for each", pixel);
     if (isReference(options.baseline) || !options.baseline_file.empty())
-        throw std::runtime_error(
-            fmt::format("--baseline {}: {} compares the two paths and shows the reference beside them; use "
-                        "deferred or forward_plus",
-                        options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel));
+        refuse(
+            "--baseline {}: {} compares the two paths and shows the reference beside them; use deferred or "
+            "forward_plus",
+            options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel);
     const Size& size = options.settings.size;
     if (x >= size.width || y >= size.height)
-        throw std::runtime_error(
-            fmt::format("{}: is outside the image (pixels 0,0 to {},{}); --size sets its size", pixel,
-                        size.width - 1, size.height - 1));
+        refuse("{}: is outside the image (pixels 0,0 to {},{}); --size sets its size", pixel, size.width - 1,
+               size.height - 1);
     if (!options.out.empty())
-        throw std::runtime_error(
-            fmt::format("-o {}: --pixel writes no file; use compare --pixel {},{} --json > FILE",
-                        options.out.string(), x, y));
+        refuse("-o {}: --pixel writes no file; use compare --pixel {},{} --json > FILE", options.out.string(),
+               x, y);
 }
 
 }  // namespace
 
-int runPixel(const Options& options) {
+int runPixel(const CompareLine& options) {
     checkOnePixel(options);
     const Path test = otherPath(options.baseline);
     const std::vector<Settings> settings = settingsOf(options, {Path::reference, options.baseline, test});
@@ -73,10 +64,7 @@ int runPixel(const Options& options) {
                                                      .progress = stage.part(0.1, 1)});
     checkValidation(device);
     wipeProgress();
-    if (options.json)
-        printOut("{}\n", jsonText(toJson(breakdown)));
-    else if (!options.quiet)
-        printColored(options, inText(blocksOf(breakdown)));
+    printResult(options, jsonText(toJson(breakdown)) + "\n", inText(blocksOf(breakdown)));
     return 0;
 }
 

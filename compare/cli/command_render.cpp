@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/render_output.h"
+#include "compare/cli/command_render.h"
+
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/files/frame_json.h"
+#include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
-#include "compare/frames/frame_facts.h"
-#include "compare/render/reference_frame.h"
 #include "compare/report/exposure_line.h"
 #include "compare/run/print.h"
+#include "shared/contract/debug_mode.h"
+#include "shared/frame/made_channels.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/json_text.h"
@@ -14,15 +18,22 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
-#include <stdexcept>
 
 namespace diptych::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-int listScenes(const Options& options) {
+void describeRender(CLI::App& app, RenderLine& options) {
+    options.frames_refused.clear();
+    addScene(app, options, one_scene_help);
+    addFiles(app, options,
+             "X.exr: every channel; X.png: the picture; any other name: a folder with both (diptych-render)");
+    app.add_flag("--list-scenes", options.list_scenes, "list the built-in scenes and exit");
+    addOutput(app, options);
+}
+
+int listScenes(const RenderLine& options) {
     Json names = Json::array();
     for (const BuiltinName& scene : builtinNames()) {
         const std::string name =
@@ -34,7 +45,7 @@ int listScenes(const Options& options) {
     return 0;
 }
 
-std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& settings, Device* device,
+std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings>& settings, Device* device,
                            KeptReferences& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
@@ -60,7 +71,7 @@ std::vector<Frame> drawAll(const Options& options, const std::vector<Settings>& 
 }
 
 // Writes the output atomically. Returns the location of each Frame.
-std::vector<std::filesystem::path> writeAll(const Options& options, const PictureChoice& picture,
+std::vector<std::filesystem::path> writeAll(const RenderLine& options, const PictureChoice& picture,
                                             const std::vector<Frame>& frames, Json& result,
                                             const ReportDevice& device, const Stage& progress) {
     const Output output = outputIn(options);
@@ -97,9 +108,7 @@ std::vector<std::filesystem::path> writeAll(const Options& options, const Pictur
     return places;
 }
 
-}  // namespace
-
-int runRender(const Options& options) {
+int runRender(const RenderLine& options) {
     if (options.list_scenes) return listScenes(options);
     if (options.frames > 1) return runFrames(options);
     const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
@@ -109,8 +118,8 @@ int runRender(const Options& options) {
     const Output output = outputIn(options);
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)
-        throw std::runtime_error(fmt::format(
-            "-o {}: a file holds one Frame, but several are rendered; give a folder", output.path.string()));
+        refuse("-o {}: a file holds one Frame, but several are rendered; give a folder",
+               output.path.string());
     if (output.kind == OutputKind::png)
         for (const std::filesystem::path& file : pictureFiles(output.path, shownChannels(options)))
             checkReplaceable({OutputKind::png, file}, single_manifest, options.force);
@@ -147,6 +156,102 @@ int runRender(const Options& options) {
     }
     if (options.json) printOut("{}\n", jsonText(result));
     return 0;
+}
+
+}  // namespace
+
+Output outputIn(const OutputGroup& options) {
+    return outputOf(options.out.empty() ? "diptych-render" : options.out);
+}
+
+std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame) {
+    return folder / std::to_string(frame + 1);
+}
+
+void checkFolder(const Output& output, std::size_t count, bool force) {
+    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_manifest);
+    checkReplaceable(output, single ? single_manifest : several_manifest, force);
+    for (std::size_t i = 0; count > 1 && i < count; ++i)
+        checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
+}
+
+std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
+    std::vector<std::string> names = manifestFiles(folder, single_manifest);
+    if (!isOurManifest(folder / several_manifest)) return names;
+    std::ranges::move(manifestFiles(folder, several_manifest), std::back_inserter(names));
+    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_manifest); ++i)
+        for (const std::string& name : manifestFiles(numbered(folder, i), single_manifest))
+            names.push_back(fmt::format("{}/{}", i + 1, name));
+    return names;
+}
+
+void checkChannels(const RenderLine& options) {
+    const auto check = [&](const DebugMode& mode, const char* option) {
+        if (const std::string_view why = notMadeBecause(options.settings, mode); !why.empty())
+            refuse("{} {}: {}", option, mode.name, why);
+    };
+    for (const Channel channel : options.channels) check(debugMode(channel), "--channels");
+    check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
+}
+
+ShownChannels shownChannels(const RenderLine& options) {
+    ShownChannels shown;
+    for (const Channel channel : options.channels) shown.push_back(&debugMode(channel));
+    if ((shown.empty() || options.debug_given || options.heat) &&
+        std::ranges::count(options.channels, options.shown) == 0)
+        shown.push_back(&debugMode(options.shown));
+    return shown;
+}
+
+std::vector<Channel> channelsFor(OutputKind kind, const RenderLine& options, std::vector<Channel> requested) {
+    if (kind == OutputKind::exr) return requested;
+    if (kind == OutputKind::png) requested.clear();
+    for (const DebugMode* mode : shownChannels(options))
+        if (std::ranges::count(requested, mode->channel) == 0) requested.push_back(mode->channel);
+    for (const Channel needed : {Channel::lit, Channel::material_id})
+        if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);
+    return requested;
+}
+
+void noteIgnored(const RenderLine& options) {
+    const Settings &given = options.settings, defaults;
+    for (const Field& field : settingFields()) {
+        const std::string_view why = ignoredBecause(given, field.option);
+        if (!why.empty() && given.valueOf(field.option) != defaults.valueOf(field.option))
+            note(options, fmt::format("--{} is not used: {}", field.option, why));
+    }
+}
+
+nlohmann::ordered_json resultOf(const ReportDevice& made) {
+    return {{"schema", 1},
+            {"software", softwareName},
+            {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
+            {"frames", nlohmann::ordered_json::array()}};
+}
+
+ReportDevice madeBy(const std::optional<Device>& device) {
+    // Named in the files of a reference that needed no device.
+    return device ? reportDevice(*device)
+                  : ReportDevice{"double precision, no Vulkan device", softwareName, "cpu"};
+}
+
+double drawnShare(const RenderOptions& render) {
+    return framesIn(render) / (framesIn(render) + 5);
+}
+
+std::string pictureNames(const std::vector<std::filesystem::path>& files) {
+    std::string names;
+    for (const std::filesystem::path& file : files)
+        names += (names.empty() ? "" : ", ") + file.filename().string();
+    return names;
+}
+
+Command renderCommand() {
+    return makeCommand<RenderLine>(
+        {"render", "Renders one Frame: an EXR with every channel, and a PNG",
+         "diptych render helmet.glb --path deferred --debug normals -o normals.png",
+         "path debug channels lights shadows camera size time exposure out"},
+        describeRender, resolveScene, runRender);
 }
 
 }  // namespace diptych::cli

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "compare/cli/command_view.h"
+
+#include "compare/cli/add_option.h"
+#include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
-#include "compare/cli/commands.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
-#include "compare/render/shown_scene.h"
+#include "compare/viewer/keys.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/picture_file.h"
@@ -14,22 +17,35 @@
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
 #include "shared/text/named.h"
+#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <optional>
+#include <array>
 #include <set>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace diptych::cli {
 
 namespace {
+
+// Accepts every option of compare, so that one option line works for both.
+void describeView(CLI::App& app, ViewLine& options) {
+    addScene(app, options, one_scene_help);
+    addSides(app, options);
+    addCompared(app, options, "folder for the files that the key P writes (the current one)");
+    addJudged(app, options);
+    app.option_defaults()->group("View");
+    addOption(app, "--report", options.report, "DIR",
+              "open a report of compare at the worst pixel of its first failing channel; --debug selects "
+              "another channel, SCENE another scene");
+    app.add_flag("--watch", options.watch, "reload the scene when its files change on disk");
+    app.get_option("--pixel")->description("pixel to inspect first");
+    addOutput(app, options);
+    acceptUnread(app, {"--runs", "--channels", "--times", "--renderer", "--single-file", "--keep",
+                       "--update-baseline", "--explain", "--force", "--json", "--strict", "--allow-empty"});
+}
 
 using Place = JsonAt<nlohmann::json>;
 
@@ -37,7 +53,7 @@ using Place = JsonAt<nlohmann::json>;
 struct ReportedView {
     std::vector<std::string> command;  // reproduces the comparison
     std::string channel;
-    std::optional<Options::Pixel> pixel;
+    std::optional<Pixel> pixel;
 };
 
 constexpr int most_side = 65536;  // largest image side, pixels
@@ -51,7 +67,7 @@ bool isOf(const Place& channel, Channel shown) {
 }
 
 // Whether the comparison fails; with --debug, whether that channel fails.
-bool failsHere(const Place& comparison, const Options& options) {
+bool failsHere(const Place& comparison, const ViewLine& options) {
     if (!options.debug_given) return fails(comparison);
     return std::ranges::any_of(comparison.at("channels").each(), [&](const Place& channel) {
         return isOf(channel, options.shown) && fails(channel);
@@ -59,7 +75,7 @@ bool failsHere(const Place& comparison, const Options& options) {
 }
 
 // The first failing comparison, else the first. Considers only the given scene, if any.
-Place chosenComparison(const Place& comparisons, const Options& options) {
+Place chosenComparison(const Place& comparisons, const ViewLine& options) {
     std::optional<Place> first;
     for (const Place& comparison : comparisons.each()) {
         if (options.scene_given && comparison.at("scene").text() != options.scenes.front()) continue;
@@ -72,7 +88,7 @@ Place chosenComparison(const Place& comparisons, const Options& options) {
 }
 
 // The channel of --debug, else the first that fails, else lit.
-Place chosenChannel(const Place& channels, const Options& options) {
+Place chosenChannel(const Place& channels, const ViewLine& options) {
     std::optional<Place> best;
     for (const Place& channel : channels.each()) {
         if (options.debug_given && isOf(channel, options.shown)) return channel;
@@ -83,9 +99,9 @@ Place chosenChannel(const Place& channels, const Options& options) {
     return best ? *best : channels[0];
 }
 
-ReportedView readReport(const Options& options) {
-    const std::filesystem::path file = options.view.report / "report.json";
-    return named("--report " + options.view.report.string(), [&] {
+ReportedView readReport(const ViewLine& options) {
+    const std::filesystem::path file = options.report / "report.json";
+    return named("--report " + options.report.string(), [&] {
         if (!isOurManifest(file))
             fail("is not a report folder written by compare: it has no report.json of Diptych");
         static const std::set<std::string> wanted{"comparisons", "scene", "command", "channels",
@@ -101,22 +117,22 @@ ReportedView readReport(const Options& options) {
         if (!findDebugMode(view.channel)) channel.at("name").fail("is not a channel");
         if (const Place worst = channel.at("worst_pixel"); worst.json().is_array()) {
             const int x = worst[0].whole(-1, most_side), y = worst[1].whole(-1, most_side);
-            if (x >= 0 && y >= 0) view.pixel = Options::Pixel{x, y};
+            if (x >= 0 && y >= 0) view.pixel = Pixel{x, y};
         }
         return view;
     });
 }
 
 // Options of the report's comparison, extended by those of this command line.
-Options reported(const Options& given) {
+ViewLine reported(const ViewLine& given) {
     const ReportedView of = readReport(given);
-    Options options =
-        named("--report " + given.view.report.string(), [&] { return parseReported(of.command); });
-    checkAsked("--report " + given.view.report.string(), options.scenes.front(), options.settings);
+    ViewLine options = named("--report " + given.report.string(), [&] { return parseReported(of.command); });
+    checkAsked("--report " + given.report.string(), options.scenes.front(), options.settings);
     options.shown = findDebugMode(of.channel)->channel;
     options.pixel = given.pixel ? given.pixel : of.pixel;
     options.size_given = true;
-    options.view = given.view;
+    options.report = given.report;
+    options.watch = given.watch;
     options.device = given.device;
     options.validate = given.validate;
     options.quiet = given.quiet;
@@ -125,21 +141,17 @@ Options reported(const Options& given) {
     return options;
 }
 
-void checkOneWindow(const Options& options) {
+void checkOneWindow(const ViewLine& options) {
     if (options.scenes.size() > 1)
-        throw std::runtime_error(fmt::format("view shows one scene, and {} are given; run it once for each",
-                                             options.scenes.size()));
+        refuse("view shows one scene, and {} are given; run it once for each", options.scenes.size());
     if (options.cameras.size() > 1)
-        throw std::runtime_error(fmt::format(
-            "--camera {}: view starts at one camera, and the key N goes to the next", options.cameras[1]));
+        refuse("--camera {}: view starts at one camera, and the key N goes to the next", options.cameras[1]);
 }
 
-}  // namespace
-
-int runView(const Options& given) {
+int runView(const ViewLine& given) {
     checkOneWindow(given);
-    const bool isReport = !given.view.report.empty();
-    const Options options = isReport ? reported(given) : given;
+    const bool isReport = !given.report.empty();
+    const ViewLine options = isReport ? reported(given) : given;
     viewer::ViewerOptions view;
     view.subject.scene = options.scenes.front();
     view.subject.settings = options.settings;
@@ -154,8 +166,7 @@ int runView(const Options& given) {
         view.look.against = viewer::Against::file;
         view.look.file = options.baseline_file;
         if (!std::filesystem::exists(pictureName(options.baseline_file).file))
-            throw std::runtime_error(
-                fmt::format("--baseline {}: no such file", options.baseline_file.string()));
+            refuse("--baseline {}: no such file", options.baseline_file.string());
     }
     const PictureChoice picture = pictureChoice(options);
     view.look.exposure = picture.exposure;
@@ -164,29 +175,74 @@ int runView(const Options& given) {
     if (options.pixel) view.pixel = viewer::PixelPlace{options.pixel->x, options.pixel->y};
     if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
                        view.pixel->y >= view.subject.settings.size.height))
-        throw std::runtime_error(fmt::format("--pixel {},{}: is outside the image; --size sets its size",
-                                             view.pixel->x, view.pixel->y));
-    for (const Path path : drawn_paths) {
-        const Settings settings = options.sides.of(withoutReference(view.subject.settings), path);
-        if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
-    }
+        refuse("--pixel {},{}: is outside the image; --size sets its size", view.pixel->x, view.pixel->y);
+    for (const Path path : drawn_paths)
+        checkSettings(options.sides.of(withoutReference(view.subject.settings), path));
     // Report usage errors before the window opens, and later errors inside it.
     if (std::filesystem::is_directory(view.subject.scene))
-        throw std::runtime_error(fmt::format(
-            "{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene));
+        refuse("{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene);
     checkScene(view.subject.scene, view.subject.settings.variant);
     say(options, "on " + Device(deviceOptions(options)).info().name);
-    view.watch = options.view.watch;
+    view.watch = options.watch;
     view.out = options.out;
     view.device = deviceOptions(options);
     view.compare = compareOptions(options);
     view.say = [&](const std::string& line) { say(options, "view: " + line); };
     const viewer::ViewerResult result = viewer::runViewer(view);
     if (result.validation_messages > 0)
-        throw std::runtime_error(fmt::format("--validate: {}, the first: {}",
-                                             counted(result.validation_messages, "message"),
-                                             result.first_validation_message));
+        refuse("--validate: {}, the first: {}", counted(result.validation_messages, "message"),
+               result.first_validation_message);
     return 0;
+}
+
+}  // namespace
+
+ViewLine parseReported(const std::vector<std::string>& words) {
+    constexpr std::array taken{"--baseline", "--tolerances",  "--against-device", "--device",
+                               "--mask",     "--ids",         "--ignore-edges",   "--crop",
+                               "--deferred", "--forward-plus"};
+    constexpr std::array flags{"--allow-noise", "--strict", "--allow-empty"};
+    constexpr std::array left_out{"-o", "--renderer"};
+    const auto isOneOf = [](const auto& options, const std::string& name) {
+        return std::ranges::find(options, name) != options.end();
+    };
+    const auto isSetting = [](const std::string& name) {
+        return std::ranges::any_of(
+            settingFields(), [&](const Field& field) { return name == "--" + std::string(field.option); });
+    };
+    std::vector<std::string> read{"view"};
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const std::string name = word.substr(0, word.find('='));
+        if (word == "--") {  // scenes follow
+            read.insert(read.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+            break;
+        }
+        if (!word.starts_with('-') || isOneOf(flags, word)) {
+            read.push_back(word);
+            continue;
+        }
+        const bool unread = isOneOf(left_out, name);
+        if (!unread && !isOneOf(taken, name) && !isSetting(name))
+            refuse(
+                "the command of the comparison has {}: view takes only scene, Settings and comparison "
+                "options from a report",
+                oneLine(name));
+        if (name == word && i + 1 == words.size())
+            refuse("the command of the comparison ends after {}, without its value", name);
+        // Joined with "=", so that CLI11 never reads a value as an option.
+        const std::string value = name == word ? name + "=" + words[++i] : word;
+        if (!unread) read.push_back(value);
+    }
+    return dynamic_cast<const ViewLine&>(*parseCommandLine(read).command.line);
+}
+
+Command viewCommand() {
+    return makeCommand<ViewLine>(
+        {"view", "Opens a window with both paths live: wipe, differences, channels, verdict, pixel breakdown",
+         "diptych view helmet.glb", "report watch debug baseline gbuffer lights shadows camera size device",
+         "\n\nKeys:\n" + viewer::keyColumns()},
+        describeView, resolveCompare, runView);
 }
 
 }  // namespace diptych::cli

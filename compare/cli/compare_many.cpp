@@ -1,37 +1,42 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/compare_many.h"
-
-#include "compare/cli/commands.h"
-#include "compare/cli/scene_comparison.h"
+#include "compare/cli/command_compare.h"
 #include "compare/cli/scene_items.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/render/reference_frame.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/shards/collection.h"
-#include "compare/verdict/pair_reports.h"
 #include "shared/text/counted.h"
 #include "shared/text/input_file.h"
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 namespace diptych::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
+// Options of compare alone that affect the result.
+nlohmann::ordered_json ownOf(const CompareLine& options) {
+    nlohmann::ordered_json own{{"command", "compare"},
+                               {"baseline", nameOf(options.baseline)},
+                               {"twice", static_cast<int>(options.twice)},
+                               {"what counts", wordsOfWhatCounts(options)},
+                               {"explain", options.explain},
+                               {"keep", static_cast<int>(options.keep)},
+                               {"single_file", options.single_file}};
+    addContents(own, {{"tolerances", options.tolerances}, {"mask", options.selection.mask}});
+    return own;
+}
 
 }  // namespace
 
-int compareMany(const Options& options, const std::vector<Settings>& settings, const fs::path& folder) {
+int compareMany(const CompareLine& options, const std::vector<Settings>& settings,
+                const std::filesystem::path& folder) {
     if (!options.baseline_file.empty())
-        throw std::runtime_error(fmt::format("--shard {}: --baseline {} holds one view; leave out --shard",
-                                             options.shard, options.baseline_file.string()));
+        refuse("--shard {}: --baseline {} holds one view; leave out --shard", options.shard,
+               options.baseline_file.string());
     if (options.single_file && !options.shard.empty())
-        throw std::runtime_error(
-            "--single-file: merge takes a shard's images from beside its page; leave it out");
+        refuse("--single-file: merge takes a shard's images from beside its page; leave it out");
+    const nlohmann::ordered_json asked = askedOf(options, settings, ownOf(options));
     const shards::CollectionQuestion question{
         settings,
         comparedOf(options),
@@ -41,10 +46,10 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
         explanationOf(options),
         {pictureChoice(options), options.single_file, options.keep, options.force},
         folder,
-        resumeKey(options, settings),
+        resumeKey(options, asked),
         [&](const std::string& line) { note(options, line); },
         [&](const std::string& line) { say(options, line); }};
-    const shards::SceneItems items = itemsOf(options, settings);
+    const shards::SceneItems items = itemsOf(options, asked);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
@@ -56,9 +61,8 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
     sayWhenInterrupted("");
     WholeReport whole = collection.whole();
     if (whole.parts.empty() && options.shard.empty())
-        throw std::runtime_error(fmt::format("none of {} can be rendered; the first: {}",
-                                             counted(items.all.size(), "scene"),
-                                             whole.errors.front().message));
+        refuse("none of {} can be rendered; the first: {}", counted(items.all.size(), "scene"),
+               whole.errors.front().message);
     if (!options.shard.empty())
         whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items.plan, items.shard,
                                               items.all, whole.errors});
@@ -74,8 +78,8 @@ int compareMany(const Options& options, const std::vector<Settings>& settings, c
     return exitCodeOf(summary);
 }
 
-void showWhole(const Options& options, const WholeReport& whole, const Report& summary,
-               const fs::path& folder, const Trends* since, bool all) {
+void showWhole(const OutputGroup& options, const WholeReport& whole, const Report& summary,
+               const std::filesystem::path& folder, const Trends* since, bool all) {
     if (options.json) {
         InputFile report(folder / "report.json");
         printFile(report);

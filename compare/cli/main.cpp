@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
-#include "compare/cli/commands.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
@@ -16,7 +15,6 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -58,9 +56,9 @@ void keepFreedMemory() {
     mallopt(M_TOP_PAD, 64 << 20);
 }
 
-int run(const diptych::cli::Options& options) {
-    if (options.help.empty()) return diptych::cli::runCommand(options);
-    diptych::printText(options.help);
+int run(const diptych::cli::CommandLine& line) {
+    if (line.help.empty()) return line.command.run();
+    diptych::printText(line.help);
     return 0;
 }
 

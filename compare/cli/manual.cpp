@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace diptych::cli {
 namespace {
@@ -144,12 +143,11 @@ complete -o filenames -o nospace -F _diptych diptych
         }());
 }
 
-// A description inside the [] of zsh's _arguments.
-std::string zshText(std::string text) {
-    text = oneParagraph(std::move(text));
+// One paragraph with a backslash before each special character.
+std::string escaped(const std::string& text, std::string_view special) {
     std::string out;
-    for (const char c : text) {
-        if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
+    for (const char c : oneParagraph(text)) {
+        if (special.find(c) != special.npos) out += '\\';
         out += c;
     }
     return out;
@@ -163,7 +161,8 @@ std::string zshCompletion(const CLI::App& app, const Words& scenes) {
         cases += fmt::format("        {}) _arguments -s \\\n", command->get_name());
         for (const CLI::Option* option : optionsOf(*command))
             for (const std::string& spelling : spellingsOf(*option)) {
-                std::string spec = fmt::format("*{}[{}]", spelling, zshText(option->get_description()));
+                std::string spec =
+                    fmt::format("*{}[{}]", spelling, escaped(option->get_description(), "[]:\\"));
                 if (option->get_type_size() != 0) {
                     const Words words = valuesOf(*option);
                     spec += words.empty() ? ":value:_files" : fmt::format(":value:({})", list(words));
@@ -199,12 +198,7 @@ _diptych "$@"
 }
 
 std::string fishText(const std::string& text) {
-    std::string out = "'";
-    for (const char c : oneParagraph(text)) {
-        if (c == '\'' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + "'";
+    return "'" + escaped(text, "'\\") + "'";
 }
 
 std::string fishCompletion(const CLI::App& app, const Words& scenes) {
@@ -269,7 +263,7 @@ std::string completion(const CLI::App& app, const std::string& shell,
     if (shell == "bash") return bashCompletion(app, scenes);
     if (shell == "zsh") return zshCompletion(app, scenes);
     if (shell == "fish") return fishCompletion(app, scenes);
-    throw std::runtime_error(fmt::format("--completion {}: takes one of {}", shell, completedShells));
+    refuse("--completion {}: takes one of {}", shell, completedShells);
 }
 
 }  // namespace diptych::cli

@@ -1,92 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/verdict_words.h"
 
-#include "compare/cli/options.h"
 #include "shared/frame/debug_modes.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <optional>
-
 namespace diptych::cli {
-namespace {
 
-// Collects "--option value" for options that differ from their defaults. Numbers keep all digits.
-class WordList {
-public:
-    template <class T>
-    void add(const char* option, const T& value, const T& defaults) {
-        if (value != defaults) put(option, value);
-    }
-    template <class T>
-    void add(const char* option, const std::optional<T>& value) {
-        if (value) put(option, *value);
-    }
-    std::vector<std::string> words;
-
-private:
-    template <class T>
-    void put(const char* option, const T& value) {
-        const std::string text = fmt::format("{}", value);
-        if (text.starts_with('-'))
-            words.push_back(fmt::format("{}={}", option, text));
-        else
-            words.insert(words.end(), {option, text});
-    }
-};
-
-void addSelection(WordList& words, const SelectionOptions& selection) {
-    words.add("--mask", selection.mask, std::string());
-    if (!selection.ids.empty())
-        words.words.insert(words.words.end(), {"--ids", fmt::format("{}", fmt::join(selection.ids, ","))});
-    words.add("--ignore-edges", selection.ignore_edges, 0);
-    if (selection.crop)
-        words.words.insert(words.words.end(),
-                           {"--crop", fmt::format("{},{},{}x{}", selection.crop->x, selection.crop->y,
-                                                  selection.crop->width, selection.crop->height)});
+void WordList::put(const char* option, const std::string& value) {
+    if (value.starts_with('-'))
+        words.push_back(fmt::format("{}={}", option, value));
+    else
+        words.insert(words.end(), {option, value});
 }
 
-void addFlags(WordList& words, const Options& options) {
-    if (options.strict) words.words.emplace_back("--strict");
-    if (options.allow_empty) words.words.emplace_back("--allow-empty");
+void WordList::add(const SelectionOptions& selection) {
+    add("--mask", selection.mask);
+    if (!selection.ids.empty()) put("--ids", fmt::format("{}", fmt::join(selection.ids, ",")));
+    add("--ignore-edges", selection.ignore_edges);
+    if (const auto& crop = selection.crop)
+        put("--crop", fmt::format("{},{},{}x{}", crop->x, crop->y, crop->width, crop->height));
 }
 
-}  // namespace
-
-std::vector<std::string> wordsOfWhatCounts(const Options& options) {
+std::vector<std::string> wordsOfWhatCounts(const CompareLine& options) {
     WordList words;
-    words.add("--tolerances", options.tolerances.string(), std::string());
-    if (options.command == "diff") {
-        const PictureDiffOptions &diff = options.diff, defaults;
-        words.add("--metric", diff.metric, defaults.metric);
-        if (std::isfinite(diff.tolerance)) words.add("--tolerance", diff.tolerance, defaults.tolerance);
-        words.add("--warn", diff.warn);
-        words.add("--failing", diff.failing);
-        for (const std::string& name : diff.names) words.words.insert(words.words.end(), {"--map", name});
-        words.add("--blur", diff.blur, 0.0);
-        words.add("--shift", diff.shift, 0);
-        words.add("--ppd", diff.flip.pixels_per_degree, defaults.flip.pixels_per_degree);
-        words.add("--start-exposure", diff.flip.start_exposure);
-        words.add("--stop-exposure", diff.flip.stop_exposure);
-        words.add("--exposures", diff.flip.exposures);
-        addSelection(words, diff.selection);
-        addFlags(words, options);
-        return words.words;
-    }
+    words.add("--tolerances", options.tolerances.string());
+    words.add("--baseline", options.baseline_file.string());
+    words.add("--against-device", options.against_device);
+    if (!options.against_device.empty()) words.add("--device", options.device);
     const std::vector<std::string> sides = wordsOf(options.sides);
-    words.add("--baseline", options.baseline_file.string(), std::string());
-    words.add("--against-device", options.against_device, std::string());
-    if (!options.against_device.empty()) words.add("--device", options.device, std::string());
     words.words.insert(words.words.end(), sides.begin(), sides.end());
-    addSelection(words, options.selection);
-    if (options.allow_noise) words.words.emplace_back("--allow-noise");
-    addFlags(words, options);
+    words.add(options.selection);
+    words.add("--allow-noise", options.allow_noise);
+    words.add("--strict", options.strict);
+    words.add("--allow-empty", options.allow_empty);
     return words.words;
 }
 
-CompareOptions compareOptions(const Options& options) {
+CompareOptions compareOptions(const CompareLine& options) {
     CompareOptions compare;
     compare.baseline = options.baseline;
     compare.selection = options.selection;

@@ -61,4 +61,8 @@ struct Deviation {
 // without the image for Lamp::none.
 std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> pictures);
 
+// The result, for a terminal and for scripts.
+std::string inWords(const Renderer& renderer, std::span<const Deviation> deviations);
+nlohmann::ordered_json toJson(const Renderer& renderer, std::span<const Deviation> deviations);
+
 }  // namespace diptych::external

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Plans, predictions and output of a benchmark, with made-up times.
 #include "compare/bench/bench.h"
-#include "compare/cli/command_line.h"
+#include "tests/support/command_lines.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,6 @@
 namespace diptych {
 
 using namespace bench;
-using namespace cli;
 
 namespace {
 
@@ -26,7 +25,7 @@ using Json = nlohmann::json;
 BenchOptions asked(const std::vector<std::string>& words) {
     std::vector<std::string> line{"bench", "builtin:spheres"};
     line.insert(line.end(), words.begin(), words.end());
-    return parseCommandLine(line).bench;
+    return parsedAs<BenchOptions>(line);
 }
 
 TEST(BenchCases, DeferredIsTimedByEachWayToShadeThatIsAskedFor) {

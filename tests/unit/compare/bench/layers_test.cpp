@@ -2,8 +2,8 @@
 // The benchmark's table of layers, with made-up times.
 #include "compare/bench/findings.h"
 #include "compare/bench/registers.h"
-#include "compare/cli/command_line.h"
 #include "shared/scene/builtin/builtin.h"
+#include "tests/support/command_lines.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using namespace bench;
 
 BenchOptions layerOptions(std::vector<std::string> words = {}) {
     words.insert(words.begin(), {"bench", "--table", "layers"});
-    return cli::parseCommandLine(words).bench;
+    return parsedAs<BenchOptions>(words);
 }
 
 std::string layerRefusal(const std::vector<std::string>& words) {

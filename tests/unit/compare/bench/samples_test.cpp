@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The benchmark's table by samples per pixel, with made-up times.
 #include "compare/bench/findings.h"
-#include "compare/cli/command_line.h"
 #include "compare/render/sample_counts.h"
+#include "tests/support/command_lines.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using namespace bench;
 
 BenchOptions sampleOptions(std::vector<std::string> words = {}) {
     words.insert(words.begin(), {"bench", "builtin:glass", "--table", "msaa"});
-    return cli::parseCommandLine(words).bench;
+    return parsedAs<BenchOptions>(words);
 }
 
 std::string refusal(const std::vector<std::string>& words) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command line of a report, which may come from anywhere.
-#include "compare/cli/command_line.h"
+#include "compare/cli/command_view.h"
 
 #include <gtest/gtest.h>
 
@@ -16,29 +16,28 @@ namespace {
 
 // A report may come from anywhere. Its command must not write or run anything, only choose what is shown.
 TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
-    const Options parsed = parseReported({"compare",
-                                          "-o",
-                                          "x",
-                                          "--renderer",
-                                          "evil=nowhere.json",
-                                          "--renderer=evil=nowhere.json",
-                                          "--gbuffer",
-                                          "compact",
-                                          "--env",
-                                          "-o",
-                                          "--ibl-bias=-1",
-                                          "--camera",
-                                          "eye=0,0,1 target=0,0,0 fov=40",
-                                          "--baseline",
-                                          "reference",
-                                          "--crop",
-                                          "0,0,8x8",
-                                          "--ids",
-                                          "1,2",
-                                          "--allow-noise",
-                                          "--",
-                                          "-a.glb"});
-    EXPECT_EQ(parsed.command, "view");
+    const ViewLine parsed = parseReported({"compare",
+                                           "-o",
+                                           "x",
+                                           "--renderer",
+                                           "evil=nowhere.json",
+                                           "--renderer=evil=nowhere.json",
+                                           "--gbuffer",
+                                           "compact",
+                                           "--env",
+                                           "-o",
+                                           "--ibl-bias=-1",
+                                           "--camera",
+                                           "eye=0,0,1 target=0,0,0 fov=40",
+                                           "--baseline",
+                                           "reference",
+                                           "--crop",
+                                           "0,0,8x8",
+                                           "--ids",
+                                           "1,2",
+                                           "--allow-noise",
+                                           "--",
+                                           "-a.glb"});
     EXPECT_EQ(parsed.out, "");
     EXPECT_TRUE(parsed.renderers.empty());
     EXPECT_EQ(parsed.settings.gbuffer, GBufferEncoding::compact);

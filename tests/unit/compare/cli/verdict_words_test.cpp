@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The command printed in a report has every option that affects the verdict, as given.
 #include "compare/cli/verdict_words.h"
-#include "compare/cli/command_line.h"
+#include "compare/cli/command_diff.h"
+#include "tests/support/command_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,10 @@ namespace {
 
 using VerdictWordList = std::vector<std::string>;
 
+template <class Line>
 VerdictWordList wordsAgain(VerdictWordList command, const VerdictWordList& said) {
     command.insert(command.end(), said.begin(), said.end());
-    return cli::wordsOfWhatCounts(cli::parseCommandLine(command));
+    return cli::wordsOfWhatCounts(parsedAs<Line>(command));
 }
 
 TEST(VerdictWords, OfDiffAreThoseThatWereGiven) {
@@ -30,7 +32,7 @@ TEST(VerdictWords, OfDiffAreThoseThatWereGiven) {
              {"--strict"},
              {"--allow-empty"},
          })
-        EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, said), said);
+        EXPECT_EQ(wordsAgain<cli::DiffLine>({"diff", "a.exr", "b.exr"}, said), said);
 }
 
 TEST(VerdictWords, OfCompareAreThoseThatWereGiven) {
@@ -41,20 +43,20 @@ TEST(VerdictWords, OfCompareAreThoseThatWereGiven) {
              {"--deferred", "shadows=evsm,ambient=1,0,0", "--forward-plus", "shadows=pcf,ambient=0,0,0"},
              {"--allow-empty"},
          })
-        EXPECT_EQ(wordsAgain({"compare", "builtin:points"}, said), said);
+        EXPECT_EQ(wordsAgain<cli::CompareLine>({"compare", "builtin:points"}, said), said);
 }
 
 TEST(VerdictWords, DefaultsNeedNone) {
-    EXPECT_EQ(wordsAgain({"compare"}, {}), VerdictWordList{});
-    EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, {}), VerdictWordList{});
-    EXPECT_EQ(wordsAgain({"diff", "a.exr", "b.exr"}, {"--ignore-edges", "0", "--blur", "0"}),
+    EXPECT_EQ(wordsAgain<cli::CompareLine>({"compare"}, {}), VerdictWordList{});
+    EXPECT_EQ(wordsAgain<cli::DiffLine>({"diff", "a.exr", "b.exr"}, {}), VerdictWordList{});
+    EXPECT_EQ(wordsAgain<cli::DiffLine>({"diff", "a.exr", "b.exr"}, {"--ignore-edges", "0", "--blur", "0"}),
               VerdictWordList{});
 }
 
 TEST(VerdictWords, CompareIsTold) {
     const auto told = [](VerdictWordList words) {
         words.insert(words.begin(), "compare");
-        return cli::compareOptions(cli::parseCommandLine(words));
+        return cli::compareOptions(parsedAs<cli::CompareLine>(words));
     };
     const CompareOptions defaults = told({});
     EXPECT_FALSE(defaults.allow_noise || defaults.strict || defaults.allow_empty);

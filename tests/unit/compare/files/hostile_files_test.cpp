@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our file formats, written by an attacker. Every reader accepts the content or reports one line, and
 // nothing outside the output is read or changed.
-#include "compare/cli/commands.h"
+#include "compare/cli/command_line.h"
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
@@ -300,13 +300,11 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     fs::remove(root / "shard/c/row-001.png");
     fs::create_symlink("../../secret.png", root / "shard/c/row-001.png");
     std::ofstream(root / "shard/tradeoffs.json") << textOf(manifest);
-    cli::Options options;
-    options.command = "merge";
-    options.scenes = {(root / "shard").string()};
-    options.scene_given = options.quiet = true;
-    options.out = root / "out";
+    const auto merge = [&] {
+        return cli::parseCommandLine({"merge", root / "shard", "-q", "-o", root / "out"}).command.run();
+    };
     testing::internal::CaptureStderr();
-    EXPECT_EQ(cli::runMerge(options), 2);
+    EXPECT_EQ(merge(), 2);
     const std::string line = testing::internal::GetCapturedStderr();
     EXPECT_EQ(std::ranges::count(line, '\n'), 1) << line;
     EXPECT_NE(line.find("b/tradeoff.json"), std::string::npos) << line;
@@ -319,7 +317,7 @@ TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     text["shard"]["count"] = 2147483647;
     std::ofstream(root / "shard/tradeoffs.json") << text.dump();
     try {
-        cli::runMerge(options);
+        merge();
         ADD_FAILURE() << "merged";
     } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("count: is not a whole number from 1 to 65536"),

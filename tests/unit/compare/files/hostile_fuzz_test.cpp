@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our file formats, changed at random: every reader accepts any bytes or reports one line, and nothing
 // outside the output is read or changed.
-#include "compare/cli/commands.h"
+#include "compare/cli/command_line.h"
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/file_moves.h"
 #include "compare/files/our_files.h"
@@ -78,18 +78,16 @@ TEST(HostileFuzz, EarlierReports) {
     const ReportPart part = readPart(shards.shard, "box-1/");
     const std::string sound = contentsOf(file);
     fs::remove(file);
-    cli::Options accept;
-    accept.command = "accept";
-    accept.scenes = {shards.shard.string()};
-    accept.scene_given = accept.quiet = true;
-    accept.out = shards.root / "out/accepted.json";
+    const cli::Command accept =
+        cli::parseCommandLine({"accept", shards.shard, "-q", "-o", shards.root / "out/accepted.json"})
+            .command;
     fs::create_directories(shards.root / "out");
     for (unsigned seed = 0; seed < 60; ++seed) {
         const std::string text = fuzz::JsonMutator(seed).mutated(sound);
         std::ofstream(file) << text;
         expectALine([&] { trendsSince(shards.shard, report, part.rows); }, text);
         expectALine([&] { shards::timingsOf(shards.shard); }, text);
-        expectALine([&] { cli::runAccept(accept); }, text);
+        expectALine([&] { accept.run(); }, text);
         for (const std::string& name : manifestFiles(shards.shard, "report.json"))
             EXPECT_TRUE(isOurName(name)) << name;
     }
@@ -142,11 +140,7 @@ TEST(HostileFuzz, Tradeoffs) {
     swept["files"] = {"row-001.png", "tradeoff.json"};
     const std::string scene = swept.dump(2), list = textOf(manifest), row = contentsOf(row_file);
     std::ofstream(shard / "b/tradeoff.json") << scene;
-    cli::Options options;
-    options.command = "merge";
-    options.scenes = {shard.string()};
-    options.scene_given = options.quiet = true;
-    options.out = root / "out";
+    const cli::Command merge = cli::parseCommandLine({"merge", shard, "-q", "-o", root / "out"}).command;
     const auto outside = [&] {
         std::vector<std::string> files = filesIn(root);
         std::erase_if(files, [](const std::string& name) { return name.starts_with("out/"); });
@@ -162,7 +156,7 @@ TEST(HostileFuzz, Tradeoffs) {
         std::ofstream(shard / "a/tradeoff.json") << (of_scene ? mutator.mutated(scene) : scene);
         std::ofstream(shard / "tradeoffs.json") << (of_scene ? list : mutator.mutated(list));
         testing::internal::CaptureStderr();
-        expectALine([&] { joined += cli::runMerge(options) == 0; }, contentsOf(shard / "a/tradeoff.json"));
+        expectALine([&] { joined += merge.run() == 0; }, contentsOf(shard / "a/tradeoff.json"));
         const std::string said = testing::internal::GetCapturedStderr();
         EXPECT_LE(std::ranges::count(said, '\n'), 1) << said;
         EXPECT_EQ(said.find("json.exception"), said.npos) << said;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The plan of compiled shaders, from made-up compiler statistics.
 #include "compare/render/compiled_plan.h"
+#include "compare/bench/compiled_words.h"
 #include "compare/bench/estimate.h"
-#include "compare/cli/compiled_words.h"
 
 #include <gtest/gtest.h>
 
@@ -75,9 +75,9 @@ TEST(CompiledPlan, SpillsAreWarningsAndWhatDoesNotCompileAnError) {
 }
 
 TEST(CompiledPlan, AFeatureIsWhatItAdds) {
-    EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
+    EXPECT_EQ(bench::addedInWords({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
               "+38 VGPRs, occupancy 16 -> 10, +200 cycles");
-    EXPECT_EQ(cli::addedInWords({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
+    EXPECT_EQ(bench::addedInWords({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
               "-8 VGPRs");
 }
 
@@ -96,7 +96,7 @@ TEST(CompiledPlan, PathsStandSideBySide) {
                                            {},
                                            {},
                                            {"a line"}}};
-    const std::string text = cli::compiledText(paths, someGpu);
+    const std::string text = bench::compiledText(paths, someGpu);
     const auto lineOf = [&](const std::string& word) {
         const std::size_t at = text.find(word), begin = text.rfind('\n', at) + 1;
         return text.substr(begin, text.find('\n', at) - begin);
@@ -115,7 +115,7 @@ TEST(CompiledPlan, PathsStandSideBySide) {
     EXPECT_EQ(numbers("deferred.frag"),
               (Words{"shade", "deferred.frag", "|", "1", "80", "-", "-", "12", "-", "900", "|"}));
     EXPECT_NE(text.find("  warning: a line\n"), std::string::npos);
-    const auto json = cli::compiledJson(paths, someGpu);
+    const auto json = bench::compiledJson(paths, someGpu);
     EXPECT_EQ(json["paths"][1]["pipelines"][2]["shaders"][0]["cost"]["vgprs"], 120);
     EXPECT_EQ(json["paths"][1]["pipelines"][2]["shaders"][0]["statistics"]["VGPRs"], 120);
     EXPECT_FALSE(json["paths"][1]["pipelines"][2]["shaders"][0]["cost"].contains("sgprs"));

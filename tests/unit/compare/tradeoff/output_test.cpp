@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The output of a sweep: table, CSV, JSON, plots and page.
-#include "compare/cli/command_line.h"
 #include "compare/output/writers.h"
+#include "compare/cli/option_groups.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
+#include "tests/support/command_lines.h"
 #include "tests/support/nonfinite.h"
 #include "tests/support/report_builder.h"
 
@@ -107,7 +108,7 @@ TEST(TradeoffOutput, CsvHasEveryRowAndReadsBack) {
 TEST(TradeoffOutput, CommandsAreOfTheRow) {
     Tradeoff tradeoff = several();
     tradeoff.scene = "builtin:one";
-    const auto parse = [](const std::string& command) {
+    const auto wordsIn = [](const std::string& command) {
         std::vector<std::string> words;  // no word here contains a space
         std::string text = command;
         std::erase(text, '\'');
@@ -116,27 +117,34 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
             words.push_back(text.substr(from, end - from));
             from = end + 1;
         }
-        return parseCommandLine({words.begin() + 1, words.end()});
+        words.erase(words.begin());
+        return words;
     };
-    const Options full = parse(measuringCommand(tradeoff, tradeoff.rows[3]));
+    const auto parse = [&](std::size_t row) {
+        return parsedAs<SceneGroup>(wordsIn(measuringCommand(tradeoff, tradeoff.rows[row])));
+    };
+    const auto gridOf = [&](std::size_t row) {
+        return parsedAs<GridGroup>(wordsIn(measuringCommand(tradeoff, tradeoff.rows[row]))).grid;
+    };
+    const SceneGroup full = parse(3);
     EXPECT_EQ(full.settings, tradeoff.rows[3].settings);
-    EXPECT_EQ(full.command, "tradeoff");
-    EXPECT_EQ(full.grid, R"({"settings":{}})");
-    const Options half = parse(measuringCommand(tradeoff, tradeoff.rows[2]));
+    EXPECT_EQ(gridOf(3), R"({"settings":{}})");
+    const SceneGroup half = parse(2);
     EXPECT_EQ(half.settings.size, tradeoff.given.size) << "the reference's";
-    EXPECT_EQ(half.grid, R"({"settings":{"size":"320x180"}})");
-    EXPECT_EQ(parse(renderingCommand(tradeoff, tradeoff.rows[2])).settings, tradeoff.rows[2].settings);
+    EXPECT_EQ(gridOf(2), R"({"settings":{"size":"320x180"}})");
+    EXPECT_EQ(parsedAs<SettingsGroup>(wordsIn(renderingCommand(tradeoff, tradeoff.rows[2]))).settings,
+              tradeoff.rows[2].settings);
     // Settings that the reference depends on stay as given, except in the row itself.
     tradeoff.rows[1].settings.shadows = Shadows::off;
     tradeoff.given.spp = 16;
-    const Options shadowed = parse(measuringCommand(tradeoff, tradeoff.rows[1]));
+    const SceneGroup shadowed = parse(1);
     EXPECT_EQ(shadowed.settings.shadows, tradeoff.given.shadows);
     EXPECT_EQ(shadowed.settings.spp, 16);
-    EXPECT_EQ(shadowed.grid, R"({"settings":{"shadows":"off"}})");
+    EXPECT_EQ(gridOf(1), R"({"settings":{"shadows":"off"}})");
     EXPECT_EQ(comparingCommand(tradeoff, tradeoff.rows[1]), "") << "its reference would have none";
     tradeoff.cameras = {"0", "1"};
     tradeoff.runs = 9;
-    const Options both = parse(measuringCommand(tradeoff, tradeoff.rows[1]));
+    const SceneGroup both = parse(1);
     EXPECT_EQ(both.cameras, tradeoff.cameras);
     EXPECT_EQ(both.runs, 9);
 }

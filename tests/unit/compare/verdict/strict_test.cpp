@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A channel on one side only is reported by name, and fails if both sides must have the same channels.
-#include "compare/cli/command_line.h"
+#include "compare/cli/command_diff.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
 #include "compare/report/json.h"
@@ -354,16 +354,16 @@ TEST(Rules, AreRefusedForAChannelThatIsNone) {
 
 // Both commands have the option, and so does the command that a report prints.
 TEST(Strict, IsAnOptionOfCompareAndDiff) {
-    for (const Lines& words :
-         {Lines{"compare", "builtin:points", "--strict"}, Lines{"diff", "a.exr", "b.exr", "--strict"}}) {
-        const cli::Options options = cli::parseCommandLine(words);
+    const auto check = [](const auto& options) {
         EXPECT_TRUE(options.strict);
         EXPECT_EQ(cli::wordsOfWhatCounts(options).back(), "--strict");
         EXPECT_FALSE(options.allow_empty);
-        EXPECT_NE(cli::parseCommandLine({words[0], "--help", "all"}).help.find("--strict"),
-                  std::string::npos);
-    }
-    EXPECT_FALSE(cli::parseCommandLine({"compare"}).strict);
+    };
+    check(parsedAs<cli::CompareLine>({"compare", "builtin:points", "--strict"}));
+    check(parsedAs<cli::DiffLine>({"diff", "a.exr", "b.exr", "--strict"}));
+    for (const char* command : {"compare", "diff"})
+        EXPECT_NE(cli::parseCommandLine({command, "--help", "all"}).help.find("--strict"), std::string::npos);
+    EXPECT_FALSE(parsedAs<cli::CompareLine>({"compare"}).strict);
     EXPECT_THROW(cli::parseCommandLine({"render", "--strict"}), std::runtime_error);
 }
 

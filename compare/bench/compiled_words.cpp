@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/compiled_words.h"
+#include "compare/bench/compiled_words.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
-namespace diptych::cli {
+namespace diptych::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -151,4 +150,4 @@ Json compiledJson(std::span<const CompiledPath> paths, const DeviceInfo& device)
             {"paths", all}};
 }
 
-}  // namespace diptych::cli
+}  // namespace diptych::bench

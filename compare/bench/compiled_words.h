@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-namespace diptych::cli {
+namespace diptych::bench {
 
 // Table with one row per shader and pass, the paths side by side: number of pipelines and the heaviest
 // one. Below it: the cost of each feature, and problems.
@@ -20,4 +20,4 @@ std::string addedInWords(const FeatureCost& cost);
 
 nlohmann::ordered_json compiledJson(std::span<const CompiledPath> paths, const DeviceInfo& device);
 
-}  // namespace diptych::cli
+}  // namespace diptych::bench

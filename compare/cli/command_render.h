@@ -2,17 +2,13 @@
 // Outputs of `render`, for one image or many.
 #pragma once
 
-#include "compare/cli/commands.h"
+#include "compare/cli/scene_group.h"
 #include "compare/files/output.h"
 #include "compare/report/frame_files.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace diptych::cli {
 
@@ -20,7 +16,11 @@ inline constexpr const char* single_manifest = "frame.json";  // in a folder of 
 // In a folder with one folder per Frame, or with the numbered images of --frames.
 inline constexpr const char* several_manifest = "frames.json";
 
-Output outputIn(const Options& options);
+struct RenderLine : SceneGroup {
+    bool list_scenes = false;
+};
+
+Output outputIn(const OutputGroup& options);
 // The folder of one of several Frames: "1" for the first.
 std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t frame);
 // Throws, naming -o, if the output cannot be replaced: call before rendering. Folders of one and of
@@ -30,14 +30,14 @@ void checkFolder(const Output& output, std::size_t count, bool force);
 std::vector<std::string> earlierIn(const std::filesystem::path& folder);
 
 // Throws if the path does not support a channel that was requested by name.
-void checkChannels(const Options& options);
+void checkChannels(const RenderLine& options);
 // Channels shown in images: those requested by name, and --debug. Default: lit.
-ShownChannels shownChannels(const Options& options);
+ShownChannels shownChannels(const RenderLine& options);
 // Channels to render. An EXR needs the requested ones. Images need the shown ones, lit for the exposure,
 // and material_id for the background.
-std::vector<Channel> channelsFor(OutputKind kind, const Options& options, std::vector<Channel> requested);
+std::vector<Channel> channelsFor(OutputKind kind, const RenderLine& options, std::vector<Channel> requested);
 // Notes options that the path ignores.
-void noteIgnored(const Options& options);
+void noteIgnored(const RenderLine& options);
 
 // The JSON of a run, with an empty list of Frames.
 nlohmann::ordered_json resultOf(const ReportDevice& made);
@@ -50,6 +50,6 @@ double drawnShare(const RenderOptions& render);
 std::string pictureNames(const std::vector<std::filesystem::path>& files);
 
 // render --frames N: numbered images of one scene, each written as soon as it is rendered.
-int runFrames(const Options& options);
+int runFrames(const RenderLine& options);
 
 }  // namespace diptych::cli

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Options of `diff`.
+#pragma once
+
+#include "compare/cli/option_groups.h"
+#include "compare/verdict/picture_diff.h"
+
+namespace diptych::cli {
+
+struct DiffLine : OutputGroup, SelectionGroup, RulesGroup, KeepGroup {
+    std::vector<std::string> pictures;  // reference and test
+    PictureDiffOptions diff;            // all but the rules
+    std::string metric_word;
+    std::optional<double> tolerance_given;
+};
+
+// Words of options that influence the verdict.
+std::vector<std::string> wordsOfWhatCounts(const DiffLine& options);
+
+}  // namespace diptych::cli
