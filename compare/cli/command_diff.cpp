@@ -3,7 +3,6 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/files/picture_folders.h"
 #include "compare/report/picture_diff_report.h"
-#include "compare/report/picture_diff_text.h"
 #include "compare/run/print.h"
 #include "compare/verdict/picture_diff.h"
 #include "shared/text/counted.h"

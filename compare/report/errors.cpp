@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The distribution of a channel's errors: a histogram, and links to the worst pixels.
-#include "compare/report/html.h"
-#include "compare/report/titles.h"
+#include "compare/page/text.h"
+#include "compare/report/document.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
