@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One comparison, for the terminal and the page.
-#include "compare/output/writers.h"
 #include "compare/report/document.h"
 #include "compare/report/folders.h"
-#include "compare/report/report.h"
 #include "compare/report/titles.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace diptych {
 
