@@ -16,7 +16,6 @@ namespace diptych {
 
 using output::Block;
 using output::Box;
-using output::Drawing;
 using output::Paragraph;
 using output::Span;
 using output::Text;
@@ -56,7 +55,7 @@ public:
                                            : "--keep failing: pictures of passing channels are not kept",
                 "equal"});
         else
-            body.blocks.emplace_back(Drawing{
+            body.blocks.emplace_back(output::Drawing{
                 compared ? "<div class=\"pictures\">" + pair() + difference() + "</div>\n" : single()});
         if (compared)
             body.blocks.emplace_back(more());
@@ -79,7 +78,8 @@ private:
         Box box{"more", commands()};
         box.summary =
             box.blocks.empty() ? "Numbers, worst pixels" : "Numbers, worst pixels, commands to reproduce it";
-        box.blocks.insert(box.blocks.end(), {numbers(), Drawing{errorFigures(channel_, pictures_, id_)}});
+        box.blocks.insert(box.blocks.end(),
+                          {numbers(), output::Drawing{errorFigures(channel_, pictures_, id_)}});
         if (!channel_.figures.empty()) box.blocks.emplace_back(allFigures());
         return box;
     }

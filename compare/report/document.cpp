@@ -18,7 +18,6 @@ namespace diptych {
 
 using output::Block;
 using output::Box;
-using output::Drawing;
 using output::Heading;
 using output::Paragraph;
 using output::Span;
@@ -234,21 +233,21 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
             box.blocks.emplace_back(Heading{3,
                                             {Span(inFolder(reference.scene, layout.folder), Span::foreign),
                                              " \u00b7 ", Span(viewTitle(report, reference), Span::foreign)}});
-        box.blocks.emplace_back(Drawing{texts.closer_boxes[i]});
+        box.blocks.emplace_back(output::Drawing{texts.closer_boxes[i]});
         blocks.emplace_back(box);
     }
     for (const Block& block : indexBlocks(report, layout, texts)) blocks.push_back(block);
     std::string sections;
     for (std::size_t at = 0; at < std::min(layout.order.size(), comparisonsInPage); ++at)
         sections += texts.section(layout.order[at]);
-    blocks.emplace_back(Box{"", {Drawing{std::move(sections)}}, "sections"});
-    blocks.emplace_back(Drawing{laterSections(layout, texts)});
+    blocks.emplace_back(Box{"", {output::Drawing{std::move(sections)}}, "sections"});
+    blocks.emplace_back(output::Drawing{laterSections(layout, texts)});
     addCheckLinks(blocks, report, layout);
     std::vector<Text> notes;
     for (const auto& [about, note] : notesWithScenes(report, layout.folder))
         notes.push_back({Span(about.empty() ? "" : about + ": ", Span::foreign), Span(note, Span::foreign)});
     addBox(blocks, "box notes", "Notes", std::move(notes), inJson);
-    blocks.emplace_back(Drawing{legend});
+    blocks.emplace_back(output::Drawing{legend});
     blocks.emplace_back(Paragraph{
         fmt::format("{} files. Statistics are computed on linear float32 channels, before any colour map. "
                     "They exclude background pixels. Percentiles are nearest-rank.",
