@@ -6,7 +6,6 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/files/picture_folders.h"
 #include "compare/report/picture_diff_report.h"
-#include "compare/report/picture_diff_text.h"
 #include "shared/text/counted.h"
 
 #include <cmath>

@@ -22,6 +22,7 @@ struct Span {
         name,     // may break after its underscores
         foreign,  // right-to-left letters do not affect their surroundings
         strong,
+        title,    // a heading in a box's summary
         link,     // style: address; breaks like a name
         verdict,  // style: pass or fail
         command,  // of a shell; with a button that copies it
@@ -91,7 +92,8 @@ struct Column {
 struct Row {
     std::vector<Cell> cells;  // one per column
     std::string style{};
-    std::size_t number = 0;  // data-row; 0: none
+    std::size_t number = 0;                                   // data-row; 0: none
+    std::vector<std::pair<std::string, std::string>> data{};  // names without "data-", values
 };
 
 // Heads above the heads: a title and its number of columns.
@@ -149,7 +151,8 @@ struct Box {
     std::string style;
     std::vector<Block> blocks;
     std::string id{};
-    std::string summary{};  // not empty: the box opens at a click on it
+    Text summary{};     // not empty: the box opens at a click on it
+    bool open = false;  // before any click
 };
 
 template <class One, class... All>
@@ -169,11 +172,12 @@ struct Block {
 struct Document {
     std::string title;  // of the window, after "Diptych: "
     Text heading;
-    Text about;  // a line below
+    Text about;  // a line below, in grey
     std::vector<Block> blocks;
     std::vector<std::string> files{};  // linked at the end
     std::string style{}, script{};     // besides those of compare/page
     std::string skip{};                // a box's id, to which a link at the top leads
+    Text finding{};                    // the result, below the heading
 };
 
 }  // namespace diptych::output

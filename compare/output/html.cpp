@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "compare/output/policy.h"
 #include "compare/output/writers.h"
 
 #include "compare/page/emitted.h"
@@ -20,6 +21,14 @@ std::string attribute(const char* name, std::string_view value) {
     return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, markup(value));
 }
 
+// An id or an address; keeps what stands for a comparison's index.
+std::string addressed(std::string_view text) {
+    const std::size_t later = text.find(page::numberLater);
+    return later == text.npos ? markup(text)
+                              : fmt::format("{}{}{}", markup(text.substr(0, later)), page::numberLater,
+                                            addressed(text.substr(later + 1)));
+}
+
 std::string classes(std::initializer_list<std::string_view> all) {
     std::string joined;
     for (const std::string_view one : all)
@@ -39,8 +48,10 @@ std::string markupOf(const Span& span) {
             return page::isolated(span.text);
         case Span::strong:
             return fmt::format("<b>{}</b>", markup(span.text));
+        case Span::title:
+            return fmt::format("<h3>{}</h3>", markup(span.text));
         case Span::link:
-            return fmt::format("<a href=\"{}\">{}</a>", markup(span.style), page::breakable(span.text));
+            return fmt::format("<a href=\"{}\">{}</a>", addressed(span.style), page::breakable(span.text));
         case Span::verdict:
             return fmt::format("<span class=\"verdict {}\">{}</span>", span.style, markup(span.text));
         case Span::command:
@@ -77,8 +88,10 @@ std::string headOf(const Table& table) {
 }
 
 std::string rowOf(const Table& table, const Row& row) {
-    std::string out = fmt::format("<tr{}{}>", classes({row.style}),
+    std::string out = fmt::format("<tr{}{}", classes({row.style}),
                                   row.number > 0 ? fmt::format(" data-row=\"{}\"", row.number) : "");
+    for (const auto& [name, value] : row.data) out += fmt::format(" data-{}=\"{}\"", name, markup(value));
+    out += '>';
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         const Column& column = table.columns[i];
         const Cell& cell = row.cells.at(i);
@@ -93,14 +106,20 @@ std::string rowOf(const Table& table, const Row& row) {
 }
 
 // What surrounds the title and the body of every page.
-constexpr const char* beforeTitle =
-    "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-    "content=\"width=device-width, initial-scale=1\"><title>Diptych: ";
+std::string allScripts(std::string_view script) {
+    return fmt::format("{}{}", page::tables, script);
+}
+std::string beforeTitle(std::string_view script) {
+    return fmt::format(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">{}<meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\"><title>Diptych: ",
+        pagePolicy(allScripts(script)));
+}
 std::string afterTitle(std::string_view style) {
     return fmt::format("</title>\n<style>{}{}</style></head>\n<body>\n", page::style, style);
 }
 std::string afterBody(std::string_view script) {
-    return fmt::format("<script>{}{}</script>\n</body></html>\n", page::tables, script);
+    return fmt::format("<script>{}</script>\n</body></html>\n", allScripts(script));
 }
 
 // The markup of each kind of block.
@@ -137,11 +156,12 @@ struct Markup {
     }
     std::string operator()(const Drawing& drawing) const { return drawing.markup; }
     std::string operator()(const Box& box) const {
-        const std::string attributes = classes({box.style}) + attribute("id", box.id),
-                          inner = inHtml(box.blocks);
-        return box.summary.empty() ? fmt::format("<div{}>{}</div>\n", attributes, inner)
-                                   : fmt::format("<details{}><summary>{}</summary>{}</details>\n", attributes,
-                                                 markup(box.summary), inner);
+        const std::string id = box.id.empty() ? "" : fmt::format(" id=\"{}\"", addressed(box.id)),
+                          attributes = classes({box.style}) + id, inner = inHtml(box.blocks);
+        return box.summary.spans.empty()
+                   ? fmt::format("<div{}>{}</div>\n", attributes, inner)
+                   : fmt::format("<details{}{}><summary>{}</summary>{}</details>\n", attributes,
+                                 box.open ? " open" : "", inHtml(box.summary), inner);
     }
 };
 
@@ -180,25 +200,29 @@ std::string inHtml(const Document& document) {
     std::string files;
     for (const std::string& file : document.files)
         files += fmt::format("<a href=\"{0}\">{0}</a> ", markup(file));
-    return beforeTitle + markup(document.title) + afterTitle(document.style) +
+    const auto line = [](const char* start, const Text& text) {
+        return text.spans.empty() ? "" : start + inHtml(text) + "</p>";
+    };
+    return beforeTitle(document.script) + markup(document.title) + afterTitle(document.style) +
            fmt::format(
-               "{}<header><p class=\"brand\">Diptych</p><h1>{}</h1><p class=\"soft\">{}</p></header>\n",
+               "{}<header><p class=\"brand\">Diptych</p><h1>{}</h1>{}{}</header>\n",
                document.skip.empty()
                    ? ""
-                   : fmt::format("<a class=\"skip\" href=\"#{}\">Skip to the table</a>", document.skip),
-               inHtml(document.heading), inHtml(document.about)) +
+                   : fmt::format("<a class=\"skip\" href=\"#{}\">Skip to the results</a>", document.skip),
+               inHtml(document.heading), line("<p>", document.finding),
+               line("<p class=\"soft\">", document.about)) +
            inHtml(document.blocks) + fmt::format("<footer><p>{}</p></footer>", files) +
            afterBody(document.script);
 }
 
 void checkPage(std::string_view text, std::string_view style, std::string_view script) {
-    const std::string head = afterTitle(style), end = afterBody(script);
+    const std::string start = beforeTitle(script), head = afterTitle(style), end = afterBody(script);
     const std::size_t title = text.find(head);
-    if (!text.starts_with(beforeTitle) || title == text.npos || !text.ends_with(end) ||
+    if (!text.starts_with(start) || title == text.npos || !text.ends_with(end) ||
         text.size() < title + head.size() + end.size())
         fail("is not a page of this version of Diptych");
     text.remove_suffix(end.size());
-    const std::size_t name = std::string_view(beforeTitle).size();
+    const std::size_t name = start.size();
     page::checkMarkup(fmt::format("<p>{}</p>", text.substr(name, title - name)));
     page::checkMarkup(text.substr(title + head.size()));
 }

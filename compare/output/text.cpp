@@ -79,7 +79,7 @@ struct Lines {
     std::string operator()(const Picture&) const { return {}; }
     std::string operator()(const Drawing&) const { return {}; }
     std::string operator()(const Box& box) const {
-        return box.summary.empty() ? inText(box.blocks) : std::string();
+        return box.summary.spans.empty() ? inText(box.blocks) : std::string();
     }
 };
 

@@ -22,7 +22,7 @@ async function copy(button) {
 async function accept(button) {
   const quoted = text => /^[\w+=:,./@%-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
   const report = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/[^/]*$/, '') : 'diptych-report';
-  const command = `diptych accept ${quoted(report)} ${quoted(button.dataset.scene)} -o accepted.json`;
+  const command = `diptych accept ${quoted(report)} ${quoted(button.closest('tr').dataset.scene)} -o accepted.json`;
   try {
     await navigator.clipboard.writeText(command);
     button.textContent = 'copied';

@@ -20,7 +20,7 @@ struct Grammar {
     std::string_view elements, empty, drawn;  // empty: without an end tag; drawn: only inside <svg>
     std::string_view attributes, flags;       // flags: attributes without a value
     std::string_view outermost;               // "": any
-    char32_t later[2];                        // first and last of the characters to be replaced (layout.h)
+    char32_t later[2];                        // first and last of the characters to be replaced
 };
 
 // No element whose contents browsers do not parse as markup: no script, style or textarea. <title> inside

@@ -63,7 +63,7 @@ class Index {
   // The channel in the metric column; lit by default.
   get channel() { return this.selects.channel.value || 'lit'; }
 
-  of(line) { return this.all[line.dataset.comparison]?.channels[this.channel]; }
+  of(line) { return this.all[line.dataset.comparison]?.[this.channel]; }
 
   chosen() {
     for (const [name, select] of Object.entries(this.selects)) choose(name, name === 'figure' && select.value === 'max' ? '' : select.value);
@@ -95,7 +95,7 @@ class Index {
 
   narrow() {
     const words = this.filter.value.toLowerCase().split(/\s+/), verdict = this.selects.verdict.value;
-    const wanted = ['scene', 'camera', 'cause', 'since'].filter(name => this.selects[name]?.value).map(name => [name, this.selects[name].value]);
+    const wanted = ['camera', 'cause', 'since'].filter(name => this.selects[name]?.value).map(name => [name, this.selects[name].value]);
     let count = 0;
     for (const line of this.lines) {
       line.search_text ??= line.textContent.toLowerCase();

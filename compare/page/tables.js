@@ -140,4 +140,5 @@ function sortable(table, down) {
 }
 
 prepare(document);
-for (const table of document.querySelectorAll('table.sortable')) sortable(table, false);
+// That of comparisons has columns to fill before (index.js).
+for (const table of document.querySelectorAll('table.sortable')) if (!table.closest('.index')) sortable(table, false);

@@ -2,6 +2,7 @@
 // Names all files of a report, for the writers and the page.
 #pragma once
 
+#include "compare/page/emitted.h"
 #include "compare/picture/picture.h"
 #include "compare/report/error_figures.h"
 #include "compare/report/report_options.h"
@@ -37,11 +38,10 @@ inline constexpr int worstApart = 8;  // pixels
 // its section loads on demand from its own file, or with --single-file from text in the page.
 inline constexpr std::size_t comparisonsInPage = 4;
 
-// Parts (parts.h) are written before their position in the report is known. These characters stand for the
-// values that depend on it. No text of a page contains them: page::markup() replaces them by U+FFFD.
-inline constexpr std::string_view numberLater = "\x01";  // the comparison's index
-inline constexpr std::string_view titleLater = "\x02";   // its title
-inline constexpr std::string_view folderLater = "\x03";  // the report's folder and a slash, in junit.xml
+// Stand for what depends on the position in the report (parts.h).
+using page::folderLater;
+using page::numberLater;
+using page::titleLater;
 
 struct ReportLayout {
     std::vector<std::string> ids;  // per comparison: its index, used in anchors of the page

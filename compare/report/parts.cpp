@@ -3,12 +3,13 @@
 
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
+#include "compare/output/policy.h"
+#include "compare/output/writers.h"
 #include "compare/page/emitted.h"
+#include "compare/report/document.h"
 #include "compare/report/encoder.h"
 #include "compare/report/exposure_line.h"
-#include "compare/report/html.h"
 #include "compare/report/json.h"
-#include "compare/report/policy.h"
 #include "compare/report/report.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/atomic_file.h"
@@ -41,6 +42,7 @@ using Json = nlohmann::ordered_json;
 using Place = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
+constexpr int partSchema = 2;  // 2: sections fit this version's style and scripts
 // By PartText.
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
@@ -136,7 +138,7 @@ Json jsonOf(const ReportPart& part) {
         closer.push_back({of.reference, of.paths[0], of.paths[1]});
     for (const IndexRow& row : part.rows) rows.push_back(jsonOf(row));
     for (const Exposure& exposure : part.exposures) exposures.push_back({exposure.factor, exposure.because});
-    return {{"schema", 1},
+    return {{"schema", partSchema},
             {"software", softwareName},
             {"device", jsonOf(report.device)},
             {"against", jsonOf(report.against)},
@@ -181,6 +183,8 @@ void checkCount(const Place& json, const char* key, const List& list, std::size_
 ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     ReportPart part;
     part.scene_folder = scene_folder;
+    if (json.at("schema").number() != partSchema)
+        json.at("schema").fail("is that of another version of Diptych; compare the scene again");
     Report& report = part.report;
     report.device = deviceFrom(json.at("device"));
     report.against = deviceFrom(json.at("against"));
@@ -300,11 +304,11 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
         part.junit.tests += suite.tests;
         part.junit.failures += suite.failures;
         part.junit.seconds += suite.seconds;
-        part.tables.push_back(comparisonTable(report, report.comparisons[i]));
+        part.tables.push_back(inText(comparisonBlocks(report, nullptr, i)));
         part.exposures.push_back(exposureOf(report, report.comparisons[i], options.picture));
     }
-    for (const CloserPath& closer : report.closer_paths)
-        part.closer_tables.push_back(closerTable(report, closer, true));
+    for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
+        part.closer_tables.push_back(inText(closerPathBlocks(report, nullptr, i, true)));
     const std::string texts_of_part[] = {innerJson(framesJson(report, &layout)),
                                          innerJson(comparisonsJson(report)), innerJson(truthJson(report)),
                                          junit};

@@ -48,63 +48,92 @@ std::vector<DebugMode> modesOf(const PictureDiff& diff) {
     return modes;
 }
 
-// Moves the images out of the PictureDiff, which cannot be measured afterwards.
-Frame frameOf(PictureDiff& diff, const std::vector<DebugMode>& modes, bool test) {
+Frame frameOf(const PictureDiff& diff, bool test) {
     Frame frame;
     frame.name = test ? "test" : "reference";
     frame.origin.file = test ? diff.test : diff.reference;
     frame.scene =
         diff.name.empty() ? std::filesystem::path(frame.origin.file).filename().string() : diff.name;
     frame.settings.size = {diff.width, diff.height};
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        diff.channels[i]->measurement.reset();
-        MatchedChannel& pair = diff.channels[i]->pair;
-        Image& channel = frame.channels[modes[i].channel];
-        channel = (test ? pair.test : pair.reference).takeImage();
-        keepInFile(channel.data);
-    }
     return frame;
 }
 
-ChannelDiff channelOf(const PictureDiff& diff, const PictureChannelDiff& channel, const DebugMode& mode) {
+// Without images and the metrics that only a page shows.
+ChannelDiff channelOf(const PictureChannelDiff& channel, const DebugMode& mode) {
     ChannelDiff row;
     row.mode = &mode;
     row.stats = channel.measurement->stats();
-    row.flip = (*channel.measurement)({"flip", 0});
     row.tolerance = {boundOn(channel.rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                      channel.rule.because};
     row.rule = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     (channel.decision.level == Level::warn ? row.warning : row.reason) = channel.decision.reason;
-    if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
-        row.shown_error = std::move(errors.image);
-        row.shown_error_name = errors.name;
-        row.shown_error_top = errors.top;
-    }
     row.criterion = channel.decision.criterion;
     row.stats.worst_x = channel.worst_x;
     row.stats.worst_y = channel.worst_y;
-    row.figures = channel.measurement->all();
+    for (const char* figure : {"psnr", "ssim"})
+        if (const std::optional<double> value = (*channel.measurement)({figure, 0}))
+            row.figures.emplace_back(figure, *value);
     row.verdict = channel.decision.level == Level::fail ? Verdict::fail : Verdict::pass;
     return row;
 }
 
-// Adds both images and their comparison; `modes` must live as long as the report.
-void addTo(Report& report, PictureDiff& diff, const std::vector<DebugMode>& modes,
-           std::vector<std::string> command) {
+// Adds the comparison of both images; `modes` must live as long as the report.
+void addTo(Report& report, const PictureDiff& diff, const std::vector<DebugMode>& modes) {
     Comparison& comparison = report.comparisons.emplace_back();
     comparison.baseline = report.frames.size();
     comparison.test = comparison.baseline + 1;
-    comparison.coverage = *diff.coverage;
     comparison.failures = diff.failures;
     comparison.notes = diff.notes;
     comparison.emptiness = diff.emptiness;
-    comparison.command = std::move(command);
     for (std::size_t i = 0; i < modes.size(); ++i)
-        comparison.channels.push_back(channelOf(diff, *diff.channels[i], modes[i]));
-    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, modes, test));
+        comparison.channels.push_back(channelOf(*diff.channels[i], modes[i]));
+    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, test));
+}
+
+// Adds what only a page shows. Moves the images out of the PictureDiff, which cannot be measured afterwards.
+void addPictures(Report& report, Comparison& comparison, PictureDiff& diff) {
+    comparison.coverage = *diff.coverage;
+    for (std::size_t i = 0; i < comparison.channels.size(); ++i) {
+        PictureChannelDiff& channel = *diff.channels[i];
+        ChannelDiff& row = comparison.channels[i];
+        row.flip = (*channel.measurement)({"flip", 0});
+        if (DecidingErrors errors = decidingErrors(diff, channel); !errors.name.empty()) {
+            row.shown_error = std::move(errors.image);
+            row.shown_error_name = errors.name;
+            row.shown_error_top = errors.top;
+        }
+        row.figures = channel.measurement->all();
+    }
+    for (std::size_t i = 0; i < comparison.channels.size(); ++i) {
+        diff.channels[i]->measurement.reset();
+        MatchedChannel& pair = diff.channels[i]->pair;
+        for (const bool test : {false, true}) {
+            Frame& frame = report.frames[test ? comparison.test : comparison.baseline];
+            Image& channel = frame.channels[comparison.channels[i].mode->channel];
+            channel = (test ? pair.test : pair.reference).takeImage();
+            keepInFile(channel.data);
+        }
+    }
 }
 
 }  // namespace
+
+std::string pictureDiffTable(const PictureDiff& diff) {
+    const std::vector<DebugMode> modes = modesOf(diff);
+    Report report;
+    addTo(report, diff, modes);
+    return reportTable(report);
+}
+
+std::string folderDiffTable(const FolderDiff& diff) {
+    std::vector<std::vector<DebugMode>> modes;
+    Report report;
+    report.errors = diff.errors;
+    report.failures = diff.failures();
+    for (const PictureDiff& picture : diff.pictures) modes.push_back(modesOf(picture));
+    for (std::size_t i = 0; i < modes.size(); ++i) addTo(report, diff.pictures[i], modes[i]);
+    return reportTable(report);
+}
 
 void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
                        const ReportOptions& options, const std::vector<std::string>& words,
@@ -114,10 +143,12 @@ void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::pa
     Report report;
     report.errors = errors;
     report.failures = failures;
-    for (std::size_t i = 0; i < diffs.size(); ++i)
-        addTo(report, diffs[i], modes[i],
-              withOption(withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o",
-                         againFolder(folder)));
+    for (std::size_t i = 0; i < diffs.size(); ++i) {
+        addTo(report, diffs[i], modes[i]);
+        addPictures(report, report.comparisons.back(), diffs[i]);
+        report.comparisons.back().command = withOption(
+            withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o", againFolder(folder));
+    }
     writeReport(report, folder, options);
 }
 

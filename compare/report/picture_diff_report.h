@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/files/output.h"
+#include "compare/report/picture_diff_json.h"
 #include "compare/report/report.h"
 #include "compare/verdict/picture_diff.h"
 
@@ -10,6 +11,10 @@
 #include <vector>
 
 namespace diptych {
+
+// For a terminal: as of two paths, with PSNR and SSIM. Ends in a newline.
+std::string pictureDiffTable(const PictureDiff& diff);
+std::string folderDiffTable(const FolderDiff& diff);
 
 // Writes an EXR of every channel's errors (FLIP for colours with a FLIP rule, else the channel's pixel
 // error), an error image of the deciding channel, or the same report folder as for two paths. Throws

@@ -21,14 +21,8 @@ std::string writeReport(const Report& report, const std::filesystem::path& folde
 // Output folder for the commands that a report shows: beside the report, which they must not replace.
 std::string againFolder(const std::filesystem::path& folder);
 
-// For a terminal: a table per comparison, failures first, then one line with the verdict. Ends in a
-// newline.
+// For a terminal: each comparison, failures first, then one line with the verdict. Ends in a newline.
 std::string reportTable(const Report& report);
-
-// Its parts: one comparison; both paths against the reference for one scene, camera and time, named if
-// there are `several`; and the lines below all tables.
-std::string comparisonTable(const Report& report, const Comparison& comparison);
-std::string closerTable(const Report& report, const CloserPath& closer, bool several);
-std::string tableEnd(const Report& report);
+std::string tableEnd(const Report& report);  // the lines below all comparisons
 
 }  // namespace diptych

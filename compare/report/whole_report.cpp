@@ -4,10 +4,9 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/files/output_folder.h"
+#include "compare/report/document.h"
 #include "compare/report/exposure_line.h"
-#include "compare/report/html.h"
 #include "compare/report/json.h"
-#include "compare/report/policy.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "shared/image/atomic_file.h"
@@ -86,7 +85,7 @@ ReportTexts textsOf(const WholeReport& whole, const Report& summary, const Repor
     texts.section = [&summary, &layout, sections = std::move(sections)](std::size_t index) {
         std::string text = sectionIn(sections[index].first, sections[index].second);
         replaceAll(text, numberLater, layout.ids[index]);
-        replaceAll(text, titleLater, sectionTitle(summary, layout, index));
+        replaceAll(text, titleLater, page::markup(sectionTitle(summary, layout, index)));
         return text;
     };
     return texts;

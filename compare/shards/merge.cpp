@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/merge.h"
 
-#include "compare/report/policy.h"
 #include "shared/image/file_bytes.h"
 
 #include <fmt/format.h>

@@ -2,6 +2,8 @@
 #include "compare/viewer/tabs.h"
 
 #include "compare/frames/frame_facts.h"
+#include "compare/output/writers.h"
+#include "compare/report/document.h"
 #include "compare/report/titles.h"
 #include "compare/viewer/widgets.h"
 
@@ -54,12 +56,9 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
         ImGui::PushTextWrapPos(32 * ImGui::GetFontSize());
         ImGui::TextUnformatted(std::string(channel.mode->shows).c_str());
         if (compared) {
-            ImGui::Text("largest error %s, %s", figure(channel.stats.max).c_str(),
-                        std::string(nameOf(channel.mode->metric)).c_str());
-            ImGui::TextUnformatted(
-                ("tolerance " + figure(channel.tolerance.max) + ": " + channel.tolerance.because).c_str());
+            const output::Paragraph finding{findingOf(channel, "")};
+            ImGui::TextUnformatted(output::inText({finding}).c_str());
         }
-        if (!channel.reason.empty()) ImGui::TextColored(bad, "%s", channel.reason.c_str());
         ImGui::PopTextWrapPos();
         ImGui::EndTooltip();
     }

@@ -3,7 +3,7 @@
 // may lack it: the tests that need it are then skipped with a message.
 #pragma once
 
-#include "compare/report/policy.h"
+#include "compare/output/policy.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>

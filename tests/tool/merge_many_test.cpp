@@ -110,7 +110,7 @@ const char* const lookAtMany = R"(
   location.hash = '#s1000';
   told.arrived = await until(() => $('#s1000')) && $('#s1000 h2').textContent;
   location.hash = '#c1001-lit';
-  told.card = await until(() => $('#c1001-lit')) && $('#c1001-lit').closest('section').id;
+  told.card = await until(() => $('#c1001-lit')) && $('#c1001-lit').closest('.comparison').id;
   await wait(300); told.address = location.search;
   tell(told);)";
 

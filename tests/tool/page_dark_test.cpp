@@ -27,7 +27,7 @@ constexpr const char* lookAtWords = R"(
       layers.push(of); if (of[3] === 1) break; }
     return layers.reduceRight((below, top) => over(top, below), page); };
   const words = $$('body *').filter(e => e.getClientRects().length > 0
-    && !e.closest('.panel, .loupe, script, .skip')
+    && !e.closest('.panel, script, .skip')
     && [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()));
   const pale = [];
   for (const e of words) {

@@ -108,7 +108,7 @@ TEST(PageReport, TheFirstScreenShowsPictures) {
         EXPECT_EQ(seen.told["failing"], 3);
         EXPECT_EQ(seen.told["finding"], 1);
         const std::string says = seen.told["says"];
-        for (const char* part : {"max 0.25 exceeds", "at pixel 40, 20", "half a step of 12 bits"})
+        for (const char* part : {"max 0.25 exceeds", "worst at 40,20", "half a step of 12 bits"})
             EXPECT_NE(says.find(part), std::string::npos) << says;
     }
 }

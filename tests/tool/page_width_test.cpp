@@ -18,7 +18,7 @@ addEventListener('load', () => setTimeout(() => {
   const name = e => e.tagName + '.' + (e.className.baseVal ?? e.className), wide = innerWidth + 1;
   const scrolls = all('body *').filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1
     && /auto|scroll/.test(getComputedStyle(e).overflowX));
-  const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .loupe, .panel, svg, .skip')
+  const over = all('body *').filter(e => seen(e) && !e.closest('.scroll, .panel, svg, .skip')
     && e.getBoundingClientRect().right > wide);
   const cut = all('.buttons, .readout, .again, dl, .box, summary')
     .filter(e => seen(e) && e.scrollWidth > e.clientWidth + 1);

@@ -44,7 +44,7 @@ TEST(VerdictExit, AWarningIsNoFailure) {
     EXPECT_EQ(ran.out.find("warn"), std::string::npos) << "the bound itself does not warn: " << ran.out;
     ran = runTool(folder, warned + "0.2 -o report");
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_NE(ran.out.find("warn lit: max 0.25 exceeds 0.2"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("warning a.pfm, lit: max 0.25 exceeds 0.2"), std::string::npos) << ran.out;
     const Json channel =
         Json::parse(contentsOf(folder / "report/report.json"))["comparisons"][0]["channels"][0];
     EXPECT_EQ(channel["verdict"], "pass");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Names of pictures that two folders write in different Unicode forms.
 #include "compare/files/picture_folders.h"
-#include "compare/report/picture_diff_text.h"
+#include "compare/report/picture_diff_json.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
 

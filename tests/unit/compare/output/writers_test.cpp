@@ -88,6 +88,25 @@ TEST(OutputHtml, EveryKindOfTextIsEscaped) {
     EXPECT_EQ(inHtml(Text{Span("<b>x</b>", Span::drawn)}), "<b>x</b>");
 }
 
+// In the part of a report, a character stands for the comparison's index.
+TEST(OutputHtml, AnIndexThatIsNotYetKnownStaysInIdsAndAddresses) {
+    EXPECT_NE(inHtml(Text{Span("lit", Span::link, "#c\x01-<lit")}).find("href=\"#c\x01-&lt;lit\""),
+              std::string::npos);
+    EXPECT_NE(inHtml(Box{"card", {}, "c\x01-lit", "lit", true})
+                  .find("<details class=\"card\" id=\"c\x01-lit\" open><summary>lit</summary>"),
+              std::string::npos);
+    EXPECT_EQ(inHtml(Text{"a\x01"}), "a\xef\xbf\xbd") << "but not in texts";
+}
+
+TEST(OutputHtml, RowsHaveDataAndPicturesACaption) {
+    Table table{.columns = {{"a"}}, .rows = {{{"b"}}}};
+    table.rows[0].data = {{"scene", "<\"x"}};
+    EXPECT_NE(inHtml(table).find("<tr data-scene=\"&lt;&quot;x\"><td>b</td>"), std::string::npos);
+    EXPECT_EQ(inHtml(Picture{"a\".png", "<", {"seen ", Span("y", Span::title)}}),
+              "<figure><img loading=\"lazy\" src=\"a&quot;.png\" alt=\"&lt;\"><figcaption>seen <h3>y</h3>"
+              "</figcaption></figure>\n");
+}
+
 TEST(OutputHtml, ListsWithoutItemsLeaveNothing) {
     EXPECT_EQ(inHtml(List{{}, "box"}), "");
     EXPECT_EQ(inHtml(Terms{{}, "box"}), "");
@@ -102,13 +121,14 @@ TEST(OutputHtml, APageHasItsBlocksInOrder) {
                             .blocks = {Heading{2, "one"}, Box{"box", {Paragraph{"two", "soft"}}, "id"},
                                        Box{"", {Drawing{"<svg></svg>"}}, "", "three"}, fruit()},
                             .files = {"x.json"},
-                            .skip = "id"};
+                            .skip = "id",
+                            .finding = "<pass>"};
     const std::string page = inHtml(document);
     EXPECT_EQ(markupFault(page, {"meta"}), "");
     std::size_t at = 0;
     for (const char* part :
          {"<title>Diptych: &lt;t&gt;</title>", "href=\"#id\"", "<h1>h<bdi>&lt;f&gt;</bdi></h1>",
-          "<h2>one</h2>", "<div class=\"box\" id=\"id\"><p class=\"soft\">two</p>",
+          "<p>&lt;pass&gt;</p>", "<h2>one</h2>", "<div class=\"box\" id=\"id\"><p class=\"soft\">two</p>",
           "<details><summary>three</summary><svg></svg></details>", "<table",
           "<a href=\"x.json\">x.json</a>"}) {
         EXPECT_NE(page.find(part, at), std::string::npos) << part;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Several comparisons in one report: one line each, failing ones first, the rest loaded on request.
-#include "compare/report/html.h"
+#include "compare/report/document.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/files.h"
@@ -48,7 +48,7 @@ TEST(ReportIndex, FailingOnesComeFirst) {
         EXPECT_NE(page.find("data-section=\"" + std::string(waiting) + "\""), std::string::npos);
     }
     const std::string section = contentsOf(out / "2-98a010/comparison.section.js");
-    ASSERT_TRUE(section.starts_with("diptychSection(2,\"<section ") && section.ends_with("\");\n"))
+    ASSERT_TRUE(section.starts_with("diptychSection(2,\"<div ") && section.ends_with("\");\n"))
         << section.substr(0, 80);
     const std::string html = nlohmann::json::parse(section.substr(17, section.size() - 20));
     EXPECT_EQ(markupFault(html, htmlVoids), "");
@@ -65,7 +65,7 @@ TEST(ReportIndex, TimesHaveColumnsWhereFramesWereTimed) {
         const fs::path out = folder() / (timed ? "timed" : "untimed");
         writeReport(report, out, {});
         const std::string page = contentsOf(out / "index.html");
-        const std::string index = page.substr(page.find("<section class=\"index\">"));
+        const std::string index = page.substr(page.find("<div class=\"index\">"));
         const auto table = index.substr(0, index.find("</table>"));
         EXPECT_EQ(countOf(table, ", ms</button></th>"), timed ? 2 : 0);
         EXPECT_EQ(countOf(table, "<th"), countOf(table, "<td") / 2 + 1) << "and <thead>";

@@ -101,11 +101,10 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     const std::filesystem::path out = folder() / "report";
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
-    EXPECT_NE(page.find("<li><b><bdi>3 scenes: </bdi></b><bdi>of all</bdi></li>"), std::string::npos);
-    EXPECT_NE(
-        page.find("<li><b><bdi>y.glb, z.glb, with different numbers: </bdi></b><bdi>took 1 s</bdi></li>"),
-        std::string::npos);
-    EXPECT_LT(page.find("<section class=\"index\">"), page.find("<b><bdi>3 scenes: </bdi></b>"));
+    EXPECT_NE(page.find("<li><bdi>3 scenes: </bdi><bdi>of all</bdi></li>"), std::string::npos);
+    EXPECT_NE(page.find("<li><bdi>y.glb, z.glb, with different numbers: </bdi><bdi>took 1 s</bdi></li>"),
+              std::string::npos);
+    EXPECT_LT(page.find("<div class=\"index\">"), page.find("<bdi>3 scenes: </bdi>"));
     EXPECT_NE(page.find("<li>a/bad.glb: is cut short</li>"), std::string::npos);
     EXPECT_NE(page.find("<h1><span class=\"verdict fail\">fail</span>"), std::string::npos);
     EXPECT_NE(page.find("<p>ERROR: 1 scene could not be rendered: a/bad.glb; pass"), std::string::npos);

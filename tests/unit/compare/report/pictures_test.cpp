@@ -11,8 +11,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <regex>
-
 namespace diptych {
 namespace {
 
@@ -22,7 +20,6 @@ namespace fs = std::filesystem;
 struct CardPictures {
     std::array<int, 3> left{}, right{}, difference{};
     std::string left_name, right_name, left_button, right_button;
-    std::vector<std::array<int, 3>> loupes;
     bool operator==(const CardPictures&) const = default;
 };
 
@@ -60,9 +57,6 @@ CardPictures cardIn(const std::string& page, const fs::path& folder, const std::
     stage("", shown.difference, none);
     shown.left_button = between(card, "<button data-show=\"left\" title=\"1\">", "<");
     shown.right_button = between(card, "<button data-show=\"right\" title=\"2\">", "<");
-    static const std::regex loupe("<span class=\"loupe\"><img[^>]* src=\"([^\"]*)\"");
-    for (std::sregex_iterator i(card.begin(), card.end(), loupe), none_left; i != none_left; ++i)
-        shown.loupes.push_back(firstPixel(folder, (*i)[1]));
     return shown;
 }
 
@@ -107,12 +101,10 @@ TEST(ReportPictures, LeftIsTheBaselineRightTheOther) {
             const std::string page = contentsOf(out / "index.html");
             for (const char* channel : {"c0-roughness", "c0-metallic"}) {
                 const std::array<int, 3> apart = errorOfHalf(report, channel + 3);
-                CardPictures expected{quarter,        most,       apart,          "deferred",
-                                      "forward_plus", "deferred", "forward_plus", {quarter, most, apart}};
+                CardPictures expected{quarter,        most,       apart,         "deferred",
+                                      "forward_plus", "deferred", "forward_plus"};
                 if (baseline == Path::forward_plus)
-                    expected = {most,       quarter,        apart,      "forward_plus",
-                                "deferred", "forward_plus", "deferred", {most, quarter, apart}};
-                if (single) expected.loupes.clear();  // half the size, so nothing can be enlarged
+                    expected = {most, quarter, apart, "forward_plus", "deferred", "forward_plus", "deferred"};
                 const CardPictures shown = cardIn(page, out, channel);
                 EXPECT_EQ(shown.left, expected.left) << channel << single;
                 EXPECT_EQ(shown.right, expected.right) << channel << single;

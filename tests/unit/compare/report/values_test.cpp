@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page's value files decode to the Frames' numbers: exactly, or as precisely as the file states.
 #include "compare/report/values.h"
-#include "compare/report/html.h"
+#include "compare/report/document.h"
 #include "tests/support/files.h"
 #include "tests/support/report_builder.h"
 

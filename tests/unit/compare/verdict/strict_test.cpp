@@ -4,7 +4,7 @@
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
 #include "compare/report/json.h"
-#include "compare/report/picture_diff_text.h"
+#include "compare/report/picture_diff_report.h"
 #include "compare/report/report.h"
 #include "compare/verdict/picture_diff.h"
 #include "shared/image/exr.h"
@@ -186,9 +186,9 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
         EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
         const std::string table = pictureDiffTable(diff);
         for (const std::string& line : said)
-            EXPECT_NE(table.find((strict ? "  FAIL " : "  note: ") + line + "\n"), std::string::npos)
+            EXPECT_NE(table.find((strict ? "  FAIL a.exr: " : "\nnote: ") + line + "\n"), std::string::npos)
                 << table;
-        EXPECT_EQ(table.ends_with("FAIL: " + said[0] + "\n"), strict) << table;
+        EXPECT_EQ(table.ends_with("FAIL: " + said[0] + " and 1 more\n"), strict) << table;
         const auto json = nlohmann::json::parse(pictureDiffJson(diff));
         EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
         EXPECT_EQ(json["failures"].size(), strict ? 2u : 0u);

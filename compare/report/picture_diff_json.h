@@ -9,9 +9,6 @@
 
 namespace diptych {
 
-// For a terminal: a line per channel, failures first, then one line with the verdict. Ends in a newline.
-std::string pictureDiffTable(const PictureDiff& diff);
-
 // Every metric of every channel; those of the deciding channel are at the top. Ends in a newline.
 std::string pictureDiffJson(const PictureDiff& diff);
 
@@ -25,7 +22,6 @@ struct FolderDiff {
     bool passed() const;
     std::vector<SceneError> failures() const;  // for the unmatched names
 };
-std::string folderDiffTable(const FolderDiff& diff);
 std::string folderDiffJson(const FolderDiff& diff);
 
 }  // namespace diptych

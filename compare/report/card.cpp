@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Cards of one comparison: images, difference, wipe, values, reason.
+// A channel's card: images, difference, wipe, values, reason.
 #include "compare/picture/heat.h"
-#include "compare/report/channel_table.h"
-#include "compare/report/html.h"
+#include "compare/report/document.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -14,13 +14,16 @@
 
 namespace diptych {
 
+using output::Block;
+using output::Box;
+using output::Paragraph;
+using output::Span;
+using output::Text;
 using page::markup;
 using page::number;
 using page::unitOf;
 
 namespace {
-
-constexpr int loupeRadius = 8, loupeZoom = 8;  // 17 x 17 pixels, each 8 wide: .loupe of the style
 
 std::string hex(const std::array<std::uint8_t, 3>& c) {
     return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
@@ -36,62 +39,49 @@ public:
           channel_(channel),
           pictures_(layout.pictures[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
-          id_(cardId(layout.ids[comparison], *channel.mode)),
-          leads_(std::ranges::count(leadingChannels(report.comparisons[comparison]), &channel) > 0) {}
+          id_(cardId(layout.ids[comparison], *channel.mode)) {}
 
-    std::string html() const {
+    Box box(bool open) const {
         const DebugMode& mode = *channel_.mode;
+        const std::string_view verdict = nameOf(channel_.verdict);
         const bool compared = isCompared(channel_.verdict);
-        const bool open = leads_ || (compared && channel_.stats.different > 0);
-        std::string out = fmt::format(
-            "<details class=\"box card {0}\" id=\"{1}\"{2}><summary><h3>{3}</h3><span class=\"soft\">{4} "
-            "\u00b7 {5} \u00b7 {6}</span><span class=\"verdict {0}\">{0}</span></summary><div "
-            "class=\"body\">\n",
-            nameOf(channel_.verdict), id_, open ? " open" : "", markup(mode.name),
-            channelNumber(mode.channel), nameOf(mode.metric), markup(mode.shows));
+        Box body{"body", {}};
         if (!channel_.warning.empty())
-            out += fmt::format("<p class=\"warning\">Warning: {}</p>\n", markup(channel_.warning));
-        if (!compared) return out + single() + "</div></details>\n";
-        out += finding();
-        out += pictures_.kept ? "<div class=\"pictures\">" + pair() + difference() + "</div>\n" : notKept();
-        const std::string commands = again();
-        return out +
-               fmt::format("<details class=\"more\"><summary>Numbers, worst pixels{}</summary>",
-                           commands.empty() ? "" : ", commands to reproduce it") +
-               commands + numbers() + loupes() + errorFigures(channel_, pictures_, id_) + allFigures() +
-               "</details></div></details>\n";
+            body.blocks.emplace_back(Paragraph{"Warning: " + channel_.warning, "warning"});
+        if (compared) body.blocks.emplace_back(Paragraph{findingOf(channel_, id_), "finding"});
+        if (!pictures_.kept)
+            body.blocks.emplace_back(Paragraph{
+                layout_.keep == Keep::none ? "--keep none: no pictures are kept"
+                                           : "--keep failing: pictures of passing channels are not kept",
+                "equal"});
+        else
+            body.blocks.emplace_back(output::Drawing{
+                compared ? "<div class=\"pictures\">" + pair() + difference() + "</div>\n" : single()});
+        if (compared)
+            body.blocks.emplace_back(more());
+        else
+            body.blocks.emplace_back(Paragraph{channel_.tolerance.because, "because"});
+        return {fmt::format("box card {}", verdict),
+                {body},
+                id_,
+                {Span(mode.name, Span::title),
+                 Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelNumber(mode.channel), nameOf(mode.metric),
+                                  mode.shows),
+                      Span::words, "soft"),
+                 Span(verdict, Span::verdict, verdict)},
+                open || (compared && channel_.stats.different > 0)};
     }
 
 private:
-    // The channel's largest difference and its pixel, the deciding criterion, and the reason of its
-    // tolerance.
-    std::string finding() const {
-        const ChannelStats& s = channel_.stats;
-        std::string text = channel_.reason.empty() ? "" : "<b>" + markup(channel_.reason) + ".</b> ";
-        if (s.different == 0)
-            text += "Equal at every pixel. ";
-        else if (s.worst_x >= 0)
-            text += fmt::format("Largest {0} {1}{2}, at pixel <a href=\"#{3}@{4},{5}\">{4}, {5}</a>. ",
-                                channel_.shown_error ? markup(channel_.shown_error_name) : "error",
-                                number(largestShown()), channel_.shown_error ? "" : unitOf(*channel_.mode),
-                                id_, s.worst_x, s.worst_y);
-        if (const auto& decided = channel_.criterion; decided && channel_.reason.empty() && s.different > 0)
-            text += fmt::format("Judged by {}: {}, {} {} allowed. ", markup(decided->figure),
-                                number(decided->measured), decided->least ? "at least" : "at most",
-                                number(decided->limit));
-        return "<p class=\"finding\">" + text + because() + "</p>\n";
-    }
-
-    // The largest of the displayed errors.
-    double largestShown() const {
-        return pictures_.worst.empty() ? channel_.stats.max : pictures_.worst.front().error;
-    }
-
-    std::string notKept() const {
-        return fmt::format("<p class=\"equal\">{}</p>\n",
-                           layout_.keep == Keep::none
-                               ? "--keep none: no pictures are kept"
-                               : "--keep failing: pictures of passing channels are not kept");
+    // Numbers, worst pixels, and commands of a failure.
+    Box more() const {
+        Box box{"more", commands()};
+        box.summary =
+            box.blocks.empty() ? "Numbers, worst pixels" : "Numbers, worst pixels, commands to reproduce it";
+        box.blocks.insert(box.blocks.end(),
+                          {numbers(), output::Drawing{errorFigures(channel_, pictures_, id_)}});
+        if (!channel_.figures.empty()) box.blocks.emplace_back(allFigures());
+        return box;
     }
 
     // An image that can be panned and zoomed; without a name, the left side's. `over` is drawn on top of
@@ -150,52 +140,36 @@ private:
             unitOf(*channel_.mode));
     }
 
-    std::string allFigures() const {
-        if (channel_.figures.empty()) return {};
-        std::string rows;
-        for (const auto& [name, value] : channel_.figures) {
-            const Figure* figure = findFigure(name);
-            rows +=
-                fmt::format("<tr><td>{}</td><td class=\"n mono\">{}</td><td class=\"soft wide\">{}</td></tr>",
-                            name, number(value), figure ? markup(figure->meaning) : "");
-        }
-        return "<details class=\"figures\"><summary>All metrics</summary><div class=\"scroll\"><table>" +
-               rows + "</table></div></details>\n";
-    }
-
-    // Whether there is a finite bound; a rule need not bound the largest error.
-    bool hasTolerance() const { return std::isfinite(channel_.tolerance.max); }
-
-    std::string because() const {
-        const std::string decides =
-            channel_.verdict == Verdict::informative ? std::string("Informative")
-            : !channel_.rule.empty()                 ? fmt::format("Rule of {}", markup(channel_.rule))
-            : channel_.encoding_use || channel_.device_use
-                ? fmt::format("Tolerance per pixel, at most {}", number(channel_.tolerance.max))
-                : fmt::format("Tolerance {}", number(channel_.tolerance.max));
-        if (channel_.tolerance.because.empty()) return decides + ".";
-        return fmt::format("{} <span class=\"soft\">because</span> {}.", decides,
-                           markup(channel_.tolerance.because));
+    Box allFigures() const {
+        output::Table table{.columns = {}, .style = "", .box = "scroll"};
+        addColumn(table, {"metric"}, channel_.figures, [](const auto& figure) { return figure.first; });
+        addColumn(table, {"", output::Column::number}, channel_.figures,
+                  [](const auto& figure) { return number(figure.second); });
+        addColumn(table, {.title = "", .style = "soft wide"}, channel_.figures, [](const auto& of) {
+            const Figure* figure = findFigure(of.first);
+            return figure ? figure->meaning : "";
+        });
+        return {"figures", {table}, "", "All metrics"};
     }
 
     // The command that reproduces the failure, and the one that shows it in a window.
-    std::string again() const {
+    std::vector<Block> commands() const {
         if (channel_.verdict != Verdict::fail || command_.empty()) return {};
         const std::string name(channel_.mode->name);
         const auto line = [](const char* what, const std::vector<std::string>& words) {
-            return fmt::format(
-                "<p class=\"again\"><span class=\"soft\">{}, from the same folder</span> "
-                "<code>{}</code><button data-do=\"copy\">copy</button></p>\n",
-                what, markup(shellLine(words)));
+            return Paragraph{{Span(what, Span::words, "soft"), Span(shellLine(words), Span::command)},
+                             "again"};
         };
-        std::string text = line("reproduce it", withOption(command_, "--channels", name));
+        std::vector<Block> lines{
+            line("reproduce it, from the same folder", withOption(command_, "--channels", name))};
         std::vector<std::string> view = withOption(command_, "--debug", name);
-        if (view.front() != "compare") return text;
+        if (view.front() != "compare") return lines;
         view.front() = "view";
         // The window needs neither an output folder nor a second device.
         for (const char* option : {"-o", "--against-device"})  // options of a report
             if (const auto out = std::ranges::find(view, option); out != view.end()) view.erase(out, out + 2);
-        return text + line("open it in a window", view);
+        lines.emplace_back(line("open it in a window, from the same folder", view));
+        return lines;
     }
 
     std::string pair() const {
@@ -272,11 +246,11 @@ private:
         return "absolute error, |a-b|";
     }
 
-    std::string numbers() const {
+    output::Terms numbers() const {
         const ChannelStats& s = channel_.stats;
-        std::string out = "<dl>";
-        const auto row = [&](const char* name, const std::string& value) {
-            out += fmt::format("<dt>{}</dt><dd>{}</dd>", name, value);
+        output::Terms terms;
+        const auto row = [&](const std::string& name, const std::string& value) {
+            terms.items.emplace_back(name, value);
         };
         const char* unit = unitOf(*channel_.mode);
         for (const auto& [name, value] :
@@ -285,14 +259,18 @@ private:
         if (channel_.certain_p999) row("p99.9 of the excess", number(*channel_.certain_p999));
         for (const Granted& each : channel_.granted)
             row(fmt::format("granted to {}, mean and p99.9{}", each.name,
-                            each.setting.empty() ? "" : "; removed by " + each.setting)
-                    .c_str(),
+                            each.setting.empty() ? "" : "; removed by " + each.setting),
                 fmt::format("{} and {}", percentText(each.mean), percentText(each.p999)));
         if (channel_.flip) row("FLIP, mean", number(*channel_.flip));
-        if (hasTolerance())
-            row(channel_.encoding_use || channel_.device_use ? "tolerance, at most" : "tolerance",
-                number(channel_.tolerance.max) + unit);
         row("pixels that differ", fmt::format("{}", s.different));
+        if (s.worst_x >= 0)
+            for (const Frame* frame : {&left_, &right_}) {
+                const Image& pixels = frame->channels.at(channel_.mode->channel);
+                const float* values =
+                    pixels.pixel(static_cast<std::size_t>(s.worst_y * pixels.width + s.worst_x));
+                row(fmt::format("{} at {},{}", frame->name, s.worst_x, s.worst_y),
+                    fmt::format("{:.6g}", fmt::join(values, values + pixels.components, " ")));
+            }
         if (channel_.unexplained_pixels)
             row("pixels unexplained by the encoding", fmt::format("{}", *channel_.unexplained_pixels));
         if (const auto& f = channel_.footprints) {
@@ -302,59 +280,23 @@ private:
                 row("pixels with detail, judged by FLIP", fmt::format("{} px, {:.3g}", f->detailed, f->flip));
             if (f->edges > 0) row("pixels at edges, not judged", fmt::format("{} px", f->edges));
         }
-        if (const auto& use = channel_.encoding_use; use && use->x >= 0)
-            row("largest error as a share of its pixel's bound",
-                fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
-        if (const auto& use = channel_.device_use; use && use->x >= 0)
-            row("largest error as a share of both devices' precision",
-                fmt::format("{:.3g} % at {},{}", 100 * use->used, use->x, use->y));
+        for (const auto& [name, use] : {std::pair{"its pixel's bound", &channel_.encoding_use},
+                                        {"both devices' precision", &channel_.device_use}})
+            if (*use && (*use)->x >= 0)
+                row(fmt::format("largest error as a share of {}", name),
+                    fmt::format("{:.3g} % at {},{}", 100 * (*use)->used, (*use)->x, (*use)->y));
         if (s.nonfinite_baseline + s.nonfinite_test > 0)
             row("NaN or infinite pixels", fmt::format("{} | {}", s.nonfinite_baseline, s.nonfinite_test));
-        return out + "</dl>\n";
-    }
-
-    // Magnified surroundings of the worst pixel, and its values.
-    std::string loupes() const {
-        const int x = channel_.stats.worst_x, y = channel_.stats.worst_y;
-        if (x < 0) return {};
-        const auto values = [&](const Frame& frame) {
-            std::string out;
-            const Image& pixels = frame.channels.at(channel_.mode->channel);
-            for (int c = 0; c < pixels.components; ++c) out += fmt::format(" {:.6g}", pixels.at(x, y, c));
-            return out;
-        };
-        const auto loupe = [&](const std::string& picture, const std::string& caption,
-                               const std::string& text) {
-            std::string glass;
-            if (!layout_.single_file && !picture.empty())
-                glass = fmt::format(
-                    "<span class=\"loupe\"><img loading=\"lazy\" src=\"{}\" alt=\"\" "
-                    "style=\"width:{}px;height:{}px;left:{}px;top:{}px\"></span>",
-                    picture, left_.settings.size.width * loupeZoom, left_.settings.size.height * loupeZoom,
-                    (loupeRadius - x) * loupeZoom, (loupeRadius - y) * loupeZoom);
-            return fmt::format(
-                "<figure>{}<figcaption>{}<br><span class=\"values\">{}</span></figcaption></figure>", glass,
-                caption, text);
-        };
-        const bool isDrawn = !pictures_.worst.empty();  // else the displayed errors are 0 everywhere
-        const std::string there =
-            fmt::format("worst pixel {}, {}{}", x, y,
-                        isDrawn && channel_.shown_error ? ", by " + markup(channel_.shown_error_name) : "");
-        return "<div class=\"loupes\">" + loupe(pictures_.baseline, markup(left_.name), values(left_)) +
-               loupe(pictures_.test, markup(right_.name), values(right_)) +
-               loupe(pictures_.difference, there, fmt::format(" {}", number(largestShown()))) + "</div>\n";
+        return terms;
     }
 
     // A forward-only channel has one image and no verdict.
     std::string single() const {
-        const std::string why =
-            fmt::format("<p class=\"because\">{}</p>\n", markup(channel_.tolerance.because));
-        if (!pictures_.kept) return notKept() + why;
         const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
         return fmt::format(
             "<div class=\"pictures one\"><figure><div "
-            "class=\"stage\">{}</div><figcaption>{}{}</figcaption>{}</figure></div>{}",
-            panel(picture, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout(), why);
+            "class=\"stage\">{}</div><figcaption>{}{}</figcaption>{}</figure></div>",
+            panel(picture, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout());
     }
 
     const ReportLayout& layout_;
@@ -363,24 +305,13 @@ private:
     const ChannelDiff& channel_;
     const ChannelPictures& pictures_;
     std::string id_;
-    bool leads_;
 };
 
 }  // namespace
 
-std::string leadingCards(const Report& report, const ReportLayout& layout, std::size_t index) {
-    std::string out;
-    for (const ChannelDiff* channel : leadingChannels(report.comparisons[index]))
-        out += Card(report, layout, index, *channel).html();
-    return out;
-}
-
-std::string otherCards(const Report& report, const ReportLayout& layout, std::size_t index) {
-    const std::vector<const ChannelDiff*> leading = leadingChannels(report.comparisons[index]);
-    std::string out;
-    for (const ChannelDiff* channel : failuresFirst(report.comparisons[index]))
-        if (std::ranges::count(leading, channel) == 0) out += Card(report, layout, index, *channel).html();
-    return out;
+Block cardOf(const Report& report, const ReportLayout& layout, std::size_t index, const ChannelDiff& channel,
+             bool open) {
+    return Card(report, layout, index, channel).box(open);
 }
 
 }  // namespace diptych

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The content security policy of a report's page.
-#include "compare/report/policy.h"
+#include "compare/output/policy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The distribution of a channel's errors: a histogram, and links to the worst pixels.
+#include "compare/page/text.h"
 #include "compare/plot/plot.h"
-#include "compare/report/html.h"
-#include "compare/report/titles.h"
+#include "compare/report/document.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>

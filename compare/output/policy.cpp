@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/report/policy.h"
+#include "compare/output/policy.h"
 
 #include "compare/files/data_uri.h"
 #include "shared/text/json.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The output of diff, for people and for scripts.
-#include "compare/report/picture_diff_text.h"
+// The output of diff for scripts.
+#include "compare/report/picture_diff_json.h"
 
 #include "compare/files/our_files.h"
 #include "compare/files/picture_folders.h"
-#include "compare/output/writers.h"
-#include "compare/report/titles.h"
-#include "shared/text/counted.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -17,8 +14,6 @@
 #include <utility>
 
 namespace diptych {
-
-using page::number;
 
 namespace {
 
@@ -39,23 +34,6 @@ std::vector<const PictureChannelDiff*> failuresFirst(const PictureDiff& diff) {
 // The rule's bound, if it has a single one.
 const Condition* singleBound(const PictureChannelDiff& channel) {
     return channel.rule.fail.kind == Condition::Kind::bound ? &channel.rule.fail : nullptr;
-}
-
-std::string wordOf(Level level) {
-    return level == Level::fail ? "FAIL" : std::string(nameOf(level));
-}
-
-output::Row rowOf(const PictureChannelDiff& channel) {
-    const Measurement& m = *channel.measurement;
-    const Condition* bound = singleBound(channel);
-    const auto shown = [&](const char* figure) {
-        const std::optional<double> value = m({figure, 0});
-        return value ? number(*value) : std::string("-");
-    };
-    const std::string judged = bound ? bound->quantity.figure : "rule";
-    const std::optional<double> value = bound ? m(bound->quantity) : std::nullopt;
-    return {{channel.pair.name, judged, value ? number(*value) : "-", bound ? number(bound->limit) : "-",
-             shown("max"), shown("rmse"), shown("psnr"), shown("ssim"), wordOf(channel.decision.level)}};
 }
 
 Json flipJson(const HdrFlipResult& flip, bool display) {
@@ -113,44 +91,6 @@ Json channelJson(const PictureChannelDiff& channel) {
     return json;
 }
 
-}  // namespace
-
-std::string pictureDiffTable(const PictureDiff& diff) {
-    std::string out =
-        fmt::format("{} against {}, {}x{}\n", diff.test, diff.reference, diff.width, diff.height);
-    output::Table table{.columns = {{"channel"}, {"figure"}}, .indent = 2};
-    for (const char* title : {"value", "tolerance", "max", "rmse", "psnr", "ssim"})
-        table.columns.push_back({title, output::Column::number});
-    table.columns.push_back({"verdict"});
-    for (const PictureChannelDiff* channel : failuresFirst(diff)) table.rows.push_back(rowOf(*channel));
-    out += inText(table);
-    std::string failed;
-    for (const PictureChannelDiff* channel : failuresFirst(diff)) {
-        if (channel->decision.level == Level::pass) continue;
-        out += fmt::format("  {} {}: {}", wordOf(channel->decision.level), channel->pair.name,
-                           channel->decision.reason);
-        if (channel->worst_x >= 0) out += fmt::format(", worst at {},{}", channel->worst_x, channel->worst_y);
-        out += fmt::format(" ({}{}{})\n", channel->rule.origin, channel->rule.because.empty() ? "" : ": ",
-                           channel->rule.because);
-        if (channel->decision.level == Level::fail)
-            failed += (failed.empty() ? "" : ", ") + channel->pair.name;
-    }
-    for (const PictureChannelDiff* channel : failuresFirst(diff))
-        if (channel->decision.level == Level::pass && !isOwnRule(channel->rule))
-            out += fmt::format("  {}: {}: {}\n", channel->pair.name, channel->rule.origin,
-                               conditionText(channel->rule.fail));
-    for (const std::string& failure : diff.failures) out += "  FAIL " + failure + "\n";
-    for (const std::string& note : diff.notes) out += "  note: " + note + "\n";
-    const std::string emptiness = diff.emptiness.empty() ? "" : ", but " + diff.emptiness;
-    if (failed.empty() && !diff.failures.empty())
-        return out + fmt::format("FAIL: {}{}\n", diff.failures.front(), emptiness);
-    if (!failed.empty()) return out + "FAIL: " + failed + "\n";
-    return out +
-           fmt::format("pass: {} within tolerance{}\n", counted(diff.channels.size(), "channel"), emptiness);
-}
-
-namespace {
-
 Json jsonOf(const PictureDiff& diff) {
     const PictureChannelDiff& first = *failuresFirst(diff).front();
     Json json{{"schema", 1},
@@ -201,31 +141,6 @@ std::vector<SceneError> FolderDiff::failures() const {
     add(reference_alone, reference, test_alone);
     add(test_alone, test, reference_alone);
     return all;
-}
-
-std::string folderDiffTable(const FolderDiff& diff) {
-    std::string out;
-    std::vector<std::string> failed;
-    for (const PictureDiff& picture : diff.pictures) {
-        out += pictureDiffTable(picture);
-        if (!picture.passed()) failed.push_back(picture.name);
-    }
-    for (const SceneError& failure : diff.failures()) out += fmt::format("FAIL {}\n", errorText(failure));
-    for (const SceneError& error : diff.errors) out += fmt::format("ERROR {}\n", errorText(error));
-    const std::size_t alone = diff.reference_alone.size() + diff.test_alone.size(),
-                      all = diff.pictures.size();
-    std::string line = diff.errors.empty() ? ""
-                                           : fmt::format("ERROR: {} could not be compared; ",
-                                                         counted(diff.errors.size(), "picture"));
-    if (diff.passed())
-        return out + fmt::format("{}pass: {} within tolerance\n", line,
-                                 all == 1 ? "the one picture is" : fmt::format("all {} pictures are", all));
-    std::string why;
-    if (!failed.empty()) why = fmt::format("{} of {} pictures: {}", failed.size(), all, listed(failed, 8));
-    if (alone > 0)
-        why += fmt::format("{}{} in one folder only", why.empty() ? "" : "; ",
-                           alone == 1 ? "1 picture is" : fmt::format("{} pictures are", alone));
-    return out + fmt::format("{}FAIL: {}\n", line, why);
 }
 
 std::string folderDiffJson(const FolderDiff& diff) {
