@@ -190,11 +190,14 @@ List findingsOf(const Report& report, const Comparison& comparison) {
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const std::string_view name = channel->mode->name;
         const bool explained = channel->unexplained_pixels && channel->stats.max != 0;
-        if (channel->verdict == Verdict::fail)
-            add(fmt::format("FAIL {}, {}: ", place, name), findingOf(*channel, ""));
-        else if (explained || (channel->verdict == Verdict::pass && !channel->rule.empty() &&
-                               channel->stats.different > 0))
-            add(fmt::format("{}: ", name), findingOf(*channel, ""));
+        Text finding = findingOf(*channel, "");
+        if (channel->verdict == Verdict::fail) {
+            add(fmt::format("FAIL {}, {}: ", place, name), finding);
+        } else if (explained || (channel->verdict == Verdict::pass && !channel->rule.empty() &&
+                                 channel->stats.different > 0)) {
+            if (explained && channel->rule.empty()) finding.spans.pop_back();  // the limit's reason repeats the numbers
+            add(fmt::format("{}: ", name), finding);
+        }
         if (!channel->warning.empty())
             add(fmt::format("warning {}, {}: ", place, name),
                 fmt::format("{} ({})", channel->warning, channel->rule));

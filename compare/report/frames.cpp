@@ -44,9 +44,8 @@ std::string lineOf(const Frame& frame) {
                            nameOf(frame.settings.reference_mode), frame.made_in_ms / 1000);
     std::string line = frame.name;
     if (frame.time.runs > 0)
-        line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {}), {:.2g} ms on the host to record commands",
-                            frame.time.median, frame.time.min, frame.time.max,
-                            counted(frame.time.runs, "run"), frame.time.record);
+        line += fmt::format(": {:.4g} ms ({:.4g} to {:.4g}, {})", frame.time.median, frame.time.min,
+                            frame.time.max, counted(frame.time.runs, "run"));
     if (frame.time.object_lists > 0)
         line +=
             fmt::format(", {:.3g} ms on the host to choose each object's lights", frame.time.object_lists);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A channel on one side only is reported by name, and fails if both sides must have the same channels.
+#include "compare/cli/command_compare.h"
 #include "compare/cli/command_diff.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
@@ -8,6 +9,7 @@
 #include "compare/report/report.h"
 #include "compare/verdict/picture_diff.h"
 #include "shared/image/exr.h"
+#include "tests/support/command_lines.h"
 #include "tests/support/files.h"
 #include "tests/support/report_builder.h"
 
