@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace diptych {
@@ -38,16 +39,18 @@ std::string percent(double share) {
     return fmt::format("{:.2f} %", 100 * share);
 }
 
-// "78 % material 12, Lantern glass; 9 % background".
-std::string partsOf(const Cause& cause, const std::vector<CausePart>& parts, std::string_view noun) {
+// "78 % material 12, Lantern glass; 9 % background; 60 % light 3, lamp".
+std::string partsOf(const Cause& cause) {
     std::vector<std::string> words;
-    for (const CausePart& part : parts) {
-        const double share = cause.share != 0 ? part.share / cause.share : 0;
-        if (words.size() == shownParts || share < shownPart) break;
-        words.push_back(fmt::format("{:.0f} % {}{}{}", 100 * share,
-                                    part.index < 0 ? "background" : fmt::format("{} {}", noun, part.index),
-                                    part.name.empty() ? "" : ", ", part.name));
-    }
+    for (const auto& [parts, noun] : {std::pair{&cause.materials, "material"}, {&cause.lights, "light"}})
+        for (const CausePart& part : std::span(*parts).first(std::min(parts->size(), shownParts))) {
+            const double share = cause.share != 0 ? part.share / cause.share : 0;
+            if (share < shownPart) break;
+            words.push_back(
+                fmt::format("{:.0f} % {}{}{}", 100 * share,
+                            part.index < 0 ? "background" : fmt::format("{} {}", noun, part.index),
+                            part.name.empty() ? "" : ", ", part.name));
+        }
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
@@ -70,9 +73,8 @@ output::Table causeTable(const Explanation& e) {
                     {"largest at", Column::number},
                     {"worst pixel", Column::number},
                     {"there", Column::number, 0, Column::page},
-                    {"description", Column::prose},
-                    {"materials", Column::prose},
-                    {"lights", Column::prose}},
+                    {"description", Column::prose, 0, Column::page},
+                    {"materials and lights", Column::prose}},
         .box = "box scroll",
         .note =
             "Shares are Shapley values: the part of the mean lit difference that swapping the cause "
@@ -89,10 +91,10 @@ output::Table causeTable(const Explanation& e) {
               percent(e.shareOfFlip(cause.flip)), percentOf(cause.alone), percentOf(cause.last),
               fmt::format("{:.1f} %", 100 * cause.dominates),
               fmt::format("{},{}", cause.worst_x, cause.worst_y), number(cause.worst), cause.shows,
-              partsOf(cause, cause.materials, "material"), partsOf(cause, cause.lights, "light")}});
+              partsOf(cause)}});
     table.rows.push_back(
         {{"unexplained", percentOf(e.unexplained), percent(e.shareOfFlip(e.flip_unexplained)), "", "", "", "",
-          "", "remains with every cause swapped: no channel and no Setting describes it", "", ""},
+          "", "remains with every cause swapped", "no channel and no Setting describes it"},
          "soft"});
     return table;
 }

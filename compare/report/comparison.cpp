@@ -195,7 +195,8 @@ List findingsOf(const Report& report, const Comparison& comparison) {
             add(fmt::format("FAIL {}, {}: ", place, name), finding);
         } else if (explained || (channel->verdict == Verdict::pass && !channel->rule.empty() &&
                                  channel->stats.different > 0)) {
-            if (explained && channel->rule.empty()) finding.spans.pop_back();  // the limit's reason repeats the numbers
+            if (explained && channel->rule.empty())
+                finding.spans.pop_back();  // the limit's reason repeats the numbers
             add(fmt::format("{}: ", name), finding);
         }
         if (!channel->warning.empty())
