@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/accessor.h"
 
 #include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
 
@@ -20,19 +21,7 @@ namespace {
 // ---- shapes ------------------------------------------------------------------------------------------
 
 std::size_t componentBytes(int type) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            return 0;
-    }
+    return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type)));
 }
 
 // Matrix columns are aligned to 4 bytes (glTF 2.0, 3.6.2.4). A vector is one column.
@@ -49,27 +38,13 @@ struct Shape {
     }
 };
 
-Shape shapeOf(const tinygltf::Accessor& a, const std::string& who) {
-    const std::size_t component = componentBytes(a.componentType);
-    if (component == 0) fail(who, fmt::format("component type {} does not exist", a.componentType));
-    switch (a.type) {
-        case TINYGLTF_TYPE_SCALAR:
-            return {1, 1, component};
-        case TINYGLTF_TYPE_VEC2:
-            return {1, 2, component};
-        case TINYGLTF_TYPE_VEC3:
-            return {1, 3, component};
-        case TINYGLTF_TYPE_VEC4:
-            return {1, 4, component};
-        case TINYGLTF_TYPE_MAT2:
-            return {2, 2, component};
-        case TINYGLTF_TYPE_MAT3:
-            return {3, 3, component};
-        case TINYGLTF_TYPE_MAT4:
-            return {4, 4, component};
-        default:
-            fail(who, "its type is not SCALAR, VEC or MAT");
-    }
+Shape shapeOf(const tinygltf::Accessor& a) {
+    const bool matrix =
+        a.type == TINYGLTF_TYPE_MAT2 || a.type == TINYGLTF_TYPE_MAT3 || a.type == TINYGLTF_TYPE_MAT4;
+    const auto width =
+        static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)));
+    const std::size_t columns = !matrix ? 1 : width == 4 ? 2 : width == 9 ? 3 : 4;
+    return {columns, width / columns, componentBytes(a.componentType)};
 }
 
 bool isIndexType(int type) {
@@ -90,8 +65,22 @@ struct ElementLayout {
     std::size_t offset, count, size, stride;
 };
 
+// The bytes that contain a bufferView.
+struct ViewSource {
+    std::span<const unsigned char> data;
+    std::size_t offset;
+    const std::string& fault;  // why bytes are missing
+};
+ViewSource sourceOf(const Model& model, int index) {
+    const auto decoded = model.decoded_views.find(index);
+    if (decoded != model.decoded_views.end()) return {decoded->second.bytes, 0, decoded->second.fault};
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
+    const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
+    return {buffer.data, view.byteOffset, missing(buffer)};
+}
+
 // Checks that the elements lie inside a bufferView.
-Elements locate(const tinygltf::Model& model, int view, const ElementLayout& e, const std::string& who,
+Elements locate(const Model& model, int view, const ElementLayout& e, const std::string& who,
                 const char* noun) {
     const std::span<const unsigned char> bytes = viewBytes(model, view, who);
     if (e.stride < e.size)
@@ -153,15 +142,19 @@ float number(const unsigned char* at, bool normalized) {
 class SoundAccessor {
 public:
     // `width`: required number of components; 0: any.
-    SoundAccessor(const tinygltf::Model& model, int index, const std::string& asks, const char* noun,
+    SoundAccessor(const Model& model, int index, const std::string& asks, const char* noun,
                   std::size_t width = 0)
-        : file_(find(model, index, asks)),
-          who_(fmt::format("accessor {}", index)),
-          shape_(shapeOf(file_, who_)) {
+        : file_(find(model, index, asks)), who_(fmt::format("accessor {}", index)), shape_(shapeOf(file_)) {
         if (width && (shape_.columns != 1 || shape_.rows != width))
             fail(asks,
                  fmt::format("{} is not {}", who_, width == 1 ? "SCALAR" : fmt::format("VEC{}", width)));
-        if (file_.bufferView >= 0) {
+        if (const auto decoded = model.decoded_accessors.find(index);
+            decoded != model.decoded_accessors.end()) {
+            if (decoded->second.size() / shape_.bytes() < file_.count)
+                fail(who_, fmt::format("{} bytes are decoded for {} {} of {} bytes", decoded->second.size(),
+                                       file_.count, noun, shape_.bytes()));
+            own_ = {decoded->second.data(), shape_.bytes(), file_.count};
+        } else if (file_.bufferView >= 0) {
             const std::size_t stride = strideOf(model, file_.bufferView);
             own_ = locate(model, file_.bufferView,
                           {file_.byteOffset, file_.count, shape_.bytes(),
@@ -204,24 +197,20 @@ private:
     Shape shape_;
     Elements own_, sparse_indices_, sparse_values_;
 
-    static const tinygltf::Accessor& find(const tinygltf::Model& model, int index, const std::string& asks) {
+    static const tinygltf::Accessor& find(const Model& model, int index, const std::string& asks) {
         if (checkedIndex(index, model.accessors.size(), asks, "accessor") < 0)
             fail(asks, "names no accessor");
         return model.accessors[static_cast<std::size_t>(index)];
     }
 
-    static std::size_t strideOf(const tinygltf::Model& model, int view) {
+    static std::size_t strideOf(const Model& model, int view) {
         // The caller's viewBytes() reports the error.
         if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;
         return model.bufferViews[static_cast<std::size_t>(view)].byteStride;
     }
 
-    void locateSparse(const tinygltf::Model& model) {
+    void locateSparse(const Model& model) {
         const auto& sparse = file_.sparse;
-        // tinygltf 2.9 stores negative offsets in an unsigned type.
-        const auto negative = [](auto value) { return static_cast<std::int64_t>(value) < 0; };
-        if (sparse.count < 0 || negative(sparse.indices.byteOffset) || negative(sparse.values.byteOffset))
-            fail(who_, "its sparse count or an offset is negative");
         if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices have no index type");
         const auto count = static_cast<std::size_t>(sparse.count);
         const std::size_t indexBytes = componentBytes(sparse.indices.componentType);
@@ -262,41 +251,40 @@ private:
 
 // ---- what is read ------------------------------------------------------------------------------------
 
-std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index, const std::string& who) {
+std::span<const unsigned char> viewBytes(const Model& model, int index, const std::string& who) {
     if (checkedIndex(index, model.bufferViews.size(), who, "bufferView") < 0)
         fail(who, "names no bufferView");
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
     const std::string name = fmt::format("bufferView {}", index);
     if (checkedIndex(view.buffer, model.buffers.size(), name, "buffer") < 0) fail(name, "names no buffer");
-    const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const ViewSource source = sourceOf(model, index);
     const std::string cut = cutOf(model, index);
-    if (cut.empty()) return std::span(data).subspan(view.byteOffset, view.byteLength);
-    if (view.byteOffset >= data.size()) throw std::runtime_error(cut);
-    return std::span(data).subspan(view.byteOffset);
+    if (cut.empty()) return source.data.subspan(source.offset, view.byteLength);
+    if (source.offset >= source.data.size()) throw std::runtime_error(cut);
+    return source.data.subspan(source.offset);
 }
 
-std::string cutOf(const tinygltf::Model& model, int index) {
+std::string cutOf(const Model& model, int index) {
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
-    const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(view.buffer)];
-    const std::size_t held = buffer.data.size();
-    if (view.byteOffset <= held && view.byteLength <= held - view.byteOffset) return {};
-    if (!missing(buffer).empty()) return missing(buffer);
+    const ViewSource source = sourceOf(model, index);
+    const std::size_t held = source.data.size();
+    if (source.offset <= held && view.byteLength <= held - source.offset) return {};
+    if (!source.fault.empty()) return source.fault;
     return fmt::format("bufferView {}: {} bytes at offset {} end past buffer {} ({} bytes)", index,
                        view.byteLength, view.byteOffset, view.buffer, held);
 }
 
-std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::string& who, const char* noun,
+std::size_t soundCount(const Model& model, int accessor, const std::string& who, const char* noun,
                        std::size_t width) {
     return SoundAccessor(model, accessor, who, noun, width).file().count;
 }
 
-std::size_t componentsOf(const tinygltf::Model& model, int accessor) {
-    return shapeOf(model.accessors[static_cast<std::size_t>(accessor)], "").width();
+std::size_t componentsOf(const Model& model, int accessor) {
+    return shapeOf(model.accessors[static_cast<std::size_t>(accessor)]).width();
 }
 
 template <class Vec>
-std::vector<Vec> readVectors(const tinygltf::Model& model, int index, const std::string& asks,
-                             const Selection& which) {
+std::vector<Vec> readVectors(const Model& model, int index, const std::string& asks, const Selection& which) {
     constexpr auto width = static_cast<std::size_t>(Vec::length());
     const SoundAccessor a(model, index, asks, "vertices", width);
     if (a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
@@ -313,14 +301,11 @@ std::vector<Vec> readVectors(const tinygltf::Model& model, int index, const std:
     return result;
 }
 
-template std::vector<glm::vec2> readVectors(const tinygltf::Model&, int, const std::string&,
-                                            const Selection&);
-template std::vector<glm::vec3> readVectors(const tinygltf::Model&, int, const std::string&,
-                                            const Selection&);
-template std::vector<glm::vec4> readVectors(const tinygltf::Model&, int, const std::string&,
-                                            const Selection&);
+template std::vector<glm::vec2> readVectors(const Model&, int, const std::string&, const Selection&);
+template std::vector<glm::vec3> readVectors(const Model&, int, const std::string&, const Selection&);
+template std::vector<glm::vec4> readVectors(const Model&, int, const std::string&, const Selection&);
 
-std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& who,
+std::vector<glm::vec4> readColors(const Model& model, int accessor, const std::string& who,
                                   const Selection& which) {
     const SoundAccessor a(model, accessor, who, "vertices");
     if (a.file().componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !a.file().normalized)
@@ -333,7 +318,7 @@ std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, co
     return result;
 }
 
-std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int index, const std::string& asks,
+std::vector<glm::u16vec4> readJoints(const Model& model, int index, const std::string& asks,
                                      const Selection& which) {
     const SoundAccessor a(model, index, asks, "vertices");
     const bool bytes = a.file().componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
@@ -347,7 +332,7 @@ std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int index, co
     return result;
 }
 
-std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index, const std::string& asks) {
+std::vector<std::uint32_t> readIndices(const Model& model, int index, const std::string& asks) {
     const SoundAccessor a(model, index, asks, "indices");
     if (a.file().type != TINYGLTF_TYPE_SCALAR || !isIndexType(a.file().componentType))
         fail(asks, fmt::format("accessor {} is not SCALAR of unsigned integers", index));
@@ -366,7 +351,7 @@ std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int index, 
     return result;
 }
 
-Numbers readNumbers(const tinygltf::Model& model, int index, const std::string& asks) {
+Numbers readNumbers(const Model& model, int index, const std::string& asks) {
     const SoundAccessor a(model, index, asks, "elements");
     Numbers result{{}, a.file().count, a.shape().width(), a.file().componentType, a.file().normalized};
     result.values.assign(result.count * result.width, 0.0f);

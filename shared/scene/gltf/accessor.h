@@ -15,23 +15,21 @@
 #include <string>
 #include <vector>
 
-namespace tinygltf {
-class Model;
-}
-
 namespace diptych::gltf {
+
+struct Model;
 
 // The bytes of bufferView `index` that exist in its buffer; throws if there are none. The result may be
 // shorter than byteLength, because exporters count padding that they do not write. `who` names the caller
 // in errors.
-std::span<const unsigned char> viewBytes(const tinygltf::Model& model, int index, const std::string& who);
+std::span<const unsigned char> viewBytes(const Model& model, int index, const std::string& who);
 // Why viewBytes() is shorter than byteLength: "bufferView 3: 40 bytes from 0 on end past buffer 0 (38
 // bytes)". Empty if it is not.
-std::string cutOf(const tinygltf::Model& model, int index);
+std::string cutOf(const Model& model, int index);
 
 // Number of elements of an accessor. Checks that all of them, including sparse ones, lie inside their
 // bufferViews. `noun` names an element in errors. `width`: required number of components; 0: any.
-std::size_t soundCount(const tinygltf::Model& model, int accessor, const std::string& who,
+std::size_t soundCount(const Model& model, int accessor, const std::string& who,
                        const char* noun = "elements", std::size_t width = 0);
 
 // Elements to read, ascending, below soundCount(). nullopt: all.
@@ -40,23 +38,23 @@ using Selection = std::optional<std::span<const std::uint32_t>>;
 // Reads glm::vec2, vec3 or vec4 from floats or from 8- or 16-bit integers, which become 0 to 1 or -1 to 1
 // if `normalized`. `who` names the caller, as in "mesh 0, primitive 1: POSITION".
 template <class Vec>
-std::vector<Vec> readVectors(const tinygltf::Model& model, int accessor, const std::string& who,
+std::vector<Vec> readVectors(const Model& model, int accessor, const std::string& who,
                              const Selection& which = {});
 
 // Reads COLOR_0 with three or four components; the default alpha is 1. Integers must be normalized.
-std::vector<glm::vec4> readColors(const tinygltf::Model& model, int accessor, const std::string& who,
+std::vector<glm::vec4> readColors(const Model& model, int accessor, const std::string& who,
                                   const Selection& which = {});
 
 // Components per element of an accessor that passed soundCount().
-std::size_t componentsOf(const tinygltf::Model& model, int accessor);
+std::size_t componentsOf(const Model& model, int accessor);
 
 // Reads JOINTS_n: VEC4 of unsigned 8- or 16-bit integers.
-std::vector<glm::u16vec4> readJoints(const tinygltf::Model& model, int accessor, const std::string& who,
+std::vector<glm::u16vec4> readJoints(const Model& model, int accessor, const std::string& who,
                                      const Selection& which = {});
 
 // Reads indices: SCALAR of unsigned integers. Throws for the type's largest value, which means primitive
 // restart and is forbidden in glTF.
-std::vector<std::uint32_t> readIndices(const tinygltf::Model& model, int accessor, const std::string& who);
+std::vector<std::uint32_t> readIndices(const Model& model, int accessor, const std::string& who);
 
 // Elements of any shape as consecutive floats; matrices are column-major.
 struct Numbers {
@@ -65,6 +63,6 @@ struct Numbers {
     int component_type = 0;  // TINYGLTF_COMPONENT_TYPE_*
     bool normalized = false;
 };
-Numbers readNumbers(const tinygltf::Model& model, int accessor, const std::string& who);
+Numbers readNumbers(const Model& model, int accessor, const std::string& who);
 
 }  // namespace diptych::gltf

@@ -5,15 +5,11 @@
 
 #include "shared/scene/model/motion.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <string>
 
-namespace tinygltf {
-class Model;
-}
-
 namespace diptych::gltf {
+
+struct Model;
 
 // The target of a channel, by the file's indices.
 struct ChannelTarget {
@@ -27,9 +23,6 @@ struct ChannelTarget {
 // Throws std::runtime_error, "WHO: ...", for a pointer that resolves to nothing or to an unsupported
 // property. If the object of a property is missing, its default applies, although the extension requires
 // the object. A property without a default (zfar, range) must exist.
-ChannelTarget pointerTarget(const tinygltf::Model& model, const std::string& pointer, const std::string& who);
-
-// tinygltf drops channels without a node. This gives pointer channels node 0, which is ignored.
-void keepPointerChannels(nlohmann::json& document);
+ChannelTarget pointerTarget(const Model& model, const std::string& pointer, const std::string& who);
 
 }  // namespace diptych::gltf

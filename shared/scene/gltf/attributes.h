@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/scene/gltf/accessor.h"
-#include "shared/scene/gltf/value.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/model/scene.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ bool isUsable(const Vec& v) {
 }
 
 struct AttributeReader {
-    const tinygltf::Model& model;
+    const Model& model;
     const tinygltf::Primitive& file;
     const std::string& who;           // names the primitive in messages
     Selection which;                  // indices of the file's vertices that are kept

@@ -3,6 +3,7 @@
 
 #include "shared/scene/gltf/draco.h"
 #include "shared/scene/gltf/meshopt.h"
+#include "shared/scene/gltf/model.h"
 
 #include <fmt/format.h>
 
@@ -21,10 +22,9 @@ constexpr std::size_t bytesPerByte = 64;
 
 }  // namespace
 
-void decompress(tinygltf::Model& model, const std::vector<bool>& drawn,
-                std::map<std::size_t, std::string>& broken, std::vector<std::string>& notes) {
-    std::size_t held = 0;
-    for (const tinygltf::Buffer& buffer : model.buffers) held += buffer.data.size();
+void decompress(Model& model, const std::vector<bool>& drawn, std::map<std::size_t, std::string>& broken,
+                std::vector<std::string>& notes) {
+    const std::size_t held = model.dataBytes();
     const std::size_t limit = freeBytes + bytesPerByte * held;
 
     std::map<std::size_t, std::string> undecoded;

@@ -52,7 +52,7 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
 }
 
 // RGB deltas do not change alpha.
-std::vector<glm::vec4> readColorDeltas(const tinygltf::Model& model, int accessor, const std::string& who,
+std::vector<glm::vec4> readColorDeltas(const Model& model, int accessor, const std::string& who,
                                        const Selection& which) {
     std::vector<glm::vec4> deltas = readColors(model, accessor, who, which);
     if (componentsOf(model, accessor) == 3)

@@ -3,6 +3,8 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/draco_stream.h"
+#include "shared/scene/gltf/model.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
@@ -20,6 +22,7 @@ namespace diptych::gltf {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
+using Json = nlohmann::json;
 
 constexpr const char* dracoName = "KHR_draco_mesh_compression";
 
@@ -27,12 +30,8 @@ std::string primitiveName(std::size_t mesh, std::size_t primitive) {
     return fmt::format("mesh {}, primitive {}: {}", mesh, primitive, dracoName);
 }
 
-const tinygltf::Accessor& accessorAt(const tinygltf::Model& model, int index) {
+const tinygltf::Accessor& accessorAt(const Model& model, int index) {
     return model.accessors[static_cast<std::size_t>(index)];
-}
-
-tinygltf::Primitive& primitiveOf(tinygltf::Model& model, const DracoPrimitive& p) {
-    return model.meshes[p.mesh].primitives[p.primitive];
 }
 
 std::size_t componentsOf(const tinygltf::Accessor& a) {
@@ -46,37 +45,22 @@ std::size_t elementBytes(const tinygltf::Accessor& a) {
 
 // ---- the extension's rules ---------------------------------------------------------------------------
 
-DracoPrimitive readExtension(const tinygltf::Model& model, const tinygltf::Value& e, std::size_t mesh,
-                             std::size_t index) {
+DracoPrimitive readExtension(const Model& model, const Json& e, std::size_t mesh, std::size_t index) {
     const tinygltf::Primitive& primitive = model.meshes[mesh].primitives[index];
     const std::string who = primitiveName(mesh, index);
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
         fail(who, fmt::format("mode {} is not triangles or a triangle strip", primitive.mode));
-    DracoPrimitive result{mesh, index, 0, {}, 0};
-    result.view =
-        checkedIndex(indexIn(e, "bufferView", -1, who), model.bufferViews.size(), who, "bufferView");
-    if (result.view < 0) fail(who, "names no bufferView");
-    checkedIndex(primitive.indices, model.accessors.size(), who, "accessor");
-
-    const tinygltf::Value& attributes = e.Get("attributes");
-    if (!attributes.IsObject()) fail(who, "names no attributes");
-    for (const std::string& name : attributes.Keys()) {
+    DracoPrimitive result{mesh, index, e["bufferView"].get<int>(), {}, 0};
+    for (const auto& [name, id] : e["attributes"].items()) {
         const auto at = primitive.attributes.find(name);
         if (at == primitive.attributes.end())
             fail(who, fmt::format("{}: the primitive has no such attribute", oneLine(name)));
-        const std::string whose = who + ": " + name;
-        if (checkedIndex(at->second, model.accessors.size(), whose, "accessor") < 0)
-            fail(whose, "names no accessor");
         const tinygltf::Accessor& a = accessorAt(model, at->second);
-        if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(a.type)) < 0 ||
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType)) < 0)
-            fail(whose, fmt::format("accessor {} has no type", at->second));
-        const int id = indexIn(attributes, name.c_str(), 0, who);
-        result.attributes.push_back({name, static_cast<std::uint32_t>(id), at->second});
+        result.attributes.push_back({name, id.get<std::uint32_t>(), at->second});
         if (result.attributes.size() == 1) result.vertices = a.count;
         if (a.count != result.vertices)
-            fail(whose, fmt::format("{} vertices, but {} has {}", a.count, result.attributes[0].name,
-                                    result.vertices));
+            fail(who, fmt::format("{}: {} vertices, but {} has {}", name, a.count, result.attributes[0].name,
+                                  result.vertices));
     }
     return result;
 }
@@ -157,7 +141,7 @@ Bytes valuesOf(const draco::Mesh& mesh, const DracoPrimitive::Attribute& attribu
     return result;
 }
 
-Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_t limit) {
+Result decoded(const Model& model, const DracoPrimitive& p, std::size_t limit) {
     const std::string who = primitiveName(p.mesh, p.primitive);
     const tinygltf::Primitive& primitive = model.meshes[p.mesh].primitives[p.primitive];
     DracoExpectation expected{p.vertices, {}, p.attributes.size(), limit};
@@ -188,33 +172,28 @@ Result decoded(const tinygltf::Model& model, const DracoPrimitive& p, std::size_
     return result;
 }
 
-// Appends a copy of `accessor` for `bytes`; returns its index.
-int append(tinygltf::Model& model, tinygltf::Accessor accessor, Bytes bytes) {
-    tinygltf::BufferView view;
-    view.buffer = static_cast<int>(model.buffers.size());
-    view.byteLength = bytes.size();
-    model.buffers.emplace_back().data = std::move(bytes);
-    accessor.bufferView = static_cast<int>(model.bufferViews.size());
-    accessor.byteOffset = 0;
+// Appends an accessor like `accessor` with the elements `bytes`; returns its index.
+int append(Model& model, tinygltf::Accessor accessor, Bytes bytes) {
+    const int index = static_cast<int>(model.accessors.size());
     accessor.sparse = {};
-    accessor.minValues.clear();  // they describe the uncompressed values
-    accessor.maxValues.clear();
-    model.bufferViews.push_back(std::move(view));
     model.accessors.push_back(std::move(accessor));
-    return static_cast<int>(model.accessors.size()) - 1;
+    model.decoded_accessors[index] = std::move(bytes);
+    return index;
 }
 
 }  // namespace
 
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn,
+std::vector<DracoPrimitive> findDraco(const Model& model, const std::vector<bool>& drawn,
                                       std::map<std::size_t, std::string>& broken) {
+    const Json& meshes = arrayAt(model.rest, "/meshes");
     std::vector<DracoPrimitive> result;
     for (std::size_t m = 0; m < model.meshes.size(); ++m) {
-        if (!drawn[m]) continue;
+        const Json* primitives = memberOf(elementOf(meshes, m), "primitives");
+        if (!drawn[m] || !primitives) continue;
         std::vector<DracoPrimitive> of_mesh;
         try {
-            for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
-                if (const auto* e = extension(model.meshes[m].primitives[p].extensions, dracoName))
+            for (std::size_t p = 0; p < primitives->size(); ++p)
+                if (const Json* e = extension((*primitives)[p], dracoName))
                     of_mesh.push_back(readExtension(model, *e, m, p));
             std::ranges::move(of_mesh, std::back_inserter(result));
         } catch (const std::runtime_error& e) {
@@ -224,7 +203,7 @@ std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::v
     return result;
 }
 
-double dracoCost(const tinygltf::Model& model, const DracoPrimitive& p) {
+double dracoCost(const Model& model, const DracoPrimitive& p) {
     std::size_t vertexBytes = 0;
     for (const DracoPrimitive::Attribute& a : p.attributes)
         vertexBytes += elementBytes(accessorAt(model, a.accessor));
@@ -234,7 +213,7 @@ double dracoCost(const tinygltf::Model& model, const DracoPrimitive& p) {
            static_cast<double>(corners) * static_cast<double>(dracoBytesPerCorner);
 }
 
-void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
+void decodeDraco(Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
                  std::map<std::size_t, std::string>& broken) {
     std::vector<Result> results(primitives.size());
     std::vector<std::string> faults(primitives.size());
@@ -249,7 +228,7 @@ void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& prim
         if (!faults[i].empty()) broken.emplace(primitives[i].mesh, faults[i]);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (broken.contains(primitives[i].mesh)) continue;
-        tinygltf::Primitive& primitive = primitiveOf(model, primitives[i]);
+        tinygltf::Primitive& primitive = model.meshes[primitives[i].mesh].primitives[primitives[i].primitive];
         for (std::size_t a = 0; a < primitives[i].attributes.size(); ++a) {
             const DracoPrimitive::Attribute& attribute = primitives[i].attributes[a];
             primitive.attributes[attribute.name] =
@@ -265,7 +244,6 @@ void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& prim
         results[i].indices = {};
         primitive.indices = append(model, std::move(indices), std::move(bytes));
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        primitive.extensions.erase(dracoName);
     }
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/scene/gltf/value.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -10,6 +8,8 @@
 #include <vector>
 
 namespace diptych::gltf {
+
+struct Model;
 
 // A primitive with KHR_draco_mesh_compression. Source: Khronos, KHR_draco_mesh_compression, 2018.
 struct DracoPrimitive {
@@ -26,15 +26,15 @@ struct DracoPrimitive {
 
 // Finds the Draco primitives of the drawn meshes (`drawn`: one flag per mesh). A mesh with a primitive
 // that violates the extension becomes `broken`, with its first fault.
-std::vector<DracoPrimitive> findDraco(const tinygltf::Model& model, const std::vector<bool>& drawn,
+std::vector<DracoPrimitive> findDraco(const Model& model, const std::vector<bool>& drawn,
                                       std::map<std::size_t, std::string>& broken);
 
 // Memory that decoding needs, bytes: the accessors, plus Draco's own data per triangle.
-double dracoCost(const tinygltf::Model& model, const DracoPrimitive& primitive);
+double dracoCost(const Model& model, const DracoPrimitive& primitive);
 
-// Gives each primitive accessors for decoded bytes. Decoded indices are not yet checked against the vertex
+// Gives each primitive accessors of decoded elements. Decoded indices are not yet checked against the vertex
 // count. A mesh becomes `broken` if a stream cannot be decoded or would need more than `limit` bytes.
-void decodeDraco(tinygltf::Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
+void decodeDraco(Model& model, const std::vector<DracoPrimitive>& primitives, std::size_t limit,
                  std::map<std::size_t, std::string>& broken);
 
 }  // namespace diptych::gltf

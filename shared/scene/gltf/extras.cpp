@@ -2,9 +2,10 @@
 #include "shared/scene/gltf/extras.h"
 
 #include "shared/scene/gltf/note_list.h"
-#include "shared/scene/gltf/unchecked.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/scene/lights/json_fields.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych::gltf {
@@ -21,7 +21,6 @@ namespace diptych::gltf {
 namespace {
 
 using Json = nlohmann::json;
-using Notes = std::vector<std::string>;
 
 constexpr const char* ours = "diptych";
 // maxIntensity keeps the product with any texel finite in float32.
@@ -29,24 +28,18 @@ constexpr double maxCount = 2147483647, maxIntensity = 1e12;
 
 // The object "diptych" in the "extras" of `owner`. Keys that are not `known` get a note.
 const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
-                      const std::string& who, Notes& notes) {
+                      const std::string& who, NoteList& notes) {
     const Json* extras = memberOf(owner, "extras");
     const Json* own = extras ? memberOf(*extras, ours) : nullptr;
     if (!own) return nullptr;
     if (!own->is_object()) {
-        notes.push_back(who + ": is not an object: left out");
+        notes.add(who + ": is not an object: left out");
         return nullptr;
     }
     for (const auto& item : own->items())
         if (std::ranges::find(known, item.key()) == known.end())
-            notes.push_back(fmt::format("{}: {}: is ignored", who, oneLine(item.key())));
+            notes.add(fmt::format("{}: {}: is ignored", who, oneLine(item.key())));
     return own;
-}
-
-// The member `key` of that object; no other key is known.
-const Json* ourExtra(const Json& owner, const char* key, const std::string& who, Notes& notes) {
-    const Json* own = ourExtras(owner, {key}, who, notes);
-    return own ? memberOf(*own, key) : nullptr;
 }
 
 // Removes "node" from `object` and returns its value; -1 if absent.
@@ -55,60 +48,61 @@ int takeNode(Json& object, std::size_t nodes, const std::string& who) {
     if (at == object.end()) return -1;
     const double index = at->is_number() ? at->get<double>() : -1;
     if (!(index >= 0 && index < static_cast<double>(nodes) && index == std::floor(index)))
-        throw std::runtime_error(fmt::format("{}: node: is not an index of the {} nodes", who, nodes));
+        fail(who, fmt::format("node: is not an index of the {} nodes", nodes));
     object.erase(at);
     return static_cast<int>(index);
 }
 
-LightExtras::OfScene ofScene(const Json& scene, std::size_t nodes, const std::string& who) {
-    LightExtras::OfScene result;
-    const Json* lights = ourExtra(scene, "lights", who, result.notes);
-    if (lights && !lights->is_array()) result.notes.push_back(who + ": lights: is not an array: left out");
-    if (!lights || !lights->is_array()) return result;
-    for (std::size_t i = 0; i < lights->size(); ++i) try {
-            LightExtras::Hung hung{fmt::format("{}: light {}", who, i), {}, -1};
-            Json object = (*lights)[i];
-            hung.node = takeNode(object, nodes, hung.who);
-            hung.light = lightFromJson(object, hung.who);
-            result.lights.push_back(std::move(hung));
-        } catch (const std::runtime_error& e) {
-            result.notes.push_back(std::string(e.what()) + ": left out");
-        }
-    return result;
-}
+}  // namespace
 
-LightExtras::OfLight ofLight(const Json& light, const std::string& who) {
-    LightExtras::OfLight result;
-    const Json* own = ourExtras(light, {"angle", "importance", "shadow"}, who, result.notes);
-    if (!own) return result;
-    const auto left = [&](const auto& read) {
-        try {
-            read();
-        } catch (const std::runtime_error& e) {
-            result.notes.push_back(std::string(e.what()) + ": left out");
-        }
-    };
-    left([&] { result.importance = importanceOf(JsonFields(*own, who)); });
-    const Json* type = memberOf(light, "type");
+void addExtras(const Json& file, int index, Light& light, NoteList& notes) {
+    const std::string who = fmt::format("light {}: extras: {}", index, ours);
+    const Json* own = ourExtras(file, {"angle", "importance", "shadow"}, who, notes);
+    if (!own) return;
+    const JsonFields fields(*own, who);
+    readOrNote(notes, [&] { light.importance = importanceOf(fields); });
     if (memberOf(*own, "shadow"))
-        left([&] {
-            if (!type || (*type != "point" && *type != "spot"))
-                throw std::runtime_error(who + ": shadow: applies only to point and spot lights");
-            result.shadow = JsonFields(*own, who).flag("shadow", false);
+        readOrNote(notes, [&] {
+            if (light.kind != LightKind::point && light.kind != LightKind::spot)
+                fields.fail("shadow", "applies only to point and spot lights");
+            light.shadow = fields.flag("shadow", false);
         });
-    if (!memberOf(*own, "angle")) return result;
-    left([&] {
-        if (!type || *type != "directional")
-            throw std::runtime_error(who + ": angle: applies only to directional lights");
-        result.angle = sunAngle(JsonFields(*own, who));
-    });
-    return result;
+    if (memberOf(*own, "angle"))
+        readOrNote(notes, [&] {
+            if (light.kind != LightKind::directional)
+                fields.fail("angle", "applies only to directional lights");
+            light.angle = sunAngle(fields);
+        });
 }
 
-MaterialExtras::Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& who) {
-    MaterialExtras::Lightmap result;
-    const Json* found = ourExtra(material, "lightmap", who, result.notes);
-    if (found) try {
+void attachLights(const Json& file, int index, const std::vector<int>& place, Scene& scene, NoteList& notes) {
+    const std::string who = fmt::format("scene {}: extras: {}", index, ours);
+    const Json* own = ourExtras(file, {"lights"}, who, notes);
+    const Json* lights = own ? memberOf(*own, "lights") : nullptr;
+    if (!lights) return;
+    if (!lights->is_array()) return notes.add(who + ": lights: is not an array: left out");
+    for (std::size_t i = 0; i < lights->size(); ++i)
+        readOrNote(notes, [&] {
+            const std::string name = fmt::format("{}: light {}", who, i);
+            Json object = (*lights)[i];
+            const int node = takeNode(object, place.size(), name);
+            Light light = lightFromJson(object, name);
+            if (node >= 0) {
+                light.node = place[static_cast<std::size_t>(node)];
+                if (light.node < 0) fail(name, fmt::format("node: {} is not in the scene", node));
+                if (light.name.empty()) light.name = scene.nodes[static_cast<std::size_t>(light.node)].name;
+            }
+            scene.lights.push_back(std::move(light));
+        });
+}
+
+Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& material_name) {
+    Lightmap result;
+    const std::string who = fmt::format("{}: extras: {}", material_name, ours);
+    NoteList notes("lightmaps");
+    const Json* own = ourExtras(material, {"lightmap"}, who, notes);
+    if (const Json* found = own ? memberOf(*own, "lightmap") : nullptr)
+        readOrNote(notes, [&] {
             const JsonFields fields(*found, who + ": lightmap");
             constexpr std::array<std::string_view, 3> known{"index", "texCoord", "intensity"};
             fields.knownOnly(known, "a lightmap");
@@ -121,73 +115,10 @@ MaterialExtras::Lightmap lightmapOf(const Json& material, std::size_t textures, 
             if (!fields.find("index")) fields.fail("index", "is missing; give a texture");
             const double intensity = fields.number("intensity", 1, 0, maxIntensity);
             const int texcoord = whole("texCoord", 1, 2);
-            result.texture = whole("index", 0, static_cast<double>(textures));
-            result.texcoord = texcoord;
-            result.intensity = intensity;
-        } catch (const std::runtime_error& e) {
-            result.notes.push_back(std::string(e.what()) + ": left out");
-        }
+            result = {whole("index", 0, static_cast<double>(textures)), texcoord, intensity};
+        });
+    notes.moveTo(result.notes);
     return result;
-}
-
-}  // namespace
-
-LightExtras lightExtras(const Json& document) {
-    LightExtras result;
-    const std::size_t nodes = arrayAt(document, "/nodes").size();
-    const Json &scenes = arrayAt(document, "/scenes"),
-               &lights = arrayAt(document, "/extensions/KHR_lights_punctual/lights");
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        LightExtras::OfScene found = ofScene(scenes[i], nodes, fmt::format("scene {}: extras: {}", i, ours));
-        if (!found.lights.empty() || !found.notes.empty()) result.scenes[i] = std::move(found);
-    }
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        LightExtras::OfLight found = ofLight(lights[i], fmt::format("light {}: extras: {}", i, ours));
-        if (found.angle > 0 || found.importance != Importance::automatic || found.shadow ||
-            !found.notes.empty())
-            result.lights[i] = std::move(found);
-    }
-    return result;
-}
-
-MaterialExtras materialExtras(const Json& document) {
-    MaterialExtras result;
-    const Json& materials = arrayAt(document, "/materials");
-    const std::size_t textures = arrayAt(document, "/textures").size();
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        MaterialExtras::Lightmap found =
-            lightmapOf(materials[i], textures, fmt::format("material {}: extras: {}", i, ours));
-        if (found.texture >= 0 || !found.notes.empty()) result.lightmaps[i] = std::move(found);
-    }
-    return result;
-}
-
-void addExtras(const LightExtras& extras, std::size_t index, Light& light, NoteList& notes) {
-    const auto found = extras.lights.find(index);
-    if (found == extras.lights.end()) return;
-    for (const std::string& note : found->second.notes) notes.add(note);
-    light.importance = found->second.importance;
-    light.shadow = found->second.shadow;
-    // A broken light became a point light.
-    if (light.kind == LightKind::directional) light.angle = found->second.angle;
-}
-
-void attachLights(const LightExtras& extras, std::size_t index, const std::vector<int>& place, Scene& scene,
-                  NoteList& notes) {
-    const auto found = extras.scenes.find(index);
-    if (found == extras.scenes.end()) return;
-    for (const std::string& note : found->second.notes) notes.add(note);
-    for (const LightExtras::Hung& hung : found->second.lights) {
-        Light light = hung.light;
-        light.node = hung.node < 0 ? -1 : place[static_cast<std::size_t>(hung.node)];
-        if (hung.node >= 0 && light.node < 0) {
-            notes.add(fmt::format("{}: node: {} is not in the scene: left out", hung.who, hung.node));
-            continue;
-        }
-        if (light.name.empty() && light.node >= 0)
-            light.name = scene.nodes[static_cast<std::size_t>(light.node)].name;
-        scene.lights.push_back(std::move(light));
-    }
 }
 
 }  // namespace diptych::gltf

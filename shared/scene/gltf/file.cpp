@@ -2,9 +2,9 @@
 #include "shared/scene/gltf/file.h"
 
 #include "shared/scene/gltf/accessor.h"
-#include "shared/scene/gltf/animation_pointer.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/counted.h"
@@ -16,10 +16,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 namespace diptych::gltf {
@@ -29,32 +29,24 @@ namespace {
 using Json = nlohmann::json;
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::array builtExtensions{"EXT_lights_image_based",
-                                     "EXT_mesh_gpu_instancing",
-                                     "EXT_meshopt_compression",
-                                     "EXT_texture_webp",
-                                     "KHR_animation_pointer",
-                                     "KHR_draco_mesh_compression",
-                                     "KHR_lights_punctual",
-                                     "KHR_materials_anisotropy",
-                                     "KHR_materials_clearcoat",
-                                     "KHR_materials_diffuse_transmission",
-                                     "KHR_materials_dispersion",
-                                     "KHR_materials_emissive_strength",
-                                     "KHR_materials_ior",
-                                     "KHR_materials_iridescence",
-                                     "KHR_materials_pbrSpecularGlossiness",
-                                     "KHR_materials_sheen",
-                                     "KHR_materials_specular",
-                                     "KHR_materials_transmission",
-                                     "KHR_materials_unlit",
-                                     "KHR_materials_variants",
-                                     "KHR_materials_volume",
-                                     "KHR_mesh_quantization",
-                                     "KHR_texture_transform"};
+void addExtensions(std::span<const schema::Property> properties, std::set<std::string_view>& names) {
+    for (const schema::Property& p : properties) {
+        addExtensions(p.properties, names);
+        if (p.kind == schema::Kind::extensions)
+            for (const schema::Property& extension : p.properties) names.insert(extension.key);
+    }
+}
 
+// Whether the schema has the extension or it is read before; only the presence of image formats is read.
 bool isBuilt(std::string_view extension) {
-    return std::ranges::find(builtExtensions, extension) != builtExtensions.end();
+    static const std::set<std::string_view> built = [] {
+        std::set<std::string_view> names{"EXT_lights_image_based", "KHR_materials_variants",
+                                         "KHR_mesh_quantization"};
+        addExtensions(schema::document, names);
+        for (const char* format : {"EXT_texture_avif", "KHR_texture_basisu"}) names.erase(format);
+        return names;
+    }();
+    return built.contains(extension);
 }
 
 // ---- container ---------------------------------------------------------------------------------------
@@ -233,7 +225,7 @@ void noteCutViews(Document& out) {
 }
 
 // Lists names and locations of the images; decodes nothing.
-void listImages(const Json& images, tinygltf::Model& model) {
+void listImages(const Json& images, Model& model) {
     for (std::size_t i = 0; i < images.size(); ++i) {
         tinygltf::Image& image = model.images.emplace_back();
         image.name = images[i].value("name", std::string());
@@ -243,37 +235,46 @@ void listImages(const Json& images, tinygltf::Model& model) {
     }
 }
 
-Json taken(Json& document, const char* key) {
-    const auto at = document.find(key);
-    if (at == document.end()) return Json::array();
-    Json value = std::move(*at);
-    document.erase(at);
-    return value;
+// Moves all extensions and our extras out of `value`. Returns them in a value of the same shape that has
+// nothing else; null if there are none.
+Json takeAdditions(Json& value) {
+    Json taken;
+    if (value.is_array()) {
+        for (std::size_t i = 0; i < value.size() && value[i].is_structured(); ++i)
+            if (Json of = takeAdditions(value[i]); !of.is_null()) taken[i] = std::move(of);
+    } else {
+        for (auto at = value.begin(); at != value.end();) {
+            if (at->is_object() && (at.key() == "extensions" || at.key() == "extras")) {
+                taken[at.key()] = std::move(at.value());
+                at = value.erase(at);
+                continue;
+            }
+            if (at->is_structured())
+                if (Json of = takeAdditions(*at); !of.is_null()) taken[at.key()] = std::move(of);
+            ++at;
+        }
+    }
+    return taken;
 }
 
-// tinygltf rejects indices whose accessor has no bufferView, which glTF 2.0 (3.6.2.3) allows (zeros,
-// except for sparse elements). They are removed before tinygltf parses the document, and restored
-// afterwards.
-struct Withheld {
-    std::size_t mesh, primitive;
-    int indices;
-};
-
-std::vector<Withheld> withholdIndices(Json& document) {
-    std::vector<Withheld> withheld;
-    if (!document.contains("meshes") || !document.contains("accessors")) return withheld;
-    Json& meshes = document["meshes"];
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        for (std::size_t p = 0; Json & primitive : meshes[m]["primitives"]) {
-            const int indices = primitive.value("indices", -1);
-            if (indices >= 0 &&
-                !document["accessors"][static_cast<std::size_t>(indices)].contains("bufferView")) {
-                withheld.push_back({m, p, indices});
-                primitive.erase("indices");
-            }
-            ++p;
-        }
-    return withheld;
+// Splits the checked document: returns the part that tinygltf loads and leaves the rest.
+Json takeTinygltfPart(Json& document) {
+    Json part{{"asset", {{"version", "2.0"}}}};
+    for (const char* key :
+         {"accessors", "animations", "bufferViews", "cameras", "meshes", "nodes", "scene", "scenes", "skins"})
+        if (const auto at = document.find(key); at != document.end()) part[key] = std::move(*at);
+    // tinygltf leaves out channels without a node. One with KHR_animation_pointer gets node 0, which is
+    // ignored; the others are removed.
+    static const Json::json_pointer pointer("/extensions/KHR_animation_pointer");
+    if (part.contains("animations"))
+        for (Json& animation : part["animations"])
+            std::erase_if(animation["channels"].get_ref<Json::array_t&>(), [](Json& channel) {
+                Json& target = channel["target"];
+                if (!target.contains("node") && target.contains(pointer)) target["node"] = 0;
+                return !target.contains("node");
+            });
+    if (Json taken = takeAdditions(part); !taken.is_null()) document.update(taken);
+    return part;
 }
 
 // Callbacks that find no files. tinygltf 2.9 ignores them unless all are set, and has one more.
@@ -291,10 +292,20 @@ Callbacks noFiles() {
     return files;
 }
 
-tinygltf::Model parseModel(const std::string& text) {
+// `part`: from takeTinygltfPart().
+void parseModel(Json part, Model& model) {
+    // tinygltf refuses indices whose accessor has no bufferView, which glTF 2.0 (3.6.2.3) allows.
+    std::vector<int> indices;
+    if (part.contains("meshes"))
+        for (Json& mesh : part["meshes"])
+            for (Json& primitive : mesh["primitives"]) {
+                indices.push_back(primitive.value("indices", -1));
+                primitive.erase("indices");
+            }
+    const std::string text = part.dump();
+    part = nullptr;  // free it, because tinygltf builds the same tree again
     tinygltf::TinyGLTF parser;
     parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());  // the document refers to no files any more
-    tinygltf::Model model;
     std::string error, warning;
     bool parsed = false;
     try {
@@ -304,7 +315,8 @@ tinygltf::Model parseModel(const std::string& text) {
         fail(firstLine(e.what()));
     }
     if (!parsed) fail(error.empty() ? "is not glTF" : firstLine(error));
-    return model;
+    for (std::size_t i = 0; tinygltf::Mesh & mesh : model.meshes)
+        for (tinygltf::Primitive& primitive : mesh.primitives) primitive.indices = indices.at(i++);
 }
 
 // Readers may ignore an extension that extensionsUsed does not list (glTF 2.0, 3.12).
@@ -333,39 +345,28 @@ void checkHeader(const Bytes& bytes, const std::string& variant) {
 
 Document open(Bytes bytes, const std::filesystem::path& folder, const std::string& variant) {
     const Container container = readContainer(bytes);
-    Document result{{}, Resources(folder), {}, {}, {}, {}, {}, {}, {}};
-    Json buffers, images;
-    {
-        Json document = documentOf(bytes, container);
-        result.light_extras = lightExtras(document);
-        result.material_extras = materialExtras(document);
-        result.image_lights = takeImageLights(document);
-        result.variants = takeVariants(document, variant);
-        Schema found = applySchema(document);  // removes extras from the document
-        result.notes = container.notes;
-        for (const auto* notes : {&result.image_lights.notes, &result.variants.notes, &found.notes})
-            result.notes.insert(result.notes.end(), notes->begin(), notes->end());
-        for (const auto& [name, where] : found.misplaced)
-            if (isBuilt(name))
-                result.notes.push_back(fmt::format("{}: {} is not supported there: left out",
-                                                   where.empty() ? "the document" : where, name));
-        result.broken_meshes = std::move(found.broken_meshes);
-        if (!result.variants.names.empty()) found.extensions.insert("KHR_materials_variants");
-        if (!result.image_lights.scenes.empty()) found.extensions.insert("EXT_lights_image_based");
-        noteUndeclared(found, result.notes);
-        result.left_out = std::move(found.extensions);
-        result.left_out.merge(found.declared);
-        std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
-        buffers = taken(document, "buffers");
-        images = taken(document, "images");
-        keepPointerChannels(document);
-        const std::vector<Withheld> withheld = withholdIndices(document);
-        const std::string text = document.dump();
-        document = nullptr;  // free it, because tinygltf builds the same tree again
-        result.model = parseModel(text);
-        for (const Withheld& w : withheld)
-            result.model.meshes.at(w.mesh).primitives.at(w.primitive).indices = w.indices;
-    }
+    Document result{{}, Resources(folder), {}, {}, {}, {}, {}};
+    Json document = documentOf(bytes, container);
+    result.image_lights = takeImageLights(document);
+    result.variants = takeVariants(document, variant);
+    Schema found = applySchema(document);
+    result.notes = container.notes;
+    for (const auto* notes : {&result.image_lights.notes, &result.variants.notes, &found.notes})
+        result.notes.insert(result.notes.end(), notes->begin(), notes->end());
+    for (const auto& [name, where] : found.misplaced)
+        if (isBuilt(name))
+            result.notes.push_back(fmt::format("{}: {} is not supported there: left out",
+                                               where.empty() ? "the document" : where, name));
+    result.broken_meshes = std::move(found.broken_meshes);
+    if (!result.variants.names.empty()) found.extensions.insert("KHR_materials_variants");
+    if (!result.image_lights.scenes.empty()) found.extensions.insert("EXT_lights_image_based");
+    noteUndeclared(found, result.notes);
+    result.left_out = std::move(found.extensions);
+    result.left_out.merge(found.declared);
+    std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
+    const Json buffers = std::move(document["buffers"]), images = std::move(document["images"]);
+    parseModel(takeTinygltfPart(document), result.model);
+    result.model.rest = std::move(document);
     loadBuffers(buffers, bytes, container.binary, result);
     noteCutViews(result);
     listImages(images, result.model);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/scene/gltf/extras.h"
 #include "shared/scene/gltf/image_light.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/resources.h"
 #include "shared/scene/gltf/variants.h"
-
-#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -21,10 +19,8 @@ namespace diptych::gltf {
 // A validated file: values have the types and ranges of the schema, indices refer to existing objects,
 // buffers are loaded. Accessor elements are not yet checked.
 struct Document {
-    tinygltf::Model model;
+    Model model;
     Resources resources;  // loads images on demand
-    LightExtras light_extras;
-    MaterialExtras material_extras;
     ImageLights image_lights;
     Variants variants;               // primitives have the chosen one's materials
     std::set<std::string> left_out;  // extensions that the file uses but this reader ignores
@@ -33,7 +29,7 @@ struct Document {
 };
 
 // Loads a file. Checks before use: container lengths, size and nesting of the JSON, version, required
-// extensions, and the schema (schema.h). tinygltf then parses the filtered document without file access.
+// extensions, and the schema (schema.h). tinygltf then parses its part of the document without file access.
 // `folder` has the buffers and images; if empty, only data URIs are read. `variant`: see takeVariants().
 // Throws std::runtime_error without the file's name.
 Document open(std::vector<unsigned char> bytes, const std::filesystem::path& folder,

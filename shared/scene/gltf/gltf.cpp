@@ -79,7 +79,7 @@ std::vector<bool> drawnMeshes(const Scene& scene, std::size_t count) {
 }
 
 // A few nodes and primitives may have many instances, each with a transform.
-Claim claimInstances(const Scene& scene, const tinygltf::Model& model, std::uint64_t held) {
+Claim claimInstances(const Scene& scene, const gltf::Model& model, std::uint64_t held) {
     std::uint64_t instances = 0;
     for (const Node& node : scene.nodes)
         if (node.mesh >= 0)
@@ -106,23 +106,23 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     scene.variant = document.variants.chosen;
     if (progress) progress(0, "geometry");
     const int chosen = gltf::chooseScene(document.model, choice, scene.notes);
-    const std::vector<int> sceneNode = gltf::readNodes(document.model, document.light_extras, chosen, scene);
+    const std::vector<int> sceneNode = gltf::readNodes(document.model, chosen, scene);
     if (chosen >= 0)
         scene.environment = gltf::readImageLight(document.image_lights, static_cast<std::size_t>(chosen),
                                                  document.model, document.resources, scene.notes);
     gltf::decompress(document.model, drawnMeshes(scene, document.model.meshes.size()), document.broken_meshes,
                      scene.notes);
     gltf::readMotion(document.model, sceneNode, scene);
-    for (const tinygltf::Buffer& buffer : document.model.buffers) held += buffer.data.size();
+    held += document.model.dataBytes();
     std::vector<Claim> claims;
     const Claim claimOfInstances = claimInstances(scene, document.model, held);
     std::vector<int> imageOf;
-    gltf::readMaterials(document.model, document.material_extras, scene, imageOf);
+    gltf::readMaterials(document.model, scene, imageOf);
     fetchImages(document, imageOf, scene.notes);
 
     // Images and meshes are decoded concurrently. Exceptions are rethrown after both have ended, the
     // meshes' first.
-    const tinygltf::Model& model = document.model;
+    const gltf::Model& model = document.model;
     std::size_t pieces = imageOf.size();
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
     gltf::Tally tally(pieces, "images and meshes", progress);

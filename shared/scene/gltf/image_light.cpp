@@ -3,8 +3,8 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/resources.h"
-#include "shared/scene/gltf/unchecked.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/image/cube_map.h"
 #include "shared/scene/image/decode.h"
@@ -13,7 +13,6 @@
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
@@ -58,8 +57,7 @@ ImageLight lightOf(const Json& json, std::size_t images, const std::string& who)
 }
 
 // Errors do not name the light.
-Image faceOf(const tinygltf::Model& model, const Resources& resources, int index,
-             std::vector<std::string>& notes) {
+Image faceOf(const Model& model, const Resources& resources, int index, std::vector<std::string>& notes) {
     const tinygltf::Image& image = model.images[static_cast<std::size_t>(index)];
     const std::string who = fmt::format("image {}", index);
     std::vector<unsigned char> file;
@@ -95,18 +93,17 @@ ImageLights takeImageLights(Json& document) {
     ImageLights result;
     const Json root = takeExtension(document, imageLightExtension);
     std::vector<std::pair<std::size_t, Json>> uses;
-    if (const auto scenes = document.find("scenes"); scenes != document.end() && scenes->is_array())
-        for (std::size_t i = 0; i < scenes->size(); ++i)
-            if (Json use = takeExtension((*scenes)[i], imageLightExtension); !use.is_null())
-                uses.emplace_back(i, std::move(use));
-    const std::size_t count = arrayAt(document, "/images").size();
+    const std::size_t scenes = arrayAt(document, "/scenes").size(),
+                      count = arrayAt(document, "/images").size();
+    for (std::size_t i = 0; i < scenes; ++i)
+        if (Json use = takeExtension(document["scenes"][i], imageLightExtension); !use.is_null())
+            uses.emplace_back(i, std::move(use));
     for (const auto& [scene, use] : uses) try {
             const std::string who = fmt::format("scene {}: {}", scene, imageLightExtension);
             if (!use.is_object() || !use.contains("light")) fail(who, "names no light");
-            const bool some = root.is_object() && root.contains("lights") && root["lights"].is_array();
-            const std::size_t lights = some ? root["lights"].size() : 0;
-            const int light = indexBelow(use["light"], lights, who + ": light");
-            result.scenes.emplace(scene, lightOf(root["lights"][static_cast<std::size_t>(light)], count,
+            const Json& lights = arrayAt(root, "/lights");
+            const int light = indexBelow(use["light"], lights.size(), who + ": light");
+            result.scenes.emplace(scene, lightOf(lights[static_cast<std::size_t>(light)], count,
                                                  fmt::format("{}: light {}", imageLightExtension, light)));
         } catch (const std::runtime_error& e) {
             result.notes.push_back(std::string(e.what()) + ": left out");
@@ -114,9 +111,8 @@ ImageLights takeImageLights(Json& document) {
     return result;
 }
 
-std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t index,
-                                          const tinygltf::Model& model, const Resources& resources,
-                                          std::vector<std::string>& notes) {
+std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t index, const Model& model,
+                                          const Resources& resources, std::vector<std::string>& notes) {
     const auto found = lights.scenes.find(index);
     if (found == lights.scenes.end()) return {};
     const ImageLight& light = found->second;

@@ -16,12 +16,9 @@
 #include <string>
 #include <vector>
 
-namespace tinygltf {
-class Model;
-}
-
 namespace diptych::gltf {
 
+struct Model;
 class Resources;
 
 struct ImageLight {
@@ -41,8 +38,7 @@ ImageLights takeImageLights(nlohmann::json& document);
 
 // The environment of the file's scene `index`; none if it has none or, with a note, if its images cannot
 // be read.
-std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t index,
-                                          const tinygltf::Model& model, const Resources& resources,
-                                          std::vector<std::string>& notes);
+std::optional<Environment> readImageLight(const ImageLights& lights, std::size_t index, const Model& model,
+                                          const Resources& resources, std::vector<std::string>& notes);
 
 }  // namespace diptych::gltf

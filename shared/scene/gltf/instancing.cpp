@@ -16,19 +16,21 @@
 
 namespace diptych::gltf {
 
+using Json = nlohmann::json;
+
 namespace {
 
 class Attributes {
 public:
-    Attributes(const tinygltf::Model& model, const tinygltf::Value& attributes, const std::string& who)
+    Attributes(const Model& model, const Json& attributes, const std::string& who)
         : model_(model), attributes_(attributes), who_(who) {}
 
     // The number of instances, common to all attributes; none without attributes.
     std::optional<std::size_t> count() const {
         std::optional<std::size_t> count;
-        for (const std::string& name : attributes_.Keys()) {
+        for (const auto& [name, accessor] : attributes_.items()) {
             const std::string what = fmt::format("{}: {}", who_, name);
-            const std::size_t these = soundCount(model_, indexIn(attributes_, name.c_str(), -1, who_), what);
+            const std::size_t these = soundCount(model_, accessor.get<int>(), what);
             if (count && these != *count)
                 fail(what, fmt::format("{} instances, but other attributes have {}", these, *count));
             count = these;
@@ -38,7 +40,7 @@ public:
 
     // `width` numbers per instance; empty if the attribute is absent.
     std::vector<float> read(const char* name, std::size_t width, bool mayBeIntegers, MotionBudget& budget) {
-        const int accessor = indexIn(attributes_, name, -1, who_);
+        const int accessor = attributes_.value(name, -1);
         if (accessor < 0) return {};
         const std::string what = fmt::format("{}: {}", who_, name);
         Numbers numbers = budget.read(model_, accessor, what);
@@ -54,8 +56,8 @@ public:
     }
 
 private:
-    const tinygltf::Model& model_;
-    const tinygltf::Value& attributes_;
+    const Model& model_;
+    const Json& attributes_;
     const std::string& who_;
 };
 
@@ -89,11 +91,12 @@ std::vector<glm::dmat4> copiesOf(Attributes attributes, std::size_t count, const
 
 }  // namespace
 
-void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
+void readInstancing(const Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
                     Scene& scene) {
     const std::size_t before = scene.notes.size();
-    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-        const tinygltf::Value* e = extension(model.nodes[n].extensions, "EXT_mesh_gpu_instancing");
+    const Json& files = arrayAt(model.rest, "/nodes");
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        const Json* e = extension(files[n], "EXT_mesh_gpu_instancing");
         if (sceneNode[n] < 0 || !e) continue;
         Node& node = scene.nodes[static_cast<std::size_t>(sceneNode[n])];
         const std::string who = fmt::format("node {}: EXT_mesh_gpu_instancing", n);
@@ -105,9 +108,7 @@ void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneN
             scene.notes.push_back(who + ": its mesh is skinned, so nodes do not move it: drawn once");
             continue;
         }
-        static const tinygltf::Value none{tinygltf::Value::Object()};  // tinygltf drops empty objects
-        const tinygltf::Value& named = e->Get("attributes");
-        const Attributes attributes(model, named.IsObject() ? named : none, who);
+        const Attributes attributes(model, (*e)["attributes"], who);
         const std::optional<std::size_t> count = attributes.count();
         if (!count) {
             scene.notes.push_back(who + ": names no attribute: drawn once");

@@ -12,7 +12,7 @@ namespace diptych::gltf {
 // been read. Throws std::runtime_error, "node 3: ...", for faulty attributes. A skinned mesh is drawn
 // once, with a note: it ignores node transforms (glTF 2.0, 3.7.3.3), so its instances would coincide. A
 // rotation 0 0 0 0 means none, as for nodes.
-void readInstancing(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
+void readInstancing(const Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
                     Scene& scene);
 
 }  // namespace diptych::gltf

@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/material.h"
 
+#include "shared/scene/gltf/extras.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/note_list.h"
+#include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/texture.h"
 #include "shared/scene/gltf/transmission_notes.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
+#include "shared/scene/model/material_parts.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <limits>
 #include <set>
+#include <span>
 #include <stdexcept>
-#include <string_view>
 
 namespace diptych::gltf {
+
+using Json = nlohmann::json;
 
 namespace {
 
@@ -27,91 +31,51 @@ namespace {
 
 class MaterialReader {
 public:
-    // `faults`: by texture; empty if it is valid.
-    MaterialReader(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
+    // `faults`: by texture; empty if it is valid. `textures`: the document's.
+    MaterialReader(const Json& file, const Json& textures, Scene& scene,
                    const std::vector<std::string>& faults, std::size_t index)
-        : model_(model),
-          file_(model.materials[index]),
+        : file_(file),
+          textures_(textures),
           scene_(scene),
           faults_(faults),
-          lightmap_(extras.lightmaps.contains(index) ? &extras.lightmaps.at(index) : nullptr),
           who_(fmt::format("material {}", index)) {}
 
     Material read() {
-        const bool isUnlit = extension(file_.extensions, "KHR_materials_unlit");
-        const tinygltf::Value* glossy =
-            isUnlit ? nullptr : extension(file_.extensions, "KHR_materials_pbrSpecularGlossiness");
-        Material m;
-        m.name = file_.name;
+        m_.name = file_.value("name", std::string());
+        m_.unlit = extension(file_, unlitName);
+        const Json* glossy = m_.unlit ? nullptr : extension(file_, glossyName);
         if (glossy)
-            readSpecularGlossiness(m, *glossy);
-        else
-            readMetallicRoughness(m, isUnlit);
-        m.normal_scale = within("normalTexture.scale", file_.normalTexture.scale, -maxFactor, maxFactor);
-        m.occlusion_strength = within("occlusionTexture.strength", file_.occlusionTexture.strength, 0, 1);
-        // Above 1, everything is cut out.
-        m.alpha_cutoff = within("alphaCutoff", file_.alphaCutoff, 0, maxFactor);
-        m.alpha_mode = alphaMode();
-        m.double_sided = file_.doubleSided;
-        if (isUnlit) return unlit(m);
-        m.normal_texture = slot("normalTexture", file_.normalTexture);
-        m.occlusion_texture = slot("occlusionTexture", file_.occlusionTexture);
-        m.emissive_texture = slot("emissiveTexture", file_.emissiveTexture);
-        readEmission(m);
-        if (!glossy) {
-            readSpecular(m);
-            readTransmission(m);
-            readClearcoat(m);
-            readAnisotropy(m);
-            readSheen(m);
-            readIridescence(m);
-            readVolume(m);
-            readDiffuseTransmission(m);
-        }
-        readLightmap(m);
-        return m;
+            readSpecularGlossiness(*glossy);
+        else if (const Json* pbr = memberOf(file_, "pbrMetallicRoughness"))
+            read(*pbr, schema::metallicRoughness);
+        read(file_, schema::material);
+        const std::string mode = file_.value("alphaMode", "OPAQUE");
+        m_.alpha_mode = mode == "MASK"    ? AlphaMode::mask
+                        : mode == "BLEND" ? AlphaMode::blend
+                                          : AlphaMode::opaque;
+        m_.double_sided = file_.value("doubleSided", false);
+        if (m_.unlit) return unlit();
+        readEmission();
+        for (const schema::Property& layer : schema::materialExtensions)
+            if (const Json* e = glossy ? nullptr : extension(file_, layer.key)) read(*e, layer.properties);
+        readLightmap();
+        return m_;
     }
 
     // Valid after read(): the parts of combined values.
     const MaterialParts& parts() const { return parts_; }
 
 private:
-    const tinygltf::Model& model_;
-    const tinygltf::Material& file_;
+    const Json &file_, &textures_;
     Scene& scene_;
     const std::vector<std::string>& faults_;
-    const MaterialExtras::Lightmap* lightmap_;  // nullptr: the material has none
     std::string who_;
+    Material m_;
     MaterialParts parts_;
 
-    static constexpr const char* lightmapName = "extras: diptych: lightmap";
-
-    // SLOT_* of a texture's name.
-    static std::size_t slotNumber(std::string_view name) {
-        if (name == "diffuseTexture") return gpu::SLOT_base_color;
-        if (name == "specularGlossinessTexture") return gpu::SLOT_specular_color;
-        constexpr std::string_view names[gpu::SLOT_COUNT] = {"baseColorTexture",
-                                                             "metallicRoughnessTexture",
-                                                             "normalTexture",
-                                                             "occlusionTexture",
-                                                             "emissiveTexture",
-                                                             "specularTexture",
-                                                             "specularColorTexture",
-                                                             lightmapName,
-                                                             "clearcoatTexture",
-                                                             "clearcoatRoughnessTexture",
-                                                             "clearcoatNormalTexture",
-                                                             "anisotropyTexture",
-                                                             "sheenColorTexture",
-                                                             "sheenRoughnessTexture",
-                                                             "iridescenceTexture",
-                                                             "iridescenceThicknessTexture",
-                                                             "transmissionTexture",
-                                                             "thicknessTexture",
-                                                             "diffuseTransmissionTexture",
-                                                             "diffuseTransmissionColorTexture"};
-        return static_cast<std::size_t>(std::ranges::find(names, name) - std::begin(names));
-    }
+    static constexpr const char *unlitName = "KHR_materials_unlit",
+                                *glossyName = "KHR_materials_pbrSpecularGlossiness",
+                                *strengthName = "KHR_materials_emissive_strength";
 
     double bounded(const std::string& what, double x, double least, double most) {
         const double inside = std::clamp(x, least, most);
@@ -121,258 +85,124 @@ private:
                                                x, least, most, inside));
         return inside;
     }
-    float within(const std::string& what, double x, double least, double most) {
-        return static_cast<float>(bounded(what, x, least, most));
+
+    // Reads the values and textures of an object, but not those of objects in it.
+    void read(const Json& object, std::span<const schema::Property> properties) {
+        for (const schema::Property& p : properties) {
+            const Json* value = memberOf(object, p.key);
+            if (!value) continue;
+            if (p.part) set(p, *value, std::string(p.key));
+            if (p.slot == gpu::SLOT_COUNT) continue;
+            if (!m_.unlit || p.slot == gpu::SLOT_base_color) readTexture(p, *value);
+            for (const schema::Property& own : p.properties)
+                if (const Json* factor = own.part ? memberOf(*value, own.key) : nullptr)
+                    set(own, *factor, fmt::format("{}.{}", p.key, own.key));
+        }
     }
 
-    AlphaMode alphaMode() const {
-        if (file_.alphaMode == "OPAQUE") return AlphaMode::opaque;
-        if (file_.alphaMode == "MASK") return AlphaMode::mask;
-        if (file_.alphaMode == "BLEND") return AlphaMode::blend;
-        fail(who_, fmt::format("alphaMode \"{}\" is not one of OPAQUE, MASK, BLEND", file_.alphaMode));
+    void set(const schema::Property& p, const Json& value, const std::string& what,
+             std::size_t slot = gpu::SLOT_COUNT) {
+        // See readEmission().
+        if (*p.part == AnimatedPart::emissive || *p.part == AnimatedPart::emissive_strength) return;
+        PartFacts facts = factsOf(*p.part);
+        std::vector<double> numbers =
+            value.is_array() ? value.get<std::vector<double>>() : std::vector{value.get<double>()};
+        if (*p.part == AnimatedPart::ior && numbers[0] != 0) {
+            facts.least = 1;
+            if (numbers[0] < 1)
+                scene_.notes.push_back(
+                    fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, numbers[0]));
+            numbers[0] = std::max(numbers[0], facts.least);
+        }
+        for (double& x : numbers) x = bounded(what, x, facts.least, facts.most);
+        setPart(m_, parts_, *p.part, slot, numbers);
     }
 
-    template <class Info>
-    TextureSlot slot(const char* name, const Info& info) {
-        return slot(name, info.index, info.texCoord, extension(info.extensions, "KHR_texture_transform"));
+    void readTexture(const schema::Property& p, const Json& info) {
+        const std::string name(p.key);
+        int texcoord = info.value("texCoord", 0);
+        if (const Json* transform = extension(info, "KHR_texture_transform")) {
+            for (const schema::Property& part : schema::textureTransform)
+                if (const Json* value = part.part ? memberOf(*transform, part.key) : nullptr)
+                    set(part, *value, fmt::format("{} {}", name, part.key), p.slot);
+            texcoord = transform->value("texCoord", texcoord);
+        }
+        setTexture(p.slot, name, info["index"].get<int>(), texcoord);
     }
 
-    TextureSlot slot(const char* name, int texture, int texcoord, const tinygltf::Value* transform) {
-        TextureSlot result;
+    void setTexture(std::size_t slot, const std::string& name, int index, int texcoord) {
         const std::string who = fmt::format("{}: {}", who_, name);
-        if (checkedIndex(texture, scene_.textures.size(), who, "texture") < 0) return result;
-        if (const std::string& fault = faults_[static_cast<std::size_t>(texture)]; !fault.empty())
-            throw std::runtime_error(fault);
-        const char* other = otherImageOf(model_.textures[static_cast<std::size_t>(texture)]);
-        if (other && scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+        const auto i = static_cast<std::size_t>(index);
+        if (!faults_[i].empty()) fail(faults_[i]);
+        const bool image = scene_.textures[i].image >= 0;
+        if (const char* other = image ? nullptr : otherImageOf(textures_[i]))
             fail(who,
-                 fmt::format("texture {} has only an image of {}, which is not supported", texture, other));
-        if (transform) texcoord = readTransform(*transform, name, result, texcoord);
+                 fmt::format("texture {} has only an image of {}, which is not supported", index, other));
+        TextureSlot& result = m_.*materialSlots[slot].texture;
         if (texcoord < 0 || texcoord > 1)
             scene_.notes.push_back(
                 fmt::format("{} reads TEXCOORD_{}: left out, only two UV sets are supported", who, texcoord));
-        else if (scene_.textures[static_cast<std::size_t>(texture)].image < 0)
+        else if (!image)
             scene_.notes.push_back(
-                fmt::format("{}: texture {} has no PNG, JPEG or WebP image: left out", who, texture));
+                fmt::format("{}: texture {} has no PNG, JPEG or WebP image: left out", who, index));
         else
-            result.texture = texture;
+            result.texture = index;
         result.texcoord = texcoord == 1 ? 1 : 0;
-        return result;
-    }
-
-    // KHR_texture_transform: scale, then rotation (counter-clockwise with v growing downwards), then
-    // offset. Returns the UV set: the transform's if given, otherwise the texture's.
-    int readTransform(const tinygltf::Value& transform, const std::string& slot, TextureSlot& result,
-                      int texcoord) {
-        const std::string who = fmt::format("{}: {}", who_, slot);
-        std::vector<double> offset = numbersIn(transform, "offset", {0, 0}, who);
-        std::vector<double> scale = numbersIn(transform, "scale", {1, 1}, who);
-        for (double& x : offset) x = bounded(slot + " offset", x, -maxFactor, maxFactor);
-        for (double& x : scale) x = bounded(slot + " scale", x, -maxFactor, maxFactor);
-        TextureTransform& parts = parts_.transforms[slotNumber(slot)];
-        parts = {{offset[0], offset[1]}, {scale[0], scale[1]}, numberIn(transform, "rotation", 0, who)};
-        setTransform(result, parts);
-        return indexIn(transform, "texCoord", texcoord, who);
-    }
-
-    // A texture in an extension, which tinygltf does not parse.
-    TextureSlot slotIn(const tinygltf::Value& object, const char* name) {
-        if (!object.Has(name)) return {};
-        const std::string who = fmt::format("{}: {}", who_, name);
-        const tinygltf::Value& info = object.Get(name);
-        if (!info.IsObject() || !info.Has("index")) fail(who, "names no texture");
-        const tinygltf::Value* transform = nullptr;
-        if (info.Get("extensions").IsObject() &&
-            info.Get("extensions").Get("KHR_texture_transform").IsObject())
-            transform = &info.Get("extensions").Get("KHR_texture_transform");
-        return slot(name, indexIn(info, "index", -1, who), indexIn(info, "texCoord", 0, who), transform);
-    }
-
-    void readMetallicRoughness(Material& m, bool isUnlit) {
-        const tinygltf::PbrMetallicRoughness& pbr = file_.pbrMetallicRoughness;
-        for (int c = 0; c < 4; ++c)
-            m.base_color[c] =
-                within("baseColorFactor", pbr.baseColorFactor[static_cast<std::size_t>(c)], 0, 1);
-        m.metallic = within("metallicFactor", pbr.metallicFactor, 0, 1);
-        m.roughness = within("roughnessFactor", pbr.roughnessFactor, 0, 1);
-        m.base_color_texture = slot("baseColorTexture", pbr.baseColorTexture);
-        if (!isUnlit)
-            m.metallic_roughness_texture = slot("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
     }
 
     // Replaces pbrMetallicRoughness. An infinite index of refraction makes the specular colour F0, and F90 1.
-    void readSpecularGlossiness(Material& m, const tinygltf::Value& e) {
-        m.specular_glossiness = true;
-        const std::vector<double> diffuse = numbersIn(e, "diffuseFactor", {1, 1, 1, 1}, who_),
-                                  f0 = numbersIn(e, "specularFactor", {1, 1, 1}, who_);
-        for (int c = 0; c < 4; ++c)
-            m.base_color[c] = within("diffuseFactor", diffuse[static_cast<std::size_t>(c)], 0, 1);
-        for (int c = 0; c < 3; ++c)
-            m.specular_color[c] = within("specularFactor", f0[static_cast<std::size_t>(c)], 0, 1);
-        const double glossiness = numberIn(e, "glossinessFactor", 1, who_);
-        m.roughness = static_cast<float>(1 - bounded("glossinessFactor", glossiness, 0, 1));
-        m.metallic = m.ior = 0;
-        m.base_color_texture = slotIn(e, "diffuseTexture");
-        m.specular_color_texture = slotIn(e, "specularGlossinessTexture");
-        for (const auto& [name, value] : file_.extensions)
-            if (name.starts_with("KHR_materials_") && name != "KHR_materials_pbrSpecularGlossiness" &&
-                name != "KHR_materials_emissive_strength")
-                scene_.notes.push_back(
-                    fmt::format("{}: {} beside KHR_materials_pbrSpecularGlossiness: ignored", who_, name));
+    void readSpecularGlossiness(const Json& e) {
+        m_.specular_glossiness = true;
+        m_.metallic = m_.roughness = m_.ior = 0;
+        read(e, schema::specularGlossiness);
+        for (const auto& [name, value] : file_["extensions"].items())
+            if (name.starts_with("KHR_materials_") && name != glossyName && name != strengthName)
+                scene_.notes.push_back(fmt::format("{}: {} beside {}: ignored", who_, name, glossyName));
     }
 
     // KHR_materials_unlit: keeps only base colour, alpha and double_sided.
-    static Material unlit(const Material& lit) {
+    Material unlit() const {
         Material m;
         m.unlit = true;
-        m.name = lit.name;
-        m.base_color = lit.base_color;
-        m.base_color_texture = lit.base_color_texture;
-        m.alpha_mode = lit.alpha_mode;
-        m.alpha_cutoff = lit.alpha_cutoff;
-        m.double_sided = lit.double_sided;
+        m.name = m_.name;
+        m.base_color = m_.base_color;
+        m.base_color_texture = m_.base_color_texture;
+        m.alpha_mode = m_.alpha_mode;
+        m.alpha_cutoff = m_.alpha_cutoff;
+        m.double_sided = m_.double_sided;
         return m;
     }
 
-    void readEmission(Material& m) {
-        double strength = 1;
-        if (const auto* e = extension(file_.extensions, "KHR_materials_emissive_strength"))
-            strength = bounded("emissiveStrength", numberIn(*e, "emissiveStrength", 1, who_), 0,
-                               std::numeric_limits<float>::max());
+    void readEmission() {
+        constexpr double most = std::numeric_limits<float>::max();
+        const std::vector<double> factor = file_.value("emissiveFactor", std::vector<double>(3));
+        if (const Json* e = extension(file_, strengthName))
+            parts_.emissive_strength =
+                bounded("emissiveStrength", e->value("emissiveStrength", 1.0), 0, most);
         for (int c = 0; c < 3; ++c) {
-            const double emitted = file_.emissiveFactor[static_cast<std::size_t>(c)] * strength;
-            if (!(emitted <= static_cast<double>(std::numeric_limits<float>::max())))
+            const double own = factor[static_cast<std::size_t>(c)], emitted = own * parts_.emissive_strength;
+            if (!(emitted <= most))
                 fail(who_, fmt::format("emits {:g}, more than a float can store", emitted));
-            m.emissive[c] = within("emissiveFactor", emitted, 0, std::numeric_limits<float>::max());
-            parts_.emissive[c] = std::max(file_.emissiveFactor[static_cast<std::size_t>(c)], 0.0);
+            m_.emissive[c] = static_cast<float>(bounded("emissiveFactor", emitted, 0, most));
+            parts_.emissive[c] = std::max(own, 0.0);
         }
-        parts_.emissive_strength = strength;
     }
 
-    void readLightmap(Material& m) {
-        if (!lightmap_) return;
-        scene_.notes.insert(scene_.notes.end(), lightmap_->notes.begin(), lightmap_->notes.end());
-        m.lightmap_texture = slot(lightmapName, lightmap_->texture, lightmap_->texcoord, nullptr);
-        m.lightmap_intensity = static_cast<float>(lightmap_->intensity);
-    }
-
-    void readTransmission(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_transmission");
-        if (!e) return;
-        m.transmission = within("transmissionFactor", numberIn(*e, "transmissionFactor", 0, who_), 0, 1);
-        m.transmission_texture = slotIn(*e, "transmissionTexture");
-    }
-
-    void readVolume(Material& m) {
-        if (const auto* e = extension(file_.extensions, "KHR_materials_volume")) {
-            m.thickness = within("thicknessFactor", numberIn(*e, "thicknessFactor", 0, who_), 0, maxFactor);
-            m.thickness_texture = slotIn(*e, "thicknessTexture");
-            m.attenuation_color = color(*e, "attenuationColor");
-            if (e->Has("attenuationDistance"))
-                m.attenuation_distance =
-                    within("attenuationDistance", numberIn(*e, "attenuationDistance", 0, who_),
-                           minAttenuationDistance, maxFactor);
-        }
-        if (const auto* e = extension(file_.extensions, "KHR_materials_dispersion"))
-            m.dispersion = within("dispersion", numberIn(*e, "dispersion", 0, who_), 0, maxFactor);
-    }
-
-    void readDiffuseTransmission(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_diffuse_transmission");
-        if (!e) return;
-        m.diffuse_transmission =
-            within("diffuseTransmissionFactor", numberIn(*e, "diffuseTransmissionFactor", 0, who_), 0, 1);
-        m.diffuse_transmission_color = color(*e, "diffuseTransmissionColorFactor");
-        m.diffuse_transmission_texture = slotIn(*e, "diffuseTransmissionTexture");
-        m.diffuse_transmission_color_texture = slotIn(*e, "diffuseTransmissionColorTexture");
-    }
-
-    // 0 to 1; white by default.
-    glm::vec3 color(const tinygltf::Value& object, const char* name) {
-        const std::vector<double> components = numbersIn(object, name, {1, 1, 1}, who_);
-        glm::vec3 result;
-        for (int c = 0; c < 3; ++c) result[c] = within(name, components[static_cast<std::size_t>(c)], 0, 1);
-        return result;
-    }
-
-    void readClearcoat(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_clearcoat");
-        if (!e) return;
-        m.clearcoat = within("clearcoatFactor", numberIn(*e, "clearcoatFactor", 0, who_), 0, 1);
-        m.clearcoat_roughness =
-            within("clearcoatRoughnessFactor", numberIn(*e, "clearcoatRoughnessFactor", 0, who_), 0, 1);
-        m.clearcoat_texture = slotIn(*e, "clearcoatTexture");
-        m.clearcoat_roughness_texture = slotIn(*e, "clearcoatRoughnessTexture");
-        m.clearcoat_normal_texture = slotIn(*e, "clearcoatNormalTexture");
-        if (e->Has("clearcoatNormalTexture"))
-            m.clearcoat_normal_scale =
-                within("clearcoatNormalTexture.scale",
-                       numberIn(e->Get("clearcoatNormalTexture"), "scale", 1, who_), -maxFactor, maxFactor);
-    }
-
-    void readAnisotropy(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_anisotropy");
-        if (!e) return;
-        constexpr double any = std::numeric_limits<float>::max();
-        m.anisotropy = within("anisotropyStrength", numberIn(*e, "anisotropyStrength", 0, who_), 0, 1);
-        m.anisotropy_rotation =
-            within("anisotropyRotation", numberIn(*e, "anisotropyRotation", 0, who_), -any, any);
-        m.anisotropy_texture = slotIn(*e, "anisotropyTexture");
-    }
-
-    void readSheen(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_sheen");
-        if (!e) return;
-        const std::vector<double> color = numbersIn(*e, "sheenColorFactor", {0, 0, 0}, who_);
-        for (int c = 0; c < 3; ++c)
-            m.sheen_color[c] = within("sheenColorFactor", color[static_cast<std::size_t>(c)], 0, 1);
-        m.sheen_roughness =
-            within("sheenRoughnessFactor", numberIn(*e, "sheenRoughnessFactor", 0, who_), 0, 1);
-        m.sheen_color_texture = slotIn(*e, "sheenColorTexture");
-        m.sheen_roughness_texture = slotIn(*e, "sheenRoughnessTexture");
-    }
-
-    void readIridescence(Material& m) {
-        const auto* e = extension(file_.extensions, "KHR_materials_iridescence");
-        if (!e) return;
-        const auto number = [&](const char* name, double otherwise, double least, double most) {
-            return within(name, numberIn(*e, name, otherwise, who_), least, most);
-        };
-        m.iridescence = number("iridescenceFactor", 0, 0, 1);
-        m.iridescence_ior = number("iridescenceIor", 1.3, 1, maxFactor);
-        m.iridescence_thickness_least = number("iridescenceThicknessMinimum", 100, 0, maxFilmThickness);
-        m.iridescence_thickness_most = number("iridescenceThicknessMaximum", 400, 0, maxFilmThickness);
-        m.iridescence_texture = slotIn(*e, "iridescenceTexture");
-        m.iridescence_thickness_texture = slotIn(*e, "iridescenceThicknessTexture");
-    }
-
-    void readSpecular(Material& m) {
-        if (const auto* e = extension(file_.extensions, "KHR_materials_ior")) {
-            const double ior = numberIn(*e, "ior", 1.5, who_);
-            if (ior != 0 && ior < 1)
-                scene_.notes.push_back(
-                    fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, ior));
-            m.ior = ior == 0 ? 0.0f : within("ior", std::max(ior, 1.0), 1, maxFactor);
-        }
-        if (const auto* e = extension(file_.extensions, "KHR_materials_specular")) {
-            m.specular = within("specularFactor", numberIn(*e, "specularFactor", 1, who_), 0, 1);
-            const std::vector<double> color = numbersIn(*e, "specularColorFactor", {1, 1, 1}, who_);
-            for (int c = 0; c < 3; ++c)
-                m.specular_color[c] =
-                    within("specularColorFactor", color[static_cast<std::size_t>(c)], 0, maxFactor);
-            m.specular_texture = slotIn(*e, "specularTexture");
-            m.specular_color_texture = slotIn(*e, "specularColorTexture");
-        }
+    void readLightmap() {
+        const Lightmap lightmap = lightmapOf(file_, textures_.size(), who_);
+        scene_.notes.insert(scene_.notes.end(), lightmap.notes.begin(), lightmap.notes.end());
+        if (lightmap.texture < 0) return;
+        setTexture(gpu::SLOT_lightmap, "extras: diptych: lightmap", lightmap.texture, lightmap.texcoord);
+        m_.lightmap_intensity = static_cast<float>(lightmap.intensity);
     }
 };
 
-std::vector<bool> drawnMaterials(const tinygltf::Model& model, const Scene& scene) {
-    std::vector<bool> drawn(model.materials.size(), false);
+std::vector<bool> drawnMaterials(const Model& model, std::size_t count, const Scene& scene) {
+    std::vector<bool> drawn(count, false);
     for (const Node& node : scene.nodes) {
         if (node.mesh < 0) continue;
         for (const tinygltf::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
-            if (checkedIndex(p.material, drawn.size(), fmt::format("mesh {}", node.mesh), "material") >= 0)
-                drawn[static_cast<std::size_t>(p.material)] = true;
+            if (p.material >= 0) drawn[static_cast<std::size_t>(p.material)] = true;
     }
     return drawn;
 }
@@ -398,17 +228,17 @@ void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& ima
 
 }  // namespace
 
-void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, Scene& scene,
-                   std::vector<int>& imageOf) {
+void readMaterials(const Model& model, Scene& scene, std::vector<int>& imageOf) {
+    const Json &materials = arrayAt(model.rest, "/materials"), &textures = arrayAt(model.rest, "/textures");
     const std::size_t before = scene.notes.size();
-    const std::vector<std::string> faults = readTextures(model, scene);
-    const std::vector<bool> drawn = drawnMaterials(model, scene);
+    const std::vector<std::string> faults = readTextures(model.rest, scene);
+    const std::vector<bool> drawn = drawnMaterials(model, materials.size(), scene);
     const std::set<int> moving = materialsThatMove(scene);
     NoteList left("materials");
-    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    for (std::size_t i = 0; i < materials.size(); ++i) {
         Material& m = scene.materials.emplace_back();
         try {
-            MaterialReader reader(model, extras, scene, faults, i);
+            MaterialReader reader(materials[i], textures, scene, faults, i);
             m = reader.read();
             if (moving.contains(static_cast<int>(i)))
                 scene.material_parts[static_cast<int>(i)] = reader.parts();
@@ -416,14 +246,14 @@ void readMaterials(const tinygltf::Model& model, const MaterialExtras& extras, S
             if (drawn[i]) throw;
             left.add(std::string(e.what()) + ": left out, the scene does not use it");
             m = {};
-            m.name = model.materials[i].name;
+            m.name = materials[i].value("name", std::string());
         }
         if (!drawn[i])
             for (const MaterialSlot& slot : materialSlots) m.*slot.texture = {};
     }
     limitNotes(scene.notes, before, "materials");
     left.moveTo(scene.notes);
-    noteTransmission(model, drawn, scene);
+    noteTransmission(materials, drawn, scene);
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {
             return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),

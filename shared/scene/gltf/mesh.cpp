@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/mesh.h"
 
 #include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/primitive.h"
 #include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
@@ -46,7 +47,7 @@ struct Task {
     std::string who() const { return fmt::format("mesh {}, primitive {}", mesh, primitive); }
 };
 
-const tinygltf::Primitive& fileOf(const tinygltf::Model& model, const Task& task) {
+const tinygltf::Primitive& fileOf(const Model& model, const Task& task) {
     return model.meshes[task.mesh].primitives[task.primitive];
 }
 
@@ -66,9 +67,9 @@ void attempt(Task& task, const Read& read) {
 }
 
 // Checks the decoded size from counts, before decoding.
-void checkSize(const tinygltf::Model& model, std::vector<Task>& tasks) {
-    std::size_t encoded = 0, decoded = 0;
-    for (const tinygltf::Buffer& buffer : model.buffers) encoded += buffer.data.size();
+void checkSize(const Model& model, std::vector<Task>& tasks) {
+    std::size_t decoded = 0;
+    const std::size_t encoded = model.dataBytes();
     const std::size_t most = FREE_DECODED_BYTES + encoded * DECODED_BYTES_PER_BYTE;
     for (Task& task : tasks) {
         attempt(task, [&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
@@ -84,17 +85,12 @@ std::vector<float> readWeights(const tinygltf::Mesh& mesh, std::size_t targets, 
     if (mesh.weights.size() != targets)
         throw std::runtime_error(fmt::format("{}: {} for {}", who, counted(mesh.weights.size(), "weight"),
                                              counted(targets, "morph target")));
-    std::vector<float> weights;
-    for (const double w : mesh.weights) {
-        weights.push_back(static_cast<float>(w));
-        if (!std::isfinite(weights.back())) throw std::runtime_error(who + ": a weight is not finite");
-    }
-    return weights;
+    return {mesh.weights.begin(), mesh.weights.end()};
 }
 
 }  // namespace
 
-std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
+std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
                              const std::map<std::size_t, std::string>& broken,
                              std::vector<std::string>& notes, Tally& tally) {
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);

@@ -8,12 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace tinygltf {
-class Model;
-}
-
 namespace diptych::gltf {
 
+struct Model;
 class Tally;
 
 // Reads the meshes that the scene's nodes draw, on all cores: triangles with normals and tangents, joints
@@ -22,7 +19,7 @@ class Tally;
 // materials. `broken`: meshes that cannot be read, with the reason. They and faulty primitives are
 // omitted, the latter with a note; it is an error if nothing else is drawn. Throws std::runtime_error; if
 // decoding would exceed limits.h, before it starts.
-std::vector<Mesh> readMeshes(const tinygltf::Model& model, const Scene& scene,
+std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
                              const std::map<std::size_t, std::string>& broken,
                              std::vector<std::string>& notes, Tally& tally);
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/meshopt.h"
 
+#include "shared/scene/gltf/model.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
-#include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 namespace diptych::gltf {
@@ -17,41 +19,22 @@ namespace {
 using Mode = MeshoptView::Mode;
 using Filter = MeshoptView::Filter;
 using Bytes = std::vector<unsigned char>;
+using Json = nlohmann::json;
 
 constexpr const char* meshoptName = "EXT_meshopt_compression";
 
-std::string viewName(std::size_t view) {
-    return fmt::format("bufferView {}: {}", view, meshoptName);
-}
-
 [[noreturn]] void failView(std::size_t view, const std::string& why) {
-    fail(viewName(view), why);
+    fail(fmt::format("bufferView {}: {}", view, meshoptName), why);
 }
 
 // ---- the extension's rules ---------------------------------------------------------------------------
 
-// Index of a member's text among the allowed words; `fallback` if absent.
-template <class Enum, std::size_t n>
-Enum choice(const tinygltf::Value& object, const char* key, const char* const (&words)[n],
-            const char* fallback, std::size_t view) {
-    const std::string word = !object.Has(key)              ? fallback
-                             : !object.Get(key).IsString() ? ""
-                                                           : object.Get(key).Get<std::string>();
-    const auto at = std::find(std::begin(words), std::end(words), word);
-    if (at == std::end(words)) failView(view, fmt::format("\"{}\" is not a {}", oneLine(word), key));
-    return static_cast<Enum>(at - words);
-}
-
 // Bytes of the stream, which must lie inside their buffer.
-std::span<const unsigned char> streamOf(const tinygltf::Model& model, const tinygltf::Value& e,
-                                        std::size_t view) {
-    const std::string who = viewName(view);
-    const int index = checkedIndex(indexIn(e, "buffer", -1, who), model.buffers.size(), who, "buffer");
-    if (index < 0) failView(view, "names no buffer");
-    const tinygltf::Buffer& buffer = model.buffers[static_cast<std::size_t>(index)];
+std::span<const unsigned char> streamOf(const Model& model, const Json& e, std::size_t view) {
+    const auto index = e["buffer"].get<std::size_t>();
+    const tinygltf::Buffer& buffer = model.buffers[index];
     if (buffer.data.empty() && !missing(buffer).empty()) failView(view, missing(buffer));
-    const auto offset = static_cast<std::size_t>(indexIn(e, "byteOffset", 0, who));
-    const auto length = static_cast<std::size_t>(indexIn(e, "byteLength", 0, who));
+    const auto offset = e.value("byteOffset", std::size_t(0)), length = e["byteLength"].get<std::size_t>();
     if (offset > buffer.data.size() || length > buffer.data.size() - offset)
         failView(view, fmt::format("{} bytes at offset {} end past buffer {} ({} bytes)", length, offset,
                                    index, buffer.data.size()));
@@ -135,36 +118,30 @@ Bytes decoded(const MeshoptView& v) {
     return bytes;
 }
 
-MeshoptView viewOf(const tinygltf::Model& model, const tinygltf::Value& e, std::size_t i) {
-    static constexpr const char* modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
-    static constexpr const char* filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+MeshoptView viewOf(const Model& model, const Json& e, std::size_t i) {
+    static const std::map<std::string, Mode> modes{
+        {"ATTRIBUTES", Mode::attributes}, {"TRIANGLES", Mode::triangles}, {"INDICES", Mode::indices}};
+    static const std::map<std::string, Filter> filters{{"NONE", Filter::none},
+                                                       {"OCTAHEDRAL", Filter::octahedral},
+                                                       {"QUATERNION", Filter::quaternion},
+                                                       {"EXPONENTIAL", Filter::exponential}};
     MeshoptView v{i,
                   streamOf(model, e, i),
-                  static_cast<std::size_t>(indexIn(e, "count", 0, viewName(i))),
-                  static_cast<std::size_t>(indexIn(e, "byteStride", 0, viewName(i))),
-                  choice<Mode>(e, "mode", modes, "", i),
-                  choice<Filter>(e, "filter", filters, "NONE", i)};
+                  e["count"].get<std::size_t>(),
+                  e["byteStride"].get<std::size_t>(),
+                  modes.at(e["mode"]),
+                  filters.at(e.value("filter", "NONE"))};
     checkRules(v, model.bufferViews[i]);
     return v;
 }
 
-// Gives the view its own buffer: decoded bytes, or an error that is thrown on reading.
-void give(tinygltf::Model& model, std::size_t view, Bytes bytes, std::string line) {
-    tinygltf::BufferView& file = model.bufferViews[view];
-    file.buffer = static_cast<int>(model.buffers.size());
-    file.byteOffset = 0;
-    file.extensions.erase(meshoptName);
-    tinygltf::Buffer& buffer = model.buffers.emplace_back();
-    buffer.data = std::move(bytes);
-    setMissing(buffer, std::move(line));
-}
-
 }  // namespace
 
-std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model) {
+std::vector<MeshoptView> findMeshopt(const Model& model) {
     std::vector<MeshoptView> views;
-    for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
-        const tinygltf::Value* e = extension(model.bufferViews[i].extensions, meshoptName);
+    const Json& files = arrayAt(model.rest, "/bufferViews");
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Json* e = extension(files[i], meshoptName);
         if (!e) continue;
         try {
             views.push_back(viewOf(model, *e, i));
@@ -175,7 +152,7 @@ std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model) {
     return views;
 }
 
-void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes) {
+void decodeMeshopt(Model& model, std::vector<MeshoptView> views, NoteList& notes) {
     std::vector<Bytes> results(views.size());
     forEachInParallel(views.size(), [&](std::size_t i) {
         if (!views[i].fault.empty()) return;
@@ -187,7 +164,8 @@ void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteL
     });
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (!views[i].fault.empty()) notes.add(views[i].fault + ": the scene does not use it");
-        give(model, views[i].view, std::move(results[i]), std::move(views[i].fault));
+        model.decoded_views[static_cast<int>(views[i].view)] = {std::move(results[i]),
+                                                                std::move(views[i].fault)};
     }
 }
 

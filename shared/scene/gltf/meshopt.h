@@ -2,7 +2,6 @@
 #pragma once
 
 #include "shared/scene/gltf/note_list.h"
-#include "shared/scene/gltf/value.h"
 
 #include <cstddef>
 #include <span>
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace diptych::gltf {
+
+struct Model;
 
 // A bufferView with EXT_meshopt_compression. Source: Khronos, EXT_meshopt_compression, 2021, "JSON schema
 // updates".
@@ -27,10 +28,10 @@ struct MeshoptView {
 };
 
 // All compressed bufferViews of the file.
-std::vector<MeshoptView> findMeshopt(const tinygltf::Model& model);
+std::vector<MeshoptView> findMeshopt(const Model& model);
 
-// Gives each view a buffer of decoded bytes. Decoded indices are not yet checked. A view that cannot be
-// decoded is noted, and reading it throws (missing(), value.h).
-void decodeMeshopt(tinygltf::Model& model, std::vector<MeshoptView> views, NoteList& notes);
+// Decodes the views (Model::decoded_views). Decoded indices are not yet checked. A view that cannot be
+// decoded is noted, and reading it throws.
+void decodeMeshopt(Model& model, std::vector<MeshoptView> views, NoteList& notes);
 
 }  // namespace diptych::gltf

@@ -19,14 +19,9 @@ namespace diptych::gltf {
 
 namespace {
 
-bool allFinite(const std::vector<float>& values) {
-    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
-}
-
 class SkinReader {
 public:
-    SkinReader(const tinygltf::Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
-               Scene& scene)
+    SkinReader(const Model& model, const std::vector<int>& sceneNode, MotionBudget& budget, Scene& scene)
         : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene) {}
 
     void read() {
@@ -35,10 +30,9 @@ public:
         for (std::size_t n = 0; n < model_.nodes.size(); ++n) {
             const tinygltf::Node& file = model_.nodes[n];
             if (scene_node_[n] < 0 || file.skin < 0 || file.mesh < 0) continue;
-            const std::string who = fmt::format("node {}", n);
-            checkedIndex(file.skin, model_.skins.size(), who, "skin");
             if (!hasJoints(file.mesh)) {
-                scene_.notes.push_back(who + ": has a skin, but its mesh has no JOINTS_0: drawn unskinned");
+                scene_.notes.push_back(
+                    fmt::format("node {}: has a skin, but its mesh has no JOINTS_0: drawn unskinned", n));
                 continue;
             }
             const auto [at, fresh] = place.emplace(file.skin, static_cast<int>(scene_.skins.size()));
@@ -49,7 +43,7 @@ public:
     }
 
 private:
-    const tinygltf::Model& model_;
+    const Model& model_;
     const std::vector<int>& scene_node_;
     MotionBudget& budget_;
     Scene& scene_;
@@ -61,11 +55,6 @@ private:
         });
     }
 
-    int sceneNode(int node, const std::string& who, const char* what) const {
-        if (checkedIndex(node, model_.nodes.size(), who, what) < 0) fail(who, fmt::format("{} -1", what));
-        return scene_node_[static_cast<std::size_t>(node)];
-    }
-
     Skin skin(int index) {
         const tinygltf::Skin& file = model_.skins[static_cast<std::size_t>(index)];
         const std::string who = fmt::format("skin {}", index);
@@ -73,12 +62,12 @@ private:
         result.name = file.name;
         if (file.joints.empty()) fail(who, "has no joints");
         for (const int joint : file.joints) {
-            result.joints.push_back(sceneNode(joint, who, "joint"));
+            result.joints.push_back(scene_node_[static_cast<std::size_t>(joint)]);
             if (result.joints.back() < 0)
                 fail(who, fmt::format("joint node {} is not in the drawn scene", joint));
         }
         // The skeleton is only a hint; it is dropped if it is outside the scene.
-        if (file.skeleton >= 0) result.skeleton = sceneNode(file.skeleton, who, "skeleton");
+        if (file.skeleton >= 0) result.skeleton = scene_node_[static_cast<std::size_t>(file.skeleton)];
         result.joint_from_mesh.assign(result.joints.size(), glm::mat4(1.0f));
         if (file.inverseBindMatrices >= 0)
             readMatrices(file.inverseBindMatrices, who, result.joint_from_mesh);
@@ -109,7 +98,7 @@ private:
     }
 };
 
-void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& sceneNode, Scene& scene) {
+void readNodeWeights(const Model& model, const std::vector<int>& sceneNode, Scene& scene) {
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
         const tinygltf::Node& file = model.nodes[n];
         if (sceneNode[n] < 0 || file.weights.empty() || file.mesh < 0) continue;
@@ -120,7 +109,6 @@ void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& scene
             fail(who, fmt::format("{} for {}", counted(file.weights.size(), "weight"),
                                   counted(targets, "morph target")));
         std::vector<float> weights(file.weights.begin(), file.weights.end());
-        if (!allFinite(weights)) fail(who, "a weight is not finite");
         scene.nodes[static_cast<std::size_t>(sceneNode[n])].weights = static_cast<int>(scene.weights.size());
         scene.weights.push_back(std::move(weights));
     }
@@ -128,7 +116,7 @@ void readNodeWeights(const tinygltf::Model& model, const std::vector<int>& scene
 
 }  // namespace
 
-void readMotion(const tinygltf::Model& model, const std::vector<int>& sceneNode, Scene& scene) {
+void readMotion(const Model& model, const std::vector<int>& sceneNode, Scene& scene) {
     MotionBudget budget(model);
     SkinReader(model, sceneNode, budget, scene).read();
     readNodeWeights(model, sceneNode, scene);

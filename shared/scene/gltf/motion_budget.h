@@ -3,10 +3,10 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/limits.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <cstddef>
 #include <string>
@@ -17,18 +17,16 @@ namespace diptych::gltf {
 inline std::size_t targetsOf(const tinygltf::Mesh& mesh) {
     return mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
 }
-inline std::size_t targetsOf(const tinygltf::Model& model, const tinygltf::Node& node) {
+inline std::size_t targetsOf(const Model& model, const tinygltf::Node& node) {
     return node.mesh < 0 ? 0 : targetsOf(model.meshes[static_cast<std::size_t>(node.mesh)]);
 }
 
 // Limits the memory of decoded animation data over the whole file.
 class MotionBudget {
 public:
-    explicit MotionBudget(const tinygltf::Model& model) : left_(FREE_DECODED_BYTES) {
-        for (const tinygltf::Buffer& buffer : model.buffers)
-            left_ += buffer.data.size() * DECODED_BYTES_PER_BYTE;
-    }
-    Numbers read(const tinygltf::Model& model, int accessor, const std::string& who) {
+    explicit MotionBudget(const Model& model)
+        : left_(FREE_DECODED_BYTES + model.dataBytes() * DECODED_BYTES_PER_BYTE) {}
+    Numbers read(const Model& model, int accessor, const std::string& who) {
         // Upper bound: the widest element is MAT4, and sparse elements are visited twice.
         const std::size_t count = soundCount(model, accessor, who);
         hold(2 * 16 * sizeof(float), count, who, "keys or matrices");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/node.h"
 
+#include "shared/scene/gltf/extras.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
@@ -19,32 +21,17 @@
 
 namespace diptych::gltf {
 
+using Json = nlohmann::json;
+
 namespace {
 
 std::string nodeName(std::size_t node) {
     return fmt::format("node {}", node);
 }
 
-std::string quotedName(const std::string& name) {
-    return name.empty() ? "" : fmt::format(" \"{}\"", name);
-}
-
 // ---- transforms --------------------------------------------------------------------------------------
 
-// Throws unless `values` is empty or has `count` finite numbers.
-void checkLength(const std::vector<double>& values, std::size_t count, const std::string& who,
-                 const char* what) {
-    if (!values.empty() && values.size() != count)
-        fail(who, fmt::format("{} has {} numbers, not {}", what, values.size(), count));
-    for (const double v : values)
-        if (!std::isfinite(v)) fail(who, fmt::format("{} is not finite", what));
-}
-
 glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteList& notes) {
-    checkLength(node.matrix, 16, who, "matrix");
-    checkLength(node.translation, 3, who, "translation");
-    checkLength(node.rotation, 4, who, "rotation");
-    checkLength(node.scale, 3, who, "scale");
     glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
@@ -72,12 +59,10 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteL
 
 // ---- hierarchy ---------------------------------------------------------------------------------------
 
-std::vector<int> parentsOf(const tinygltf::Model& model) {
+std::vector<int> parentsOf(const Model& model) {
     std::vector<int> parent(model.nodes.size(), -1);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
         for (const int child : model.nodes[n].children) {
-            if (checkedIndex(child, model.nodes.size(), nodeName(n), "child") < 0)
-                fail(nodeName(n), "child -1");
             int& p = parent[static_cast<std::size_t>(child)];
             if (p >= 0)
                 fail(nodeName(static_cast<std::size_t>(child)),
@@ -104,13 +89,12 @@ void refuseCircles(const std::vector<int>& parent) {
 }
 
 // Whether each node is in the scene; all are if the file has no scenes.
-std::vector<bool> reached(const tinygltf::Model& model, int index, const std::vector<int>& parent) {
+std::vector<bool> reached(const Model& model, int index, const std::vector<int>& parent) {
     if (index < 0) return std::vector<bool>(model.nodes.size(), true);
     const std::string who = fmt::format("scene {}", index);
     std::vector<bool> result(model.nodes.size(), false);
     std::vector<int> waiting = model.scenes[static_cast<std::size_t>(index)].nodes;
     for (const int root : waiting) {
-        if (checkedIndex(root, model.nodes.size(), who, "node") < 0) fail(who, "node -1");
         if (parent[static_cast<std::size_t>(root)] >= 0)
             fail(who, fmt::format("node {} is not a root: it is a child of node {}", root,
                                   parent[static_cast<std::size_t>(root)]));
@@ -135,36 +119,36 @@ double bounded(const std::string& who, const char* what, double x, double least,
     return inside;
 }
 
-void readCone(const tinygltf::SpotLight& spot, const std::string& who, Light& light, NoteList& notes) {
+void readCone(const Json& spot, const std::string& who, Light& light, NoteList& notes) {
     static constexpr double right = glm::half_pi<double>();
     // Accepts a pi / 2 that was rounded up.
     const auto rounded = [](double x) { return x <= right + 1e-6 ? std::min(x, right) : x; };
-    const double outer = bounded(who, "outerConeAngle", rounded(spot.outerConeAngle), 0, right, notes);
+    const double outer =
+        bounded(who, "outerConeAngle", rounded(spot.value("outerConeAngle", glm::quarter_pi<double>())), 0,
+                right, notes);
     light.outer_cone = static_cast<float>(outer);
-    light.inner_cone =
-        static_cast<float>(bounded(who, "innerConeAngle", rounded(spot.innerConeAngle), 0, outer, notes));
+    light.inner_cone = static_cast<float>(
+        bounded(who, "innerConeAngle", rounded(spot.value("innerConeAngle", 0.0)), 0, outer, notes));
 }
 
-Light readLight(const tinygltf::Light& l, const std::string& who, NoteList& notes) {
+Light readLight(const Json& file, const std::string& who, NoteList& notes) {
     Light light;
-    light.name = l.name;
-    if (l.type == "directional")
-        light.kind = LightKind::directional;
-    else if (l.type == "point")
-        light.kind = LightKind::point;
-    else if (l.type == "spot")
-        light.kind = LightKind::spot;
-    else
-        fail(who, fmt::format("type \"{}\" is not one of directional, point, spot", l.type));
-    checkLength(l.color, 3, who, "color");
+    light.name = file.value("name", std::string());
+    const std::string type = file["type"];
+    light.kind = type == "directional" ? LightKind::directional
+                 : type == "spot"      ? LightKind::spot
+                                       : LightKind::point;
     constexpr double most = std::numeric_limits<float>::max();
-    for (int c = 0; c < 3 && !l.color.empty(); ++c)
-        light.color[c] =
-            static_cast<float>(bounded(who, "color", l.color[static_cast<std::size_t>(c)], 0, most, notes));
-    light.intensity = static_cast<float>(bounded(who, "intensity", l.intensity, 0, most, notes));
-    if (l.range < 0) notes.add(fmt::format("{}: range {}: ignored", who, l.range));
-    if (l.range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(l.range);
-    if (light.kind == LightKind::spot) readCone(l.spot, who, light, notes);
+    if (const Json* color = memberOf(file, "color"))
+        for (int c = 0; c < 3; ++c)
+            light.color[c] = static_cast<float>(
+                bounded(who, "color", (*color)[static_cast<std::size_t>(c)], 0, most, notes));
+    light.intensity =
+        static_cast<float>(bounded(who, "intensity", file.value("intensity", 1.0), 0, most, notes));
+    const double range = file.value("range", 0.0);  // 0: unlimited
+    if (range < 0) notes.add(fmt::format("{}: range {}: ignored", who, range));
+    if (range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(range);
+    if (light.kind == LightKind::spot) readCone(file["spot"], who, light, notes);
     return light;
 }
 
@@ -188,7 +172,7 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
                                   camera.near));
             camera.far = std::numeric_limits<double>::infinity();
         }
-    } else if (c.type == "orthographic") {
+    } else {
         camera.orthographic = true;
         camera.ymag = std::abs(c.orthographic.ymag);
         camera.xmag = std::abs(c.orthographic.xmag);
@@ -201,22 +185,22 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
         for (const auto& [what, mag] :
              {std::pair{"xmag", c.orthographic.xmag}, std::pair{"ymag", c.orthographic.ymag}})
             if (mag < 0) notes.add(fmt::format("{}: {} {}: {} is used", who, what, mag, -mag));
-    } else {
-        fail(who, fmt::format("type \"{}\" is not perspective or orthographic", c.type));
     }
     return camera;
 }
 
 }  // namespace
 
-int chooseScene(const tinygltf::Model& model, const std::string& choice, std::vector<std::string>& notes) {
+int chooseScene(const Model& model, const std::string& choice, std::vector<std::string>& notes) {
     const int count = static_cast<int>(model.scenes.size());
     if (choice.empty()) {
         const int index = count == 0 ? -1 : std::max(model.defaultScene, 0);
-        if (count > 1)
+        if (count > 1) {
+            const std::string& name = model.scenes[static_cast<std::size_t>(index)].name;
             notes.push_back(
                 fmt::format("{} scenes: scene {}{} is drawn; FILE?scene=INDEX or NAME draws another", count,
-                            index, quotedName(model.scenes[static_cast<std::size_t>(index)].name)));
+                            index, name.empty() ? "" : fmt::format(" \"{}\"", name)));
+        }
         return index;
     }
     std::vector<std::string> names;
@@ -226,8 +210,9 @@ int chooseScene(const tinygltf::Model& model, const std::string& choice, std::ve
     fail(who, names.empty() ? "the file has no scene" : "the file's scenes are " + indexedNames(names));
 }
 
-std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extras, int chosen,
-                           Scene& scene) {
+std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
+    const Json &nodes = arrayAt(model.rest, "/nodes"),
+               &lights = arrayAt(model.rest, "/extensions/KHR_lights_punctual/lights");
     const std::vector<int> parent = parentsOf(model);
     refuseCircles(parent);
     const std::vector<bool> inScene = reached(model, chosen, parent);
@@ -246,8 +231,8 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
         node.name = file.name;
         node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
         node.parent_from_node = transformOf(file, nodeName(n), nodeNotes);
-        node.mesh = checkedIndex(file.mesh, model.meshes.size(), nodeName(n), "mesh");
-        if (checkedIndex(file.camera, model.cameras.size(), nodeName(n), "camera") >= 0) {
+        node.mesh = file.mesh;
+        if (file.camera >= 0) {
             try {
                 Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
                                            fmt::format("camera {}", file.camera), notes);
@@ -260,22 +245,21 @@ std::vector<int> readNodes(const tinygltf::Model& model, const LightExtras& extr
                 notes.add(std::string(e.what()) + ": left out");
             }
         }
-        if (const auto* e = extension(file.extensions, "KHR_lights_punctual")) {
-            const int index = checkedIndex(indexIn(*e, "light", -1, nodeName(n)), model.lights.size(),
-                                           nodeName(n), "light");
-            if (index >= 0) {
-                Light light = readLight(model.lights[static_cast<std::size_t>(index)],
-                                        fmt::format("light {}", index), notes);
-                addExtras(extras, static_cast<std::size_t>(index), light, notes);
-                if (light.name.empty()) light.name = file.name;
-                light.node = place[n];
-                light.source = index;
-                scene.lights.push_back(light);
-            }
+        const Json* e = extension(elementOf(nodes, n), "KHR_lights_punctual");
+        if (const int index = e ? e->value("light", -1) : -1; index >= 0) {
+            const Json& own = lights[static_cast<std::size_t>(index)];
+            Light light = readLight(own, fmt::format("light {}", index), notes);
+            addExtras(own, index, light, notes);
+            if (light.name.empty()) light.name = file.name;
+            light.node = place[n];
+            light.source = index;
+            scene.lights.push_back(light);
         }
         scene.nodes.push_back(std::move(node));
     }
-    if (chosen >= 0) attachLights(extras, static_cast<std::size_t>(chosen), place, scene, notes);
+    if (chosen >= 0)
+        attachLights(elementOf(arrayAt(model.rest, "/scenes"), static_cast<std::size_t>(chosen)), chosen,
+                     place, scene, notes);
     nodeNotes.moveTo(scene.notes);
     notes.moveTo(scene.notes);
     std::stable_sort(cameras.begin(), cameras.end(),

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,5 +42,15 @@ private:
     std::vector<std::string> notes_;
     std::size_t more_ = 0;
 };
+
+// Calls `read`. If it throws, the rest of what it reads is omitted with a note.
+template <class Read>
+void readOrNote(NoteList& notes, const Read& read) {
+    try {
+        read();
+    } catch (const std::runtime_error& e) {
+        notes.add(std::string(e.what()) + ": left out");
+    }
+}
 
 }  // namespace diptych::gltf

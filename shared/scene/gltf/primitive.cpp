@@ -37,18 +37,14 @@ std::size_t widthOf(const std::string& attribute) {
 
 class PrimitiveReader {
 public:
-    PrimitiveReader(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
+    PrimitiveReader(const Model& model, const tinygltf::Primitive& file, const std::string& who,
                     const PrimitiveUse& use, std::vector<std::string>& notes)
         : model_(model), file_(file), who_(who), use_(use), notes_(notes) {}
 
     Primitive read() {
-        if (!drawsTriangles(file_.mode)) {
-            if (file_.mode < 0 || file_.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-                fail(who_, fmt::format("mode {} does not exist", file_.mode));
-            return nothing("points or lines");
-        }
+        if (!drawsTriangles(file_.mode)) return nothing("points or lines");
         if (!file_.attributes.contains("POSITION")) return nothing("has no POSITION");
-        result_.material = checkedIndex(file_.material, model_.materials.size(), who_, "material");
+        result_.material = file_.material;
         if (result_.material < 0) result_.material = static_cast<int>(use_.materials.size()) - 1;
         countVertices();
         readTriangles();
@@ -65,7 +61,7 @@ public:
     }
 
 private:
-    const tinygltf::Model& model_;
+    const Model& model_;
     const tinygltf::Primitive& file_;
     const std::string& who_;
     const PrimitiveUse& use_;
@@ -297,13 +293,12 @@ private:
 
 }  // namespace
 
-Primitive readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
+Primitive readPrimitive(const Model& model, const tinygltf::Primitive& file, const std::string& who,
                         const PrimitiveUse& use, std::vector<std::string>& notes) {
     return PrimitiveReader(model, file, who, use, notes).read();
 }
 
-std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive& file,
-                         const std::string& who) {
+std::size_t decodedBytes(const Model& model, const tinygltf::Primitive& file, const std::string& who) {
     std::size_t bytes = sizeof(Primitive);
     const auto position = file.attributes.find("POSITION");
     if (!drawsTriangles(file.mode) || position == file.attributes.end()) return bytes;
@@ -319,12 +314,9 @@ std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive
     const auto add = [&](const auto& attributes) {
         for (const auto& [name, accessor] : attributes) {
             if (name.starts_with('_')) continue;
-            checkedIndex(accessor, model.accessors.size(), who + ": " + name, "accessor");
             if (name != "NORMAL" && name != "TANGENT") perVertex += sizeof(glm::vec4);  // upper bound
-            if (accessor < 0) continue;
             const auto& sparse = model.accessors[static_cast<std::size_t>(accessor)].sparse;
-            if (sparse.isSparse)
-                bytes += sizeof(glm::vec4) * static_cast<std::size_t>(std::max(sparse.count, 0));
+            if (sparse.isSparse) bytes += sizeof(glm::vec4) * static_cast<std::size_t>(sparse.count);
         }
     };
     add(file.attributes);

@@ -8,11 +8,12 @@
 #include <vector>
 
 namespace tinygltf {
-class Model;
 struct Primitive;
-}  // namespace tinygltf
+}
 
 namespace diptych::gltf {
+
+struct Model;
 
 struct PrimitiveUse {
     const std::vector<Material>& materials;         // the scene's; the last is the default material
@@ -28,11 +29,10 @@ struct PrimitiveUse {
 // uses, and triangles whose positions are not finite or exceed `maxCoordinate`; it is an error if none
 // remains. A primitive without triangles has no indices. `who` names the primitive in messages; `notes`
 // receives deviations from the file. Throws std::runtime_error.
-Primitive readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& file, const std::string& who,
+Primitive readPrimitive(const Model& model, const tinygltf::Primitive& file, const std::string& who,
                         const PrimitiveUse& use, std::vector<std::string>& notes);
 
 // Upper bound of the memory of readPrimitive()'s result, bytes. Also checks the primitive's accessors.
-std::size_t decodedBytes(const tinygltf::Model& model, const tinygltf::Primitive& file,
-                         const std::string& who);
+std::size_t decodedBytes(const Model& model, const tinygltf::Primitive& file, const std::string& who);
 
 }  // namespace diptych::gltf

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The supported properties of glTF 2.0 and its extensions as tables: type, range and, for an index, the
-// collection it refers to. Source: Khronos, glTF 2.0 Specification, 2021, section 5, and the extensions'
-// specifications.
+// collection it refers to; for what animations may move, and for textures, their part of the scene. Source:
+// Khronos, glTF 2.0 Specification, 2021, section 5, and the extensions' specifications.
 #pragma once
+
+#include "shared/contract/material.h"
+#include "shared/scene/model/animated.h"
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 
 namespace diptych::gltf::schema {
+
+using Part = AnimatedPart;
 
 // ---- what a property may be --------------------------------------------------------------------------
 
@@ -28,6 +34,7 @@ enum class Kind {
     object,          // an object with `properties`
     objects,         // array of `object`
     extensions,      // object with the members `properties`; others are removed but remembered
+    extras,          // anything; only the member "diptych" of an object is kept, unchecked
 };
 
 struct Property {
@@ -40,6 +47,8 @@ struct Property {
     std::string_view of = {};
     std::string_view choices = {};  // separated by spaces
     std::span<const Property> properties = {};
+    std::optional<AnimatedPart> part = {};  // what it sets; all may be animated
+    std::size_t slot = gpu::SLOT_COUNT;     // SLOT_* of a material's texture
 };
 
 constexpr double any = std::numeric_limits<float>::max();  // all numbers become float
@@ -89,11 +98,21 @@ constexpr Property objects(std::string_view key, std::string_view one, std::span
 constexpr Property extensions(std::span<const Property> properties) {
     return {.key = "extensions", .kind = Kind::extensions, .properties = properties};
 }
+constexpr Property extras() {
+    return {.key = "extras", .kind = Kind::extras};
+}
 constexpr Property required(Property property) {
     property.required = true;
     return property;
 }
-
+constexpr Property animated(Property property, AnimatedPart part) {
+    property.part = part;
+    return property;
+}
+constexpr Property animated(std::string_view key, AnimatedPart part) {
+    const std::size_t width = factsOf(part).width;
+    return animated(width == 1 ? number(key) : numbers(key, width), part);
+}
 // ---- the schema: what is read of glTF 2.0 ------------------------------------------------------------
 
 constexpr Property sparseIndices[] = {required(index("bufferView", "bufferViews")), whole("byteOffset"),
@@ -111,7 +130,7 @@ constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  name()};
 
 constexpr Property meshopt[] = {required(index("buffer", "buffers")),
-                                whole("byteOffset"),  // tinygltf stores numbers in extensions as int
+                                whole("byteOffset"),
                                 required(whole("byteLength")),
                                 required(whole("byteStride", 1, 256)),
                                 required(whole("count", 0, maxInt)),
@@ -139,70 +158,95 @@ constexpr Property textureExtensions[] = {object("KHR_texture_basisu", {}), obje
 constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"), name(),
                                 extensions(textureExtensions)};
 
-constexpr Property textureTransform[] = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
-                                         whole("texCoord")};
+constexpr Property textureTransform[] = {animated("offset", Part::texture_offset),
+                                         animated("scale", Part::texture_scale),
+                                         animated("rotation", Part::texture_rotation), whole("texCoord")};
 constexpr Property infoExtensions[] = {object("KHR_texture_transform", textureTransform)};
 constexpr Property textureInfo[] = {required(index("index", "textures")), whole("texCoord"),
                                     extensions(infoExtensions)};
-constexpr Property normalInfo[] = {required(index("index", "textures")), whole("texCoord"), number("scale"),
-                                   extensions(infoExtensions)};
+constexpr Property map(std::string_view key, std::size_t slot,
+                       std::span<const Property> properties = textureInfo) {
+    Property property = object(key, properties);
+    property.slot = slot;
+    return property;
+}
+constexpr Property normalInfo[] = {required(index("index", "textures")), whole("texCoord"),
+                                   animated("scale", Part::normal_scale), extensions(infoExtensions)};
 constexpr Property occlusionInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                      number("strength"), extensions(infoExtensions)};
+                                      animated("strength", Part::occlusion_strength),
+                                      extensions(infoExtensions)};
+constexpr Property coatNormalInfo[] = {required(index("index", "textures")), whole("texCoord"),
+                                       animated("scale", Part::clearcoat_normal_scale),
+                                       extensions(infoExtensions)};
+
+// Materials are read in the order of these tables (material.cpp).
 constexpr Property metallicRoughness[] = {
-    numbers("baseColorFactor", 4), object("baseColorTexture", textureInfo), number("metallicFactor"),
-    number("roughnessFactor"), object("metallicRoughnessTexture", textureInfo)};
-constexpr Property emissiveStrength[] = {number("emissiveStrength")};
-constexpr Property ior[] = {number("ior")};
-constexpr Property specular[] = {number("specularFactor"), object("specularTexture", textureInfo),
-                                 numbers("specularColorFactor", 3),
-                                 object("specularColorTexture", textureInfo)};
-constexpr Property specularGlossiness[] = {numbers("diffuseFactor", 4), object("diffuseTexture", textureInfo),
-                                           numbers("specularFactor", 3), number("glossinessFactor"),
-                                           object("specularGlossinessTexture", textureInfo)};
-constexpr Property transmission[] = {number("transmissionFactor"),
-                                     object("transmissionTexture", textureInfo)};
-constexpr Property volume[] = {number("thicknessFactor"), object("thicknessTexture", textureInfo),
-                               number("attenuationDistance"), numbers("attenuationColor", 3)};
-constexpr Property dispersion[] = {number("dispersion")};
+    animated("baseColorFactor", Part::base_color), animated("metallicFactor", Part::metallic),
+    animated("roughnessFactor", Part::roughness), map("baseColorTexture", gpu::SLOT_base_color),
+    map("metallicRoughnessTexture", gpu::SLOT_metallic_roughness)};
+constexpr Property specularGlossiness[] = {
+    animated("diffuseFactor", Part::base_color), animated("specularFactor", Part::specular_f0),
+    animated("glossinessFactor", Part::glossiness), map("diffuseTexture", gpu::SLOT_base_color),
+    map("specularGlossinessTexture", gpu::SLOT_specular_color)};
+constexpr Property emissiveStrength[] = {animated("emissiveStrength", Part::emissive_strength)};
+constexpr Property ior[] = {animated("ior", Part::ior)};
+constexpr Property specular[] = {
+    animated("specularFactor", Part::specular), animated("specularColorFactor", Part::specular_color),
+    map("specularTexture", gpu::SLOT_specular), map("specularColorTexture", gpu::SLOT_specular_color)};
+constexpr Property transmission[] = {animated("transmissionFactor", Part::transmission),
+                                     map("transmissionTexture", gpu::SLOT_transmission)};
+constexpr Property clearcoat[] = {animated("clearcoatFactor", Part::clearcoat),
+                                  animated("clearcoatRoughnessFactor", Part::clearcoat_roughness),
+                                  map("clearcoatTexture", gpu::SLOT_clearcoat),
+                                  map("clearcoatRoughnessTexture", gpu::SLOT_clearcoat_roughness),
+                                  map("clearcoatNormalTexture", gpu::SLOT_clearcoat_normal, coatNormalInfo)};
+constexpr Property anisotropy[] = {animated("anisotropyStrength", Part::anisotropy),
+                                   animated("anisotropyRotation", Part::anisotropy_rotation),
+                                   map("anisotropyTexture", gpu::SLOT_anisotropy)};
+constexpr Property sheen[] = {
+    animated("sheenColorFactor", Part::sheen_color), animated("sheenRoughnessFactor", Part::sheen_roughness),
+    map("sheenColorTexture", gpu::SLOT_sheen_color), map("sheenRoughnessTexture", gpu::SLOT_sheen_roughness)};
+constexpr Property iridescence[] = {
+    animated("iridescenceFactor", Part::iridescence),
+    animated("iridescenceIor", Part::iridescence_ior),
+    animated("iridescenceThicknessMinimum", Part::iridescence_thickness_least),
+    animated("iridescenceThicknessMaximum", Part::iridescence_thickness_most),
+    map("iridescenceTexture", gpu::SLOT_iridescence),
+    map("iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness)};
+constexpr Property volume[] = {animated("thicknessFactor", Part::thickness),
+                               map("thicknessTexture", gpu::SLOT_thickness),
+                               animated("attenuationColor", Part::attenuation_color),
+                               animated("attenuationDistance", Part::attenuation_distance)};
+constexpr Property dispersion[] = {animated("dispersion", Part::dispersion)};
 constexpr Property diffuseTransmission[] = {
-    number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", textureInfo),
-    numbers("diffuseTransmissionColorFactor", 3), object("diffuseTransmissionColorTexture", textureInfo)};
-constexpr Property clearcoat[] = {
-    number("clearcoatFactor"), object("clearcoatTexture", textureInfo), number("clearcoatRoughnessFactor"),
-    object("clearcoatRoughnessTexture", textureInfo), object("clearcoatNormalTexture", normalInfo)};
-constexpr Property anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"),
-                                   object("anisotropyTexture", textureInfo)};
-constexpr Property sheen[] = {numbers("sheenColorFactor", 3), object("sheenColorTexture", textureInfo),
-                              number("sheenRoughnessFactor"), object("sheenRoughnessTexture", textureInfo)};
-constexpr Property iridescence[] = {number("iridescenceFactor"),
-                                    object("iridescenceTexture", textureInfo),
-                                    number("iridescenceIor"),
-                                    number("iridescenceThicknessMinimum"),
-                                    number("iridescenceThicknessMaximum"),
-                                    object("iridescenceThicknessTexture", textureInfo)};
-constexpr Property materialExtensions[] = {object("KHR_materials_anisotropy", anisotropy),
-                                           object("KHR_materials_clearcoat", clearcoat),
-                                           object("KHR_materials_diffuse_transmission", diffuseTransmission),
-                                           object("KHR_materials_dispersion", dispersion),
-                                           object("KHR_materials_emissive_strength", emissiveStrength),
-                                           object("KHR_materials_ior", ior),
-                                           object("KHR_materials_iridescence", iridescence),
+    animated("diffuseTransmissionFactor", Part::diffuse_transmission),
+    animated("diffuseTransmissionColorFactor", Part::diffuse_transmission_color),
+    map("diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission),
+    map("diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color)};
+constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrength),
                                            object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
-                                           object("KHR_materials_sheen", sheen),
+                                           object("KHR_materials_unlit", {}),
+                                           object("KHR_materials_ior", ior),
                                            object("KHR_materials_specular", specular),
                                            object("KHR_materials_transmission", transmission),
-                                           object("KHR_materials_unlit", {}),
-                                           object("KHR_materials_volume", volume)};
+                                           object("KHR_materials_clearcoat", clearcoat),
+                                           object("KHR_materials_anisotropy", anisotropy),
+                                           object("KHR_materials_sheen", sheen),
+                                           object("KHR_materials_iridescence", iridescence),
+                                           object("KHR_materials_volume", volume),
+                                           object("KHR_materials_dispersion", dispersion),
+                                           object("KHR_materials_diffuse_transmission", diffuseTransmission)};
 constexpr Property material[] = {name(),
                                  object("pbrMetallicRoughness", metallicRoughness),
-                                 object("normalTexture", normalInfo),
-                                 object("occlusionTexture", occlusionInfo),
-                                 object("emissiveTexture", textureInfo),
-                                 numbers("emissiveFactor", 3),
+                                 animated("alphaCutoff", Part::alpha_cutoff),
+                                 map("normalTexture", gpu::SLOT_normal, normalInfo),
+                                 map("occlusionTexture", gpu::SLOT_occlusion, occlusionInfo),
+                                 map("emissiveTexture", gpu::SLOT_emissive),
+                                 animated("emissiveFactor", Part::emissive),
                                  text("alphaMode", "OPAQUE MASK BLEND"),
-                                 number("alphaCutoff"),
                                  flag("doubleSided"),
-                                 extensions(materialExtensions)};
+                                 extensions(materialExtensions),
+                                 extras()};
 
 // Attribute values are attribute ids in the compressed stream.
 constexpr Property draco[] = {required(index("bufferView", "bufferViews")),
@@ -215,7 +259,7 @@ constexpr Property primitive[] = {required(attributes("attributes", "accessors")
                                   {.key = "targets", .kind = Kind::attribute_sets, .of = "accessors"},
                                   extensions(primitiveExtensions)};
 constexpr Property mesh[] = {required(objects("primitives", "primitive", primitive)),
-                             numbers("weights", 0, anyLength), name()};
+                             animated(numbers("weights", 0, anyLength), Part::mesh_weights), name()};
 
 constexpr Property nodeLight[] = {index("light", "KHR_lights_punctual")};
 constexpr Property instancing[] = {required(attributes("attributes", "accessors"))};
@@ -226,20 +270,22 @@ constexpr Property node[] = {index("camera", "cameras"),
                              index("skin", "skins"),
                              numbers("matrix", 16),
                              index("mesh", "meshes"),
-                             numbers("rotation", 4),
-                             numbers("scale", 3),
-                             numbers("translation", 3),
-                             numbers("weights", 0, anyLength),
+                             animated("rotation", Part::rotation),
+                             animated("scale", Part::scale),
+                             animated("translation", Part::translation),
+                             animated(numbers("weights", 0, anyLength), Part::weights),
                              name(),
                              extensions(nodeExtensions)};
-constexpr Property scene[] = {indices("nodes", "nodes"), name()};
+constexpr Property scene[] = {indices("nodes", "nodes"), name(), extras()};
 constexpr Property skin[] = {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
                              required(indices("joints", "nodes")), name()};
 
-constexpr Property perspective[] = {number("aspectRatio"), required(number("yfov")), number("zfar"),
-                                    required(number("znear"))};
-constexpr Property orthographic[] = {required(number("xmag")), required(number("ymag")),
-                                     required(number("zfar")), required(number("znear"))};
+constexpr Property perspective[] = {
+    animated("aspectRatio", Part::camera_aspect), required(animated("yfov", Part::camera_yfov)),
+    animated("zfar", Part::camera_far), required(animated("znear", Part::camera_near))};
+constexpr Property orthographic[] = {
+    required(animated("xmag", Part::camera_xmag)), required(animated("ymag", Part::camera_ymag)),
+    required(animated("zfar", Part::camera_far)), required(animated("znear", Part::camera_near))};
 constexpr Property camera[] = {required(text("type", "perspective orthographic")),
                                object("perspective", perspective), object("orthographic", orthographic),
                                name()};
@@ -256,10 +302,15 @@ constexpr Property animationSampler[] = {required(index("input", "accessors")),
 constexpr Property animation[] = {required(objects("channels", "channel", channel)),
                                   required(objects("samplers", "sampler", animationSampler)), name()};
 
-constexpr Property spot[] = {number("innerConeAngle"), number("outerConeAngle")};
-constexpr Property light[] = {numbers("color", 3),  number("intensity"),
-                              number("range"),      required(text("type", "directional point spot")),
-                              object("spot", spot), name()};
+constexpr Property spot[] = {animated("innerConeAngle", Part::light_inner_cone),
+                             animated("outerConeAngle", Part::light_outer_cone)};
+constexpr Property light[] = {animated("color", Part::light_color),
+                              animated("intensity", Part::light_intensity),
+                              animated("range", Part::light_range),
+                              required(text("type", "directional point spot")),
+                              object("spot", spot),
+                              name(),
+                              extras()};
 constexpr Property lights[] = {objects("lights", "light", light)};
 constexpr Property documentExtensions[] = {object("KHR_lights_punctual", lights)};
 constexpr Property asset[] = {text("version"), text("minVersion")};

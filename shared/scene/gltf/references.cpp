@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/references.h"
 
+#include "shared/scene/gltf/value.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -21,10 +23,9 @@ constexpr std::array<std::string_view, 14> collectionNames{
 
 // A value that is not an array counts as empty; the schema reports it.
 std::size_t sizeIn(const Json& document, std::string_view name) {
-    static const Json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-    if (name == lightCollection) return document.contains(lights) ? document[lights].size() : 0;
-    const auto at = document.find(name);
-    return at == document.end() || !at->is_array() ? 0 : at->size();
+    const std::string place(name);
+    return arrayAt(document, name == lightCollection ? "/extensions/" + place + "/lights" : "/" + place)
+        .size();
 }
 
 }  // namespace

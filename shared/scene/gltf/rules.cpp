@@ -21,11 +21,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-const Json::json_pointer& lightsPlace() {
-    static const Json::json_pointer place("/extensions/KHR_lights_punctual/lights");
-    return place;
-}
-
 void checkAccessor(const Json& accessor, const std::string& who) {
     constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
     const auto type = accessor["componentType"].get<std::int64_t>();
@@ -162,7 +157,8 @@ std::map<std::size_t, std::string> leaveOutUnusable(Json& document, const Refere
     std::map<std::size_t, std::string> meshes;
     for (const References::Fault& fault : references.unusable()) {
         const bool light = fault.collection == "KHR_lights_punctual";
-        Json& items = light ? document[lightsPlace()] : document[std::string(fault.collection)];
+        Json& items = light ? document["extensions"][fault.collection]["lights"]
+                            : document[std::string(fault.collection)];
         items[fault.item] = emptyItem(fault.collection);
         if (fault.collection == "cameras") cameras.insert(static_cast<std::int64_t>(fault.item));
         if (fault.collection == "skins") skins.insert(static_cast<std::int64_t>(fault.item));

@@ -5,6 +5,7 @@
 #include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/references.h"
 #include "shared/scene/gltf/rules.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -108,6 +109,7 @@ private:
 
     // Exporters write null for absent values, and numbers for names; neither affects rendering.
     bool isAbsent(const Json& value, const Property& p, const Where& where) {
+        if (p.kind == Kind::extras) return !memberOf(value, "diptych");
         if (value.is_null()) {
             note(where, fmt::format("{} is null: ignored", p.key));
             return true;
@@ -155,6 +157,9 @@ private:
                 return objects(array(value, p, where), p, where);
             case Kind::extensions:
                 return extensions(value, p, where);
+            case Kind::extras:
+                value = Json{{"diptych", std::move(value["diptych"])}};
+                return;
         }
     }
 

@@ -12,8 +12,8 @@
 namespace diptych::gltf {
 
 // Validates a document against the schema (properties.h) before any parser sees it. Afterwards, supported
-// properties have valid types and ranges and refer to existing objects. Everything else (extras, unknown
-// extensions) is removed. Integers written as 3.0 are integers, and names have no control characters.
+// properties have valid types and ranges and refer to existing objects. Everything else (unknown extensions,
+// extras but ours) is removed. Integers written as 3.0 are integers, and names have no control characters.
 // Broken objects that no scene needs are omitted. Throws std::runtime_error: "accessor 3: count is \"36\",
 // not a whole number". Source: Khronos, glTF 2.0 Specification, 2021, section 5 and the extensions'
 // specifications.

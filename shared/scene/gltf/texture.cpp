@@ -4,6 +4,7 @@
 #include "shared/image/limits.h"
 #include "shared/image/picture_file.h"
 #include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/image/decode.h"
@@ -19,58 +20,42 @@
 
 namespace diptych::gltf {
 
+using Json = nlohmann::json;
+
 namespace {
 
 Wrap wrapOf(int value, const std::string& who) {
-    switch (value) {
-        case TINYGLTF_TEXTURE_WRAP_REPEAT:
-            return Wrap::repeat;
-        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-            return Wrap::mirrored_repeat;
-        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-            return Wrap::clamp_to_edge;
-        default:
-            fail(who, fmt::format("{} is not a wrap mode", value));
-    }
+    if (value == TINYGLTF_TEXTURE_WRAP_REPEAT) return Wrap::repeat;
+    if (value == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirrored_repeat;
+    if (value == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp_to_edge;
+    fail(who, fmt::format("{} is not a wrap mode", value));
 }
 
 // Missing filters default to linear with mipmaps.
-Sampler readSampler(const tinygltf::Sampler& s, const std::string& who) {
+Sampler readSampler(const Json& file, const std::string& who) {
     Sampler sampler;
-    sampler.wrap_s = wrapOf(s.wrapS, who);
-    sampler.wrap_t = wrapOf(s.wrapT, who);
-    if (s.magFilter != -1 && s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
-        s.magFilter != TINYGLTF_TEXTURE_FILTER_LINEAR)
-        fail(who, fmt::format("{} is not a magFilter", s.magFilter));
-    sampler.magnify_linear = s.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
-    const auto minify = [&](bool linear, bool mipmaps, bool between) {
-        sampler.minify_linear = linear;
-        sampler.mipmaps = mipmaps;
-        sampler.mipmaps_linear = between;
+    sampler.wrap_s = wrapOf(file.value("wrapS", TINYGLTF_TEXTURE_WRAP_REPEAT), who);
+    sampler.wrap_t = wrapOf(file.value("wrapT", TINYGLTF_TEXTURE_WRAP_REPEAT), who);
+    const int magnify = file.value("magFilter", TINYGLTF_TEXTURE_FILTER_LINEAR),
+              minify = file.value("minFilter", TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR);
+    if (magnify != TINYGLTF_TEXTURE_FILTER_NEAREST && magnify != TINYGLTF_TEXTURE_FILTER_LINEAR)
+        fail(who, fmt::format("{} is not a magFilter", magnify));
+    sampler.magnify_linear = magnify == TINYGLTF_TEXTURE_FILTER_LINEAR;
+    struct Filter {
+        int file;
+        bool linear, mipmaps, mipmaps_linear;
     };
-    switch (s.minFilter) {
-        case TINYGLTF_TEXTURE_FILTER_NEAREST:
-            minify(false, false, false);
-            break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR:
-            minify(true, false, false);
-            break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
-            minify(false, true, false);
-            break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
-            minify(true, true, false);
-            break;
-        case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
-            minify(false, true, true);
-            break;
-        case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
-        case -1:
-            minify(true, true, true);
-            break;
-        default:
-            fail(who, fmt::format("{} is not a minFilter", s.minFilter));
-    }
+    constexpr Filter filters[] = {{TINYGLTF_TEXTURE_FILTER_NEAREST, false, false, false},
+                                  {TINYGLTF_TEXTURE_FILTER_LINEAR, true, false, false},
+                                  {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST, false, true, false},
+                                  {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST, true, true, false},
+                                  {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR, false, true, true},
+                                  {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, true, true, true}};
+    const auto filter = std::ranges::find(filters, minify, &Filter::file);
+    if (filter == std::end(filters)) fail(who, fmt::format("{} is not a minFilter", minify));
+    sampler.minify_linear = filter->linear;
+    sampler.mipmaps = filter->mipmaps;
+    sampler.mipmaps_linear = filter->mipmaps_linear;
     return sampler;
 }
 
@@ -101,36 +86,34 @@ TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::str
 
 }  // namespace
 
-std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene) {
+std::vector<std::string> readTextures(const Json& document, Scene& scene) {
+    const Json& samplers = arrayAt(document, "/samplers");
     std::vector<std::string> faults;
-    for (std::size_t i = 0; i < model.textures.size(); ++i) {
-        const tinygltf::Texture& t = model.textures[i];
-        const std::string who = fmt::format("texture {}", i);
-        Texture texture;
-        const tinygltf::Value* webp = extension(t.extensions, "EXT_texture_webp");
-        texture.image = checkedIndex(webp ? indexIn(*webp, "source", t.source, who) : t.source,
-                                     model.images.size(), who, "image");
+    for (const Json& file : arrayAt(document, "/textures")) {
+        Texture& texture = scene.textures.emplace_back();
+        texture.image = file.value("source", -1);
+        if (const Json* webp = extension(file, "EXT_texture_webp"))
+            texture.image = webp->value("source", texture.image);
         std::string& fault = faults.emplace_back();
-        const int sampler = checkedIndex(t.sampler, model.samplers.size(), who, "sampler");
+        const int sampler = file.value("sampler", -1);
         try {
             if (sampler >= 0)
-                texture.sampler = readSampler(model.samplers[static_cast<std::size_t>(sampler)],
+                texture.sampler = readSampler(samplers[static_cast<std::size_t>(sampler)],
                                               fmt::format("sampler {}", sampler));
         } catch (const std::runtime_error& e) {
             fault = e.what();
         }
-        scene.textures.push_back(texture);
     }
     return faults;
 }
 
-const char* otherImageOf(const tinygltf::Texture& texture) {
+const char* otherImageOf(const Json& texture) {
     for (const char* name : {"KHR_texture_basisu", "EXT_texture_avif"})
-        if (extension(texture.extensions, name)) return name;
+        if (extension(texture, name)) return name;
     return nullptr;
 }
 
-std::vector<Claim> readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageOf,
                               const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
                               std::vector<std::string>& notes, Tally& tally) {
     struct Encoded {

@@ -4,29 +4,27 @@
 #include "shared/image/claims.h"
 #include "shared/scene/model/scene.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
-namespace tinygltf {
-class Model;
-struct Texture;
-}  // namespace tinygltf
-
 namespace diptych::gltf {
 
+struct Model;
 class Tally;
 
-// Reads textures and samplers in the file's order; image indices are the file's. Returns the fault of each
-// texture, such as "sampler 0: 1 is no wrap mode", or an empty string. A fault matters only to materials
-// that read the texture.
-std::vector<std::string> readTextures(const tinygltf::Model& model, Scene& scene);
+// Reads the document's textures and samplers in the file's order; image indices are the file's. Returns the
+// fault of each texture, such as "sampler 0: 1 is no wrap mode", or an empty string. A fault matters only to
+// materials that read the texture.
+std::vector<std::string> readTextures(const nlohmann::json& document, Scene& scene);
 
 // The texture's first extension with an unsupported image format; nullptr: none.
-const char* otherImageOf(const tinygltf::Texture& texture);
+const char* otherImageOf(const nlohmann::json& texture);
 
 // Decodes images[i], the file's image imageOf[i], on all cores. Images flagged in `lightmaps` may also be
 // OpenEXR, Radiance HDR or PFM; `notes` receives repairs of these. Returns the images' claims.
-std::vector<Claim> readImages(const tinygltf::Model& model, const std::vector<int>& imageOf,
+std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageOf,
                               const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
                               std::vector<std::string>& notes, Tally& tally);
 

@@ -6,9 +6,8 @@
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -16,87 +15,64 @@
 
 namespace diptych::gltf {
 
-namespace {
+using Json = nlohmann::json;
 
-constexpr std::array transmitting{"KHR_materials_transmission", "KHR_materials_volume",
-                                  "KHR_materials_dispersion", "KHR_materials_diffuse_transmission"};
-
-class Noter {
-public:
-    Noter(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene)
-        : model_(model), drawn_(drawn), scene_(scene) {
-        for (const Animation& animation : scene.animations)
-            for (const AnimationChannel& channel : animation.channels)
-                animated_.insert({channel.object, channel.part});
-    }
-
-    bool drawn(std::size_t i) const { return drawn_[i]; }
-    const Material& material(std::size_t i) const { return scene_.materials[i]; }
-    bool has(std::size_t i, const char* name) const {
-        return extension(model_.materials[i].extensions, name) != nullptr;
-    }
-    // Whether a factor is ever above 0.
-    bool ever(std::size_t i, float Material::*factor, AnimatedPart part) const {
-        return material(i).*factor > 0 || animated_.contains({static_cast<int>(i), part});
-    }
-
+void noteTransmission(const Json& materials, const std::vector<bool>& drawn, Scene& scene) {
+    std::set<std::pair<int, AnimatedPart>> animated;
+    for (const Animation& animation : scene.animations)
+        for (const AnimationChannel& channel : animation.channels)
+            animated.insert({channel.object, channel.part});
     // Adds the note "3 materials (a, b, c) ..." about those for which `test` is true.
-    template <class Test>
-    void note(const Test& test, const char* what) {
+    const auto note = [&](const auto& test, const char* what) {
         std::string names;
         std::uint64_t count = 0;
-        for (std::size_t i = 0; i < model_.materials.size(); ++i) {
-            if (!drawn(i) || !test(i)) continue;
-            const std::string& name = model_.materials[i].name;
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            if (!drawn[i] || !test(i)) continue;
+            const std::string& name = scene.materials[i].name;
             names += (count++ ? ", " : "") + (name.empty() ? std::to_string(i) : name);
         }
         if (count)
-            scene_.notes.push_back(
+            scene.notes.push_back(
                 fmt::format("{} ({}) {}", counted(count, "material"), oneLine(names), what));
-    }
-
-private:
-    const tinygltf::Model& model_;
-    const std::vector<bool>& drawn_;
-    Scene& scene_;
-    std::set<std::pair<int, AnimatedPart>> animated_;
-};
-
-}  // namespace
-
-void noteTransmission(const tinygltf::Model& model, const std::vector<bool>& drawn, Scene& scene) {
-    Noter noter(model, drawn, scene);
+    };
+    const auto has = [&](std::size_t i, const char* name) {
+        return extension(materials[i], name) != nullptr;
+    };
+    // Whether a factor is ever above 0.
+    const auto ever = [&](std::size_t i, float Material::*factor, AnimatedPart part) {
+        return scene.materials[i].*factor > 0 || animated.contains({static_cast<int>(i), part});
+    };
     const auto lit = [&](std::size_t i) {
-        return !noter.material(i).unlit && !noter.material(i).specular_glossiness;
+        return !scene.materials[i].unlit && !scene.materials[i].specular_glossiness;
     };
     const auto transmits = [&](std::size_t i) {
-        return noter.ever(i, &Material::transmission, AnimatedPart::transmission);
+        return ever(i, &Material::transmission, AnimatedPart::transmission);
     };
     const auto diffuses = [&](std::size_t i) {
-        return noter.ever(i, &Material::diffuse_transmission, AnimatedPart::diffuse_transmission);
+        return ever(i, &Material::diffuse_transmission, AnimatedPart::diffuse_transmission);
     };
-    const auto thick = [&](std::size_t i) {
-        return noter.ever(i, &Material::thickness, AnimatedPart::thickness);
-    };
-    noter.note(
+    const auto thick = [&](std::size_t i) { return ever(i, &Material::thickness, AnimatedPart::thickness); };
+    note(
         [&](std::size_t i) {
-            return noter.material(i).unlit &&
-                   std::ranges::any_of(transmitting, [&](const char* name) { return noter.has(i, name); });
+            return scene.materials[i].unlit &&
+                   (has(i, "KHR_materials_transmission") || has(i, "KHR_materials_volume") ||
+                    has(i, "KHR_materials_dispersion") || has(i, "KHR_materials_diffuse_transmission"));
         },
         "with KHR_materials_unlit: light that they transmit is left out");
-    noter.note(
+    note(
         [&](std::size_t i) {
-            return lit(i) && noter.has(i, "KHR_materials_volume") && !transmits(i) && !diffuses(i);
+            return lit(i) && has(i, "KHR_materials_volume") && !transmits(i) && !diffuses(i);
         },
         "with KHR_materials_volume, but without transmission: the volume has no effect");
-    noter.note(
+    note(
         [&](std::size_t i) {
-            return lit(i) && noter.has(i, "KHR_materials_dispersion") && !(transmits(i) && thick(i));
+            return lit(i) && has(i, "KHR_materials_dispersion") && !(transmits(i) && thick(i));
         },
         "with KHR_materials_dispersion, but without transmission through a thickness: no effect");
-    noter.note([&](std::size_t i) { return lit(i) && diffuses(i) && thick(i); },
-               "with KHR_materials_diffuse_transmission and a volume: diffuses as a thin surface and absorbs "
-               "over the thickness, scattering in the volume is not modelled");
+    note([&](std::size_t i) { return lit(i) && diffuses(i) && thick(i); },
+         "with KHR_materials_diffuse_transmission and a volume: diffuses as a thin surface and absorbs over "
+         "the "
+         "thickness, scattering in the volume is not modelled");
 }
 
 }  // namespace diptych::gltf

@@ -2,14 +2,52 @@
 #include "shared/scene/gltf/value.h"
 
 #include "shared/scene/gltf/note_list.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace diptych::gltf {
+
+using Json = nlohmann::json;
+
+const Json* memberOf(const Json& value, std::string_view key) {
+    const auto at = value.find(key);  // end() if it is not an object
+    return at == value.end() ? nullptr : &*at;
+}
+
+const Json& arrayAt(const Json& document, const std::string& place) {
+    static const Json none = Json::array();
+    const Json::json_pointer pointer(place);
+    return document.contains(pointer) && document[pointer].is_array() ? document[pointer] : none;
+}
+
+const Json& elementOf(const Json& array, std::size_t index) {
+    static const Json none;
+    return index < array.size() ? array[index] : none;
+}
+
+const Json* extension(const Json& owner, std::string_view name) {
+    const Json* extensions = memberOf(owner, "extensions");
+    return extensions ? memberOf(*extensions, name) : nullptr;
+}
+
+Json takeExtension(Json& owner, const char* name) {
+    if (!extension(owner, name)) return nullptr;
+    Json taken = std::move(owner["extensions"][name]);
+    owner["extensions"].erase(name);
+    return taken;
+}
+
+int indexBelow(const Json& value, std::size_t count, const std::string& who) {
+    const double index = value.is_number() ? value.get<double>() : -1;
+    if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index)))
+        fail(who, fmt::format("is not a whole number below {}", count));
+    return static_cast<int>(index);
+}
 
 std::string firstLine(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -23,39 +61,8 @@ std::string firstLine(std::string_view text) {
 
 int checkedIndex(int index, std::size_t count, const std::string& who, const char* what) {
     if (index < -1 || (index >= 0 && static_cast<std::size_t>(index) >= count))
-        throw std::runtime_error(fmt::format("{}: {} {}, but the file has {}", who, what, index, count));
+        fail(who, fmt::format("{} {}, but the file has {}", what, index, count));
     return index;
-}
-
-double numberIn(const tinygltf::Value& object, const char* key, double fallback, const std::string& who) {
-    if (!object.Has(key)) return fallback;
-    const tinygltf::Value& value = object.Get(key);
-    if (!value.IsNumber() || !std::isfinite(value.GetNumberAsDouble()))
-        throw std::runtime_error(fmt::format("{}: {} is not a number", who, key));
-    return value.GetNumberAsDouble();
-}
-
-int indexIn(const tinygltf::Value& object, const char* key, int fallback, const std::string& who) {
-    if (!object.Has(key)) return fallback;
-    if (!object.Get(key).IsInt() || object.Get(key).GetNumberAsInt() < 0)
-        throw std::runtime_error(fmt::format("{}: {} is not an index", who, key));
-    return object.Get(key).GetNumberAsInt();
-}
-
-std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, std::vector<double> fallback,
-                              const std::string& who) {
-    if (!object.Has(key)) return fallback;
-    const tinygltf::Value& array = object.Get(key);
-    if (array.ArrayLen() != fallback.size())
-        throw std::runtime_error(
-            fmt::format("{}: {} is not an array of {} numbers", who, key, fallback.size()));
-    for (std::size_t i = 0; i < fallback.size(); ++i) {
-        const tinygltf::Value& value = array.Get(static_cast<int>(i));
-        if (!value.IsNumber())
-            throw std::runtime_error(fmt::format("{}: {} does not contain only numbers", who, key));
-        fallback[i] = value.GetNumberAsDouble();
-    }
-    return fallback;
 }
 
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what) {
@@ -63,20 +70,6 @@ void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::s
     for (std::size_t i = first; i < notes.size(); ++i) some.add(std::move(notes[i]));
     notes.resize(std::min(first, notes.size()));
     some.moveTo(notes);
-}
-
-const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name) {
-    const auto at = extensions.find(name);
-    return at == extensions.end() || !at->second.IsObject() ? nullptr : &at->second;
-}
-
-// Loading is over, so the uri member can store the reason.
-void setMissing(tinygltf::Buffer& buffer, std::string line) {
-    buffer.uri = std::move(line);
-}
-
-const std::string& missing(const tinygltf::Buffer& buffer) {
-    return buffer.uri;
 }
 
 }  // namespace diptych::gltf

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Helpers for reading glTF values. All throw std::runtime_error that begins with `who`.
+// Helpers for reading the document's JSON, also if it is not yet checked against the schema, and its indices.
 #pragma once
 
-#include <tiny_gltf.h>
+#include <nlohmann/json_fwd.hpp>
 
 #include <tbb/parallel_for.h>
 
@@ -14,28 +14,32 @@
 
 namespace diptych::gltf {
 
+// The member `key`; nullptr if it is absent or `value` is not an object.
+const nlohmann::json* memberOf(const nlohmann::json& value, std::string_view key);
+
+// The array at a JSON pointer; empty if there is none.
+const nlohmann::json& arrayAt(const nlohmann::json& document, const std::string& place);
+
+// Element `index` of an array; null if it is absent.
+const nlohmann::json& elementOf(const nlohmann::json& array, std::size_t index);
+
+// The object of an extension of `owner`; nullptr if absent.
+const nlohmann::json* extension(const nlohmann::json& owner, std::string_view name);
+// Also removes it from `owner`; null if absent.
+nlohmann::json takeExtension(nlohmann::json& owner, const char* name);
+
+// Returns `value` if it is an index below `count`; otherwise throws std::runtime_error that begins with
+// `who`.
+int indexBelow(const nlohmann::json& value, std::size_t count, const std::string& who);
+
 std::string firstLine(std::string_view text);
 
-// Returns `index` if it is -1 or below `count`; otherwise throws "WHO: WHAT 7 of 3".
+// Returns `index` if it is -1 or below `count`; otherwise throws std::runtime_error: "WHO: WHAT 7, but the
+// file has 3".
 int checkedIndex(int index, std::size_t count, const std::string& who, const char* what);
-
-// Numbers from an extension's object; `fallback` if the key is absent.
-double numberIn(const tinygltf::Value& object, const char* key, double fallback, const std::string& who);
-int indexIn(const tinygltf::Value& object, const char* key, int fallback, const std::string& who);
-// Requires as many components as the fallback has.
-std::vector<double> numbersIn(const tinygltf::Value& object, const char* key, std::vector<double> fallback,
-                              const std::string& who);
 
 // Applies NoteList's limit to the notes from `first` on: keeps the first ones and counts the rest.
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what);
-
-// The extension's object, or nullptr.
-const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions, const char* name);
-
-// Why a buffer's bytes are missing or incomplete, for errors on reading: "buffer 1: a.bin: no such file".
-// Empty if complete.
-void setMissing(tinygltf::Buffer& buffer, std::string line);
-const std::string& missing(const tinygltf::Buffer& buffer);
 
 // Calls run(i) for i below `count` on all cores, then rethrows the exception with the lowest index.
 template <class Run>

@@ -2,7 +2,7 @@
 #include "shared/scene/gltf/variants.h"
 
 #include "shared/scene/gltf/note_list.h"
-#include "shared/scene/gltf/unchecked.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
 #include "shared/text/one_line.h"
@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych::gltf {
@@ -22,16 +21,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* variantsExtension = "KHR_materials_variants";
-
-// Calls `read`. If it throws, the rest of what it reads is omitted with a note.
-template <class Read>
-void readOrNote(NoteList& notes, const Read& read) {
-    try {
-        read();
-    } catch (const std::runtime_error& e) {
-        notes.add(std::string(e.what()) + ": left out");
-    }
-}
 
 const Json& arrayIn(const Json& object, const char* key, std::string_view who) {
     const Json* found = memberOf(object, key);
@@ -65,42 +54,31 @@ int chosenVariant(const std::vector<std::string>& names, const std::string& choi
     return static_cast<int>(*index);
 }
 
-// Reads what primitives map to variants.
-class MappingReader {
-public:
-    // The file's counts of variants and materials.
-    MappingReader(std::size_t variants, std::size_t materials, NoteList& notes)
-        : variants_(variants), materials_(materials), notes_(notes) {}
-
-    // Materials by variant, from a primitive's extension. Each variant may occur once; the first counts.
-    std::map<int, int> read(const Json& use, const std::string& who) const {
-        std::map<int, int> mapped;
-        readOrNote(notes_, [&] {
-            const Json& mappings = arrayIn(use, "mappings", who);
-            for (std::size_t i = 0; i < mappings.size(); ++i)
-                readOrNote(notes_, [&] { add(mappings[i], fmt::format("{}: mapping {}", who, i), mapped); });
-        });
-        return mapped;
-    }
-
-private:
-    std::size_t variants_, materials_;
-    NoteList& notes_;
-
-    void add(const Json& mapping, const std::string& who, std::map<int, int>& mapped) const {
+// Materials by variant, from a primitive's extension `use`. Each variant may occur once; the first counts.
+// `variants`, `materials`: their numbers in the file.
+std::map<int, int> mappingOf(const Json& use, std::size_t variants, std::size_t materials,
+                             const std::string& who, NoteList& notes) {
+    std::map<int, int> mapped;
+    const auto add = [&](const Json& mapping, const std::string& where) {
         const Json* index = memberOf(mapping, "material");
-        if (!index) fail(who, "has no material");
-        const int material = indexBelow(*index, materials_, who + ": material");
-        const Json& list = arrayIn(mapping, "variants", who);
+        if (!index) fail(where, "has no material");
+        const int material = indexBelow(*index, materials, where + ": material");
+        const Json& list = arrayIn(mapping, "variants", where);
         for (std::size_t i = 0; i < list.size(); ++i)
-            readOrNote(notes_, [&] {
-                const std::string entry = fmt::format("{}: variants[{}]", who, i);
-                const int variant = indexBelow(list[i], variants_, entry);
+            readOrNote(notes, [&] {
+                const std::string entry = fmt::format("{}: variants[{}]", where, i);
+                const int variant = indexBelow(list[i], variants, entry);
                 if (!mapped.emplace(variant, material).second)
                     fail(entry, fmt::format("variant {} already has a material", variant));
             });
-    }
-};
+    };
+    readOrNote(notes, [&] {
+        const Json& mappings = arrayIn(use, "mappings", who);
+        for (std::size_t i = 0; i < mappings.size(); ++i)
+            readOrNote(notes, [&] { add(mappings[i], fmt::format("{}: mapping {}", who, i)); });
+    });
+    return mapped;
+}
 
 }  // namespace
 
@@ -109,8 +87,8 @@ Variants takeVariants(Json& document, const std::string& choice) {
     Variants result;
     result.names = variantNames(takeExtension(document, variantsExtension), notes);
     result.chosen = chosenVariant(result.names, choice);
-    const MappingReader mappings(result.names.size(), arrayAt(document, "/materials").size(), notes);
-    const std::size_t meshes = arrayAt(document, "/meshes").size();
+    const std::size_t meshes = arrayAt(document, "/meshes").size(),
+                      materials = arrayAt(document, "/materials").size();
     for (std::size_t m = 0; m < meshes; ++m) {
         Json& mesh = document["meshes"][m];
         if (!memberOf(mesh, "primitives") || !mesh["primitives"].is_array()) continue;
@@ -118,7 +96,7 @@ Variants takeVariants(Json& document, const std::string& choice) {
             const std::string who = fmt::format("mesh {}, primitive {}: {}", m, p++, variantsExtension);
             const Json use = takeExtension(primitive, variantsExtension);
             if (use.is_null()) continue;
-            const std::map<int, int> mapped = mappings.read(use, who);
+            const std::map<int, int> mapped = mappingOf(use, result.names.size(), materials, who, notes);
             if (const auto found = mapped.find(result.chosen); found != mapped.end())
                 primitive["material"] = found->second;
         }

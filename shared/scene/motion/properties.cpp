@@ -2,6 +2,7 @@
 #include "shared/scene/motion/properties.h"
 
 #include "shared/scene/model/animated.h"
+#include "shared/scene/model/material_parts.h"
 #include "shared/scene/motion/animation.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace diptych {
 
@@ -87,125 +89,25 @@ void move(Camera& camera, const Values& values) {
                                      : std::numeric_limits<double>::infinity();
 }
 
-// Properties that are members of Material.
-template <class Value>
-struct MaterialMember {
-    AnimatedPart part;
-    Value Material::*member;
-};
-constexpr MaterialMember<float> materialNumbers[] = {
-    {AnimatedPart::metallic, &Material::metallic},
-    {AnimatedPart::roughness, &Material::roughness},
-    {AnimatedPart::normal_scale, &Material::normal_scale},
-    {AnimatedPart::occlusion_strength, &Material::occlusion_strength},
-    {AnimatedPart::alpha_cutoff, &Material::alpha_cutoff},
-    {AnimatedPart::specular, &Material::specular},
-    {AnimatedPart::transmission, &Material::transmission},
-    {AnimatedPart::clearcoat, &Material::clearcoat},
-    {AnimatedPart::clearcoat_roughness, &Material::clearcoat_roughness},
-    {AnimatedPart::clearcoat_normal_scale, &Material::clearcoat_normal_scale},
-    {AnimatedPart::anisotropy, &Material::anisotropy},
-    {AnimatedPart::anisotropy_rotation, &Material::anisotropy_rotation},
-    {AnimatedPart::sheen_roughness, &Material::sheen_roughness},
-    {AnimatedPart::iridescence, &Material::iridescence},
-    {AnimatedPart::iridescence_ior, &Material::iridescence_ior},
-    {AnimatedPart::iridescence_thickness_least, &Material::iridescence_thickness_least},
-    {AnimatedPart::iridescence_thickness_most, &Material::iridescence_thickness_most},
-    {AnimatedPart::thickness, &Material::thickness},
-    {AnimatedPart::attenuation_distance, &Material::attenuation_distance},
-    {AnimatedPart::dispersion, &Material::dispersion},
-    {AnimatedPart::diffuse_transmission, &Material::diffuse_transmission},
-};
-constexpr MaterialMember<glm::vec3> materialColors[] = {
-    {AnimatedPart::specular_color, &Material::specular_color},
-    {AnimatedPart::specular_f0, &Material::specular_color},
-    {AnimatedPart::sheen_color, &Material::sheen_color},
-    {AnimatedPart::attenuation_color, &Material::attenuation_color},
-    {AnimatedPart::diffuse_transmission_color, &Material::diffuse_transmission_color},
-};
-
-// A material, and the parts of its combined values.
-class MovedMaterial {
-public:
-    MovedMaterial(Material& material, const MaterialParts* parts) : m_(material) {
-        if (parts)
-            parts_ = *parts;
-        else
-            parts_.emissive = glm::dvec3(material.emissive);
-    }
-
-    void set(AnimatedPart part, int element, const std::vector<double>& v) {
-        const auto number = static_cast<float>(v[0]);
-        for (const auto& row : materialNumbers)
-            if (row.part == part) m_.*row.member = number;
-        for (const auto& row : materialColors)
-            if (row.part == part) m_.*row.member = rgb(v);
-        switch (part) {
-            case AnimatedPart::base_color:
-                m_.base_color = glm::vec4(rgb(v), static_cast<float>(v[3]));
-                break;
-            case AnimatedPart::emissive:
-                parts_.emissive = {v[0], v[1], v[2]};
-                emit();
-                break;
-            case AnimatedPart::emissive_strength:
-                parts_.emissive_strength = v[0];
-                emit();
-                break;
-            case AnimatedPart::ior:
-                m_.ior = number == 0 ? 0 : std::max(number, 1.0f);
-                break;
-            case AnimatedPart::glossiness:
-                m_.roughness = static_cast<float>(1 - v[0]);
-                break;
-            case AnimatedPart::texture_offset:
-                transform(element).offset = {v[0], v[1]};
-                place(element);
-                break;
-            case AnimatedPart::texture_rotation:
-                transform(element).rotation = v[0];
-                place(element);
-                break;
-            case AnimatedPart::texture_scale:
-                transform(element).scale = {v[0], v[1]};
-                place(element);
-                break;
-            default:  // above, or parts of nodes, lights and cameras
-                break;
-        }
-    }
-
-private:
-    Material& m_;
-    MaterialParts parts_;
-
-    TextureTransform& transform(int slot) { return parts_.transforms[static_cast<std::size_t>(slot)]; }
-    void place(int slot) {
-        setTransform(m_.*materialSlots[static_cast<std::size_t>(slot)].texture, transform(slot));
-    }
-    void emit() {
-        constexpr double most = std::numeric_limits<float>::max();
-        for (int c = 0; c < 3; ++c)
-            m_.emissive[c] =
-                static_cast<float>(std::min(parts_.emissive[c] * parts_.emissive_strength, most));
-    }
-};
-
 std::vector<Material> movedMaterials(const Scene& scene, const Values& values) {
     std::vector<Material> materials;
     // Properties of one material are consecutive.
     for (auto at = values.begin(); at != values.end();) {
         const int object = at->first.object;
-        std::optional<MovedMaterial> moved;
+        MaterialParts parts;
+        bool moved = false;
         for (; at != values.end() && at->first.object == object; ++at) {
             if (!isMaterialPart(at->first.part)) continue;
             if (materials.empty()) materials = scene.materials;
-            if (!moved) {
-                const auto parts = scene.material_parts.find(object);
-                moved.emplace(materials[static_cast<std::size_t>(object)],
-                              parts == scene.material_parts.end() ? nullptr : &parts->second);
+            Material& material = materials[static_cast<std::size_t>(object)];
+            if (!std::exchange(moved, true)) {
+                const auto found = scene.material_parts.find(object);
+                if (found != scene.material_parts.end())
+                    parts = found->second;
+                else
+                    parts.emissive = glm::dvec3(material.emissive);
             }
-            moved->set(at->first.part, at->first.element, at->second);
+            setPart(material, parts, at->first.part, static_cast<std::size_t>(at->first.element), at->second);
         }
     }
     return materials;

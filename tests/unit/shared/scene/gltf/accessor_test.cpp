@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Every shape, component type, layout and mode of glTF numbers, with values known by hand.
 #include "shared/scene/gltf/accessor.h"
+#include "shared/scene/gltf/model.h"
 #include "tests/support/gltf_builder.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <array>
@@ -43,8 +43,8 @@ std::size_t bytesOf(int type) {
 }
 
 // A model with one accessor over the given bytes.
-tinygltf::Model modelOf(const std::string& bytes, int type, int componentType, std::size_t count) {
-    tinygltf::Model model;
+gltf::Model modelOf(const std::string& bytes, int type, int componentType, std::size_t count) {
+    gltf::Model model;
     model.buffers.emplace_back().data.assign(bytes.begin(), bytes.end());
     tinygltf::BufferView& view = model.bufferViews.emplace_back();
     view.buffer = 0;
@@ -88,13 +88,27 @@ TEST(GltfAccessor, MatrixColumnsAreAligned) {
     }
 }
 
+// Elements that an extension decoded, whatever bufferView the accessor names.
+TEST(GltfAccessor, DecodedElementsComeFirst) {
+    gltf::Model model = modelOf("xxxx", TINYGLTF_TYPE_SCALAR, UBYTE, 2);
+    model.decoded_accessors[0] = {3, 4};
+    EXPECT_EQ(gltf::readNumbers(model, 0, "test").values, (std::vector<float>{3, 4}));
+    model.decoded_accessors[0] = {3};
+    try {
+        gltf::readNumbers(model, 0, "test");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_STREQ(e.what(), "accessor 0: 1 bytes are decoded for 2 elements of 1 bytes");
+    }
+}
+
 // glTF 2.0, 3.11: f = max(c / 127, -1) for signed bytes, c / 255 for unsigned ones, and accordingly for
 // shorts.
 TEST(GltfAccessor, NormalizedIntegersAreAtLeastMinusOne) {
     const auto numbers = [](int type, std::initializer_list<int> values, bool normalized) {
         std::string bytes;
         for (const int value : values) append(bytes, type, value, false);
-        tinygltf::Model model = modelOf(bytes, TINYGLTF_TYPE_SCALAR, type, values.size());
+        gltf::Model model = modelOf(bytes, TINYGLTF_TYPE_SCALAR, type, values.size());
         model.accessors[0].normalized = normalized;
         return gltf::readNumbers(model, 0, "test").values;
     };

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/scene/model/motion.h"
+#include "shared/scene/model/scene.h"
+
+#include <cstddef>
+#include <span>
+
+namespace diptych {
+
+// Sets one value of a material, in its valid range (factsOf()), with as many components as factsOf() says.
+// `slot`: of a texture transform. `parts`: of the material; values that Material stores combined are computed
+// from them. Ignores parts of other objects.
+void setPart(Material& material, MaterialParts& parts, AnimatedPart part, std::size_t slot,
+             std::span<const double> value);
+
+}  // namespace diptych
