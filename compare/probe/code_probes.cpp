@@ -185,46 +185,50 @@ Probe unormBackProbe(std::uint32_t bits) {
 }
 
 Probe rootCodeProbe() {
-    Probe p = codeProbe("square root, 8 bits", 400, "0 to 1, half of them small; sequences of 256",
+    Probe p = codeProbe(fmt::format("square root, {} bits", gpu::ALBEDO_BITS), 400,
+                        "0 to 1, half of them small; sequences of 256",
                         "half a step, and Vulkan's error bound of sqrt()");
+    const double top = topOf(gpu::ALBEDO_BITS);
     p.line = 256;
     p.monotone = 1;
     p.make = [](Random&, std::size_t row, float* in) {
         in[0] = onLine(row, 256, 0, row / 256 % 3 ? 1 : 1e-3);
     };
     p.step = [](const float*, std::size_t, double) { return 1; };
-    p.definition = [](const float* in, double* out) { out[0] = 255 * std::sqrt(double{in[0]}); };
-    follow(p, []<class N>(const N* in, N* out) {
-        out[0] = floorOf(least(most(root(in[0]), N(0.0f)), N(1.0f)) * N(255.0f) + N(0.5f));
+    p.definition = [top](const float* in, double* out) { out[0] = top * std::sqrt(double{in[0]}); };
+    follow(p, [top]<class N>(const N* in, N* out) {
+        out[0] = floorOf(least(most(root(in[0]), N(0.0f)), N(1.0f)) * N(static_cast<float>(top)) + N(0.5f));
     });
-    p.allowance = [](const float* in, double* allowed) {
-        allowed[0] = 0.5 + 255 * root(Interval(in[0])).width() + 2 * ulpOf(255);
+    p.allowance = [top](const float* in, double* allowed) {
+        allowed[0] = 0.5 + top * root(Interval(in[0])).width() + 2 * ulpOf(top);
     };
     return p;
 }
 
 Probe rootBackProbe() {
-    Probe p = codeProbe("square root from 8 bits", 401, "every code", "a product with a constant, squared");
-    p.rows = p.line = 256;
+    Probe p = codeProbe(fmt::format("square root from {} bits", gpu::ALBEDO_BITS), 401, "every code",
+                        "a product with a constant, squared");
+    const double top = topOf(gpu::ALBEDO_BITS);
+    p.rows = p.line = 1u << gpu::ALBEDO_BITS;
     p.monotone = 1;
     p.strict = true;
     p.unit = "ULP";
     p.make = [](Random&, std::size_t row, float* in) { in[0] = static_cast<float>(row); };
-    p.definition = [](const float* in, double* out) { out[0] = std::pow(double{in[0]} / 255, 2); };
-    follow(p, []<class N>(const N* in, N* out) {
-        const N x = in[0] * (N(1.0f) / N(255.0f));
+    p.definition = [top](const float* in, double* out) { out[0] = std::pow(double{in[0]} / top, 2); };
+    follow(p, [top]<class N>(const N* in, N* out) {
+        const N x = in[0] * (N(1.0f) / N(static_cast<float>(top)));
         out[0] = x * x;
     });
     return p;
 }
 
 // Step of 9.9.9.e5 (EXT_texture_shared_exponent): from the largest component's exponent after rounding to
-// nine bits; at least 2^-24.
+// the mantissa's bits; at least 2^-24.
 double sharedStep(double largest) {
     const double most_value = double{gpu::EMISSION_MAX}, x = std::clamp(largest, 0.0, most_value);
-    double step = 0x1p-24;
-    // Rounding decides whether ten bits are needed, so both steps are valid.
-    while (x > step * (511.5 - 0x1p-14)) step *= 2;
+    double step = std::exp2(-double{gpu::EMISSION_BIAS + gpu::EMISSION_MANTISSA_BITS});
+    // Rounding decides whether one bit more is needed, so both steps are valid.
+    while (x > step * (topOf(gpu::EMISSION_MANTISSA_BITS) + 0.5 - 0x1p-14)) step *= 2;
     return step;
 }
 
@@ -237,10 +241,10 @@ void makeRadiance(Random& random, float* in) {
 }
 
 Probe radianceProbe() {
-    Probe p =
-        codeProbe("radiance, 9.9.9.e5", 402,
-                  "1e-11 to 1e5, all magnitudes; components from equal to 1e-4 of the largest; powers of two",
-                  "half a step of the largest component's exponent; products with powers of two are exact");
+    Probe p = codeProbe(
+        fmt::format("radiance, {0}.{0}.{0}.e{1}", gpu::EMISSION_MANTISSA_BITS, gpu::EMISSION_EXPONENT_BITS),
+        402, "1e-11 to 1e5, all magnitudes; components from equal to 1e-4 of the largest; powers of two",
+        "half a step of the largest component's exponent; products with powers of two are exact");
     p.ins = p.outs = 3;
     p.rows = 1u << 17;
     p.make = [](Random& random, std::size_t, float* in) { makeRadiance(random, in); };
@@ -265,7 +269,7 @@ constexpr Layout compact_layout{"G-buffer, compact",         gpu::GBUFFER_compac
                                 gpu::COMPACT_ROUGHNESS_BITS, gpu::COMPACT_METALLIC_BITS,
                                 gpu::COMPACT_ID_BITS};
 constexpr Layout standard_layout{"G-buffer, standard",         gpu::GBUFFER_standard,
-                                 gpu::STANDARD_NORMAL_BITS,    gpu::STANDARD_NORMAL_BITS,
+                                 gpu::STANDARD_NORMAL_BITS,    gpu::STANDARD_GEOMETRIC_NORMAL_BITS,
                                  gpu::STANDARD_ROUGHNESS_BITS, gpu::STANDARD_METALLIC_BITS,
                                  gpu::STANDARD_ID_BITS};
 constexpr Layout full_layout{"G-buffer, full", gpu::GBUFFER_full, 0, 0, 0, 0, 20};
@@ -298,9 +302,9 @@ void judgeSurface(const Layout& layout, const float* in, const float* out, Tally
             tally.value(row, i, static_cast<float>(angleBetween(exactVec(in + i), exactVec(out + i))), 0,
                         octahedralBound(i == 0 ? layout.normal : layout.geometric) + 8 * 0x1p-23, 0);
     }
-    for (const std::size_t first : {std::size_t{6}, std::size_t{15}})
+    for (const auto& [first, bits] : {std::pair{std::size_t{6}, gpu::ALBEDO_BITS}, {15, gpu::SPECULAR_BITS}})
         for (std::size_t i = first; i < first + 3; ++i) {
-            const double h = 0.5 / 255, x = double{in[i]},
+            const double h = 0.5 / topOf(bits), x = double{in[i]},
                          r = std::sqrt(x);  // |(r + h)^2 - r^2|, in steps at r
             field(i, h * (2 * r + h) + 4.5 * 0x1p-22, 2 * h * (2 * r + h));
         }
@@ -315,7 +319,7 @@ void judgeSurface(const Layout& layout, const float* in, const float* out, Tally
     unorm(18, full ? 8 : layout.roughness);
     unorm(19, full ? 8 : layout.metallic);
     unorm(20, gpu::OCCLUSION_BITS);
-    unorm(21, gpu::SPECULAR_BITS);
+    unorm(21, gpu::SPECULAR_F90_BITS);
     tally.value(row, 22, out[22], double{in[22]}, 0, 1);
     tally.value(row, 23, out[23], 1, 0, 1);
 }

@@ -28,9 +28,6 @@ constexpr double indexSlack = 16 * 0x1p-24, indexShare = 14 * 0x1p-24;
 // and of the plane's axes, radians. Vulkan permits a sine 2^-11 off; lavapipe stays within this.
 constexpr double lineSlack = 0x1p-18;
 
-static_assert(gpu::IRIDESCENCE_THICKNESS_BITS == 15,
-              "halfBound is that of 5 bits of exponent and 10 of mantissa");
-
 unsigned bitsOf(const ChannelCode& stored, GBufferEncoding packed) {
     return packed == GBufferEncoding::compact ? stored.compact : stored.standard;
 }
@@ -72,10 +69,18 @@ double squareBound(unsigned bits) {
     return 2 * h - h * h + squareSlack;
 }
 
-// The largest component's top bit is set, so half a step is at most 0.5 / 256 of it, plus 1/512 of that if
-// rounding changes the exponent. Below 2^-16 the exponent is at its minimum and half a step stays 2^-25.
-double radianceBound() {
-    return 0.5 / (1u << (gpu::EMISSION_MANTISSA_BITS - 1)) * (1 + 1.0 / 512);
+// The largest component's top bit is set, so of 9 bits half a step is at most 0.5 / 256 of it, plus 1/512 of
+// that if rounding changes the exponent. Below 2^-16 the exponent is at its minimum and half a step stays
+// 2^-25.
+FloatBound radianceBound(unsigned bits) {
+    const double step = std::ldexp(1.0, -static_cast<int>(bits));
+    return {step * (1 + step), std::ldexp(0.5 * step, -static_cast<int>(gpu::EMISSION_BIAS))};
+}
+
+FloatBound halfBound(unsigned bits) {
+    const double relative =
+        std::ldexp(0.5, static_cast<int>(gpu::HALF_EXPONENT_BITS) - static_cast<int>(bits));
+    return {relative, relative * 0x1p-14};
 }
 
 // n = (1 + x) / (1 - x), so x + h decodes to n + 2h / ((1 - x) (1 - x - h)), where 1 - x = 2 / (n + 1). The
@@ -117,11 +122,11 @@ double StoredField::largestBound() const {
         case Code::line:
             return lineBound(bits, normal_bits);
         case Code::radiance:
-            return radianceBound();
+            return radianceBound(bits).relative;
         case Code::index:
             return std::numeric_limits<double>::infinity();
         case Code::half:
-            return halfBound;
+            return halfBound(bits).relative;
     }
     return 0;
 }

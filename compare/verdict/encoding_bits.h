@@ -19,16 +19,16 @@ double unormBound(unsigned bits);
 double squareBound(double x, unsigned bits);
 double squareBound(unsigned bits);
 
-// For radiance in 9.9.9.e5: bound relative to its largest component, and the smallest absolute bound.
-double radianceBound();
-inline constexpr double leastRadianceBound = 0x1p-25;
+// For values with an exponent: bound relative to the largest component, and the smallest absolute bound.
+struct FloatBound {
+    double relative, least;
+};
+FloatBound radianceBound(unsigned bits);  // of its mantissa
+FloatBound halfBound(unsigned bits);      // without a sign
 
 // For an index of refraction of at least 1: x = (n - 1) / (n + 1), 0 to 1, is stored in `bits` bits, whose
 // code 0 is left free. Infinite where an error of half a step reaches x = 1.
 double indexBound(double n, unsigned bits);
-
-// For a half: bound relative to the value from 2^-14 on, and the bound below.
-inline constexpr double halfBound = 0x1p-11, leastHalfBound = 0x1p-25;
 
 // Largest angle error of an octahedral normal with `bits` per coordinate, degrees.
 double octahedralBound(unsigned bits);

@@ -26,14 +26,22 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
 
 // The bound of values with an exponent is relative to the largest component, at least the smallest step. 0
 // has a code of its own.
-PixelUse floatUse(const float* read, const float* own, int components, double share, double least,
-                  double slack) {
+PixelUse floatUse(const float* read, const float* own, int components, FloatBound of, double slack) {
     const double size = metrics::largestFinite(own, components);
-    const double bound = size > 0 ? std::max(size * share, least) + size * slack : 0;
+    const double bound = size > 0 ? std::max(size * of.relative, of.least) + size * slack : 0;
     return {pixelUse(metrics::distance(read, own, components), bound).share, size > 0 ? bound / size : 0};
 }
 
-PixelUse useOf(const StoredField& field, const float* read, const float* own, int components, double slack) {
+// A field that is stored exactly: nothing but the slack is granted.
+PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, double slack) {
+    const double size = mode.metric == Metric::relative ? metrics::largestFinite(own, mode.width) : 1;
+    return pixelUse(metrics::distance(read, own, mode.width), slack * size);
+}
+
+}  // namespace
+
+PixelUse storedUse(const StoredField& field, const float* read, const float* own, int components,
+                   double slack) {
     switch (field.code) {
         case StoredField::Code::exact:
             break;
@@ -53,9 +61,9 @@ PixelUse useOf(const StoredField& field, const float* read, const float* own, in
                             field.largestBound() + slack);
         }
         case StoredField::Code::radiance:
-            return floatUse(read, own, components, radianceBound(), leastRadianceBound, slack);
+            return floatUse(read, own, components, radianceBound(field.bits), slack);
         case StoredField::Code::half:
-            return floatUse(read, own, components, halfBound, leastHalfBound, slack);
+            return floatUse(read, own, components, halfBound(field.bits), slack);
         case StoredField::Code::index:
             // 0: no film.
             return pixelUse(metrics::distance(*read, *own),
@@ -63,14 +71,6 @@ PixelUse useOf(const StoredField& field, const float* read, const float* own, in
     }
     return {};
 }
-
-// A field that is stored exactly: nothing but the slack is granted.
-PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, double slack) {
-    const double size = mode.metric == Metric::relative ? metrics::largestFinite(own, mode.width) : 1;
-    return pixelUse(metrics::distance(read, own, mode.width), slack * size);
-}
-
-}  // namespace
 
 std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair, double slack) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
@@ -90,7 +90,7 @@ std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair
     return boundUse(pair.coverage, samples.front().second->width, [&](std::size_t i) {
         PixelUse worst;
         for (const auto& [a, b] : samples) {
-            const PixelUse here = field ? useOf(*field, a->pixel(i), b->pixel(i), mode.width, slack)
+            const PixelUse here = field ? storedUse(*field, a->pixel(i), b->pixel(i), mode.width, slack)
                                         : exactUse(mode, a->pixel(i), b->pixel(i), slack);
             worst = {std::max(worst.share, here.share), std::max(worst.bound, here.bound)};
         }

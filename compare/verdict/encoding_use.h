@@ -3,12 +3,18 @@
 #pragma once
 
 #include "compare/verdict/bound_use.h"
+#include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/frame_pair.h"
 #include "shared/frame/debug_modes.h"
 
 #include <optional>
 
 namespace diptych {
+
+// Of one pixel: what is `read` from a packed field, compared with the value before, `own`. `slack`: granted
+// beside the bound, in the channel's metric.
+PixelUse storedUse(const StoredField& field, const float* read, const float* own, int components,
+                   double slack = 0);
 
 // Compares what deferred decodes of a storedField() with forward+'s value. Each pixel's bound follows from
 // that value and the number of bits alone. With MSAA every sample counts, also of the other

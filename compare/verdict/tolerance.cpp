@@ -8,6 +8,7 @@
 #include "compare/verdict/neighbours.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/debug_mode.h"
+#include "shared/contract/gbuffer.h"
 
 #include <fmt/format.h>
 
@@ -65,13 +66,20 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
                             field.normal_bits, bits, bits + 1));
         case StoredField::Code::radiance:
             return floatTolerance(
-                mode, pair, bounded("half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256"),
-                {leastRadianceBound, "half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel"});
+                mode, pair,
+                bounded(fmt::format("half a step of a {}-bit mantissa whose top bit is set, 0.5 / {}", bits,
+                                    1u << (bits - 1))),
+                {radianceBound(bits).least,
+                 fmt::format("half of {0}.{0}.{0}.e{1}'s smallest step, 2^-{2}, at the darkest pixel", bits,
+                             gpu::EMISSION_EXPONENT_BITS, gpu::EMISSION_BIAS + bits + 1)});
         case StoredField::Code::index:
             return indexTolerance(bits, mode, pair);
         case StoredField::Code::half:
-            return floatTolerance(mode, pair, bounded("half a step of a half's 10-bit mantissa, 2^-11"),
-                                  {leastHalfBound, "half of a half's smallest step, 2^-25"});
+            return floatTolerance(
+                mode, pair,
+                bounded(fmt::format("half a step of a half's {}-bit mantissa, 2^-{}",
+                                    bits - gpu::HALF_EXPONENT_BITS, bits - gpu::HALF_EXPONENT_BITS + 1)),
+                {halfBound(bits).least, fmt::format("half of a half's smallest step, 2^-{}", bits + 10)});
     }
     return {};
 }
@@ -87,8 +95,9 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
     const double ends = std::max(bound(Channel::albedo), f0);
     const double apart = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
     return {ends + metallic * apart,
-            fmt::format("mixed from albedo{} (sqrt in 8 bits, {:.3g}) by metallic (half a step, {:.3g})",
-                        f0 > 0 ? " and F0" : "", ends, metallic)};
+            fmt::format("mixed from albedo{} (sqrt in {} bits, {:.3g}) by metallic (half a step, {:.3g})",
+                        f0 > 0 ? " and F0" : "",
+                        f0 > bound(Channel::albedo) ? gpu::SPECULAR_BITS : gpu::ALBEDO_BITS, ends, metallic)};
 }
 
 // The image that forward+ shades from surfaces after the same encoding; nullptr if it was not rendered.

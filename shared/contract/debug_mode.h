@@ -69,7 +69,7 @@
           "shading position relative to the camera, world axes, m", \
           place, 120, exact, 0, 0, none, none, 0) \
     X(12, geometric_normal, 3, angular, vector, unit, both, "triangle normal, world", \
-          facet, 130, octahedral, STANDARD_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, none, none, 9) \
+          facet, 130, octahedral, STANDARD_GEOMETRIC_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, none, none, 9) \
     X(20, light_count, 1, absolute, scalar, positive, paths_only, "number of lights evaluated at the pixel", \
           list, 450, exact, 0, 0, none, none, 0) \
     X(21, list_overflow, 1, exact, scalar, share, paths_only, "1 where the pixel's light list overflowed", \
@@ -118,7 +118,7 @@
           "contribution to lit_diffuse and lit_ambient, W/(sr m^2)", \
           light, 560, exact, 0, 0, transmitted, none, 0) \
     X(50, dielectric_f90, 1, absolute, scalar, share, both, "F90 of the dielectric layer, 0 to 1", \
-          surface, 240, unorm, SPECULAR_BITS, SPECULAR_BITS, dielectric, number, 0) \
+          surface, 240, unorm, SPECULAR_F90_BITS, SPECULAR_F90_BITS, dielectric, number, 0) \
     X(51, lightmap, 3, relative, color, positive, both, "lightmap irradiance / pi, W/(sr m^2)", \
           surface, 380, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, lightmap, color, 0) \
     X(52, tangent, 3, absolute, vector, any, forward_only, \
@@ -149,10 +149,10 @@
           "direction along which highlights stretch, world, either sign; 0 where isotropic", \
           surface, 270, line, ANISOTROPY_ANGLE_BITS, ANISOTROPY_ANGLE_BITS, anisotropy, line, 0) \
     X(65, sheen_color, 3, absolute, color, share, both, "colour of the sheen, linear Rec.709", \
-          surface, 310, root, SHEEN_BITS, SHEEN_BITS, sheen, color, 12) \
+          surface, 310, root, SHEEN_COLOR_BITS, SHEEN_COLOR_BITS, sheen, color, 12) \
     X(66, sheen_roughness, 1, absolute, scalar, share, both, \
           "perceptual roughness of the sheen, 0 to 1; 0 without one", \
-          surface, 320, unorm, SHEEN_BITS, SHEEN_BITS, sheen, number, 13) \
+          surface, 320, unorm, SHEEN_ROUGHNESS_BITS, SHEEN_ROUGHNESS_BITS, sheen, number, 13) \
     X(67, iridescence, 1, absolute, scalar, share, both, "weight of the thin film, 0 to 1", \
           surface, 280, unorm, IRIDESCENCE_BITS, IRIDESCENCE_BITS, iridescence, number, 14) \
     X(68, iridescence_ior, 1, absolute, scalar, positive, both, \
@@ -180,7 +180,7 @@
           diffuse_transmission, number, 0) \
     X(76, diffuse_transmission_color, 3, absolute, color, share, both, \
           "colour of diffuse transmission, with its volume's absorption, linear Rec.709; 0 without it", \
-          surface, 304, root, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
+          surface, 304, root, DIFFUSE_TRANSMISSION_COLOR_BITS, DIFFUSE_TRANSMISSION_COLOR_BITS, \
           diffuse_transmission, color, 0)
 // clang-format on
 

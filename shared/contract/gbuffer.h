@@ -3,34 +3,22 @@
 // device's rounding on writes to a render target has no effect (lavapipe truncates halves), and forward+
 // can compute exactly what deferred will read.
 //
-//               compact                       standard                        full
-//   albedo    R32  sqrt 8.8.8, occl. 8     R32  sqrt 8.8.8, occl. 8        RGBA32 albedo, occlusion
-//   normals   R32  oct 12.12, rough. 8     RG32 oct 16.16, geom. 16.16     RGBA32 normal, roughness
-//   params    R32  geom. oct 8.8,          R32  roughness 12,              RGBA32 geom. normal, metallic
-//                  metallic 6, id 10            metallic 8, id 12
-//   emission  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 emission, id
-//   specular  R32  sqrt 8.8.8, F90 8       R32  sqrt 8.8.8, F90 8          RGBA32 dielectric F0, F90
-//   ids       R32  (only if 10 bits            R32  (only if 12 bits
-//                   are too few)                   are too few)
-//   lightmap  R32  9.9.9.e5                R32  9.9.9.e5                   RGBA32 lightmap
-//   layers    words in LAYERS to LAYERS_5, four each, only for what materials have:
-//               clear coat: oct 16.16; weight 12, roughness 12, bit 28     normal, weight, roughness
-//               anisotropy: strength 12, angle 16, bit 28                  strength, direction 2
-//               sheen: sqrt 8.8.8, roughness 8                             colour, roughness
-//               iridescence: weight 8, ior 9, thickness 15                 weight, ior, thickness
-//               diffuse transmission: sqrt 8.8.8, weight 8                 colour, weight
-//   shaded    RG32 shading depth (bits of a float) and sample mask (MSAA only)
-//   bytes     12 to 48, + 4 depth          16 to 52, + 4 depth             64 to 176, + 4 depth
+// compact and standard store GBUFFER_WORDS. compact has one word in each attachment; standard has the two
+// normals in NORMALS. full stores float32:
+//   albedo    albedo, occlusion                 specular  dielectric F0, F90
+//   normals   normal, roughness                 emission  emission, id
+//   params    geometric normal, metallic        lightmap  lightmap, 1
+//   layers    as the packed fields, in the order of LAYER_*; the direction of anisotropy has two words
 //
-// sqrt: the square root is stored, so 0.04, the default F0, is exactly 51/255.
-// emission exists if the scene emits light; full always has it, because it stores the id. It is RGBA32
-// float if radiance exceeds the range of 9.9.9.e5.
-// lightmap exists if a material has one, in the same formats. It is 0 on surfaces without a lightmap;
-// shaders/lib/surface/gbuffer.glsl distinguishes them from black.
-// Bit 28 says that the surface has the layer; other layers that the surface lacks are words of 0.
+// emission exists if the scene emits light; full always has it, because it stores the id. Radiance beyond
+// the range of its word is RGBA32 float. lightmap exists if a material has one, in the same formats. It is
+// 0 on surfaces without a lightmap; shaders/lib/surface/gbuffer.glsl distinguishes them from black.
 // specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
-// With MSAA every attachment is multisampled. shaded then stores where the surface was evaluated in the
-// pixel: the mean location of the samples that its triangle covers, and the depth there.
+// ids exists if a packed id has too few bits.
+// layers to layers 5 have four words each, only for what materials have. A layer that the surface lacks is
+// words of 0.
+// shaded exists with MSAA, when every attachment is multisampled. It stores where the surface was evaluated
+// in the pixel: the mean location of the samples that its triangle covers, and the depth there (float32).
 // If there are more than MAX_COLOR_ATTACHMENTS, a second pass draws the last layers.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
@@ -56,6 +44,43 @@
     X(12, SHADED,   fetched_image, "shaded sample locations")
 // clang-format on
 
+// Words of the packed encodings, and the bits of their fields, from the lowest bit. The first field has n
+// components, each of so many bits. Another number changes encoder, decoder and tolerances of its field, and
+// nothing else.
+// word  n  field  bits  ...
+//   Colours are square roots, so 0.04, the default F0, is exactly 51/255. Normals are octahedral.
+//   Radiance is that of EXT_texture_shared_exponent, 9.9.9.e5.
+//   ANISOTROPY_ANGLE: in [0, pi) about the decoded normal, because highlights stretch both ways.
+//   IRIDESCENCE_IOR: (ior - 1) / (ior + 1), 0 to 1; code 0: no film, so codes from 1 count.
+//   IRIDESCENCE_THICKNESS: nm, a half without its sign.
+//   CLEARCOAT_THERE, ANISOTROPY_THERE: 1 if the surface has the layer.
+//   Ids, exponents and the thickness are read without a mask: they are the last fields of their words.
+// clang-format off
+#define GBUFFER_WORDS(ONE, TWO, THREE)                                                                   \
+    TWO(albedo, 3, ALBEDO, 8, OCCLUSION, 8)                                                              \
+    TWO(specular, 3, SPECULAR, 8, SPECULAR_F90, 8)                                                       \
+    TWO(radiance, 3, EMISSION_MANTISSA, 9, EMISSION_EXPONENT, 5)                                         \
+    TWO(compact_normals, 2, COMPACT_NORMAL, 12, COMPACT_ROUGHNESS, 8)                                    \
+    THREE(compact_params, 2, COMPACT_GEOMETRIC_NORMAL, 8, COMPACT_METALLIC, 6, COMPACT_ID, 10)           \
+    ONE(standard_normals, 2, STANDARD_NORMAL, 16)                                                        \
+    ONE(standard_geometric_normals, 2, STANDARD_GEOMETRIC_NORMAL, 16)                                    \
+    THREE(standard_params, 1, STANDARD_ROUGHNESS, 12, STANDARD_METALLIC, 8, STANDARD_ID, 12)             \
+    ONE(clearcoat_normal, 2, CLEARCOAT_NORMAL, 16)                                                       \
+    THREE(clearcoat, 1, CLEARCOAT, 12, CLEARCOAT_ROUGHNESS, 12, CLEARCOAT_THERE, 1)                      \
+    THREE(anisotropy, 1, ANISOTROPY, 12, ANISOTROPY_ANGLE, 16, ANISOTROPY_THERE, 1)                      \
+    TWO(sheen, 3, SHEEN_COLOR, 8, SHEEN_ROUGHNESS, 8)                                                    \
+    THREE(iridescence, 1, IRIDESCENCE, 8, IRIDESCENCE_IOR, 9, IRIDESCENCE_THICKNESS, 15)                 \
+    TWO(diffuse_transmission, 3, DIFFUSE_TRANSMISSION_COLOR, 8, DIFFUSE_TRANSMISSION, 8)
+
+// Words of each layer, packed and float32; they follow each other in this order, that of LAYER_*.
+#define STORED_LAYERS(X)  \
+    X(CLEARCOAT, 2, 5)    \
+    X(ANISOTROPY, 1, 3)   \
+    X(SHEEN, 1, 4)        \
+    X(IRIDESCENCE, 1, 3)  \
+    X(DIFFUSE_TRANSMISSION, 1, 4)
+// clang-format on
+
 CONTRACT_BEGIN
 
 CONTRACT_CONST(uint, GBUFFER_compact, 0);
@@ -73,52 +98,43 @@ CONTRACT_CONST(uint, MAX_COLOR_ATTACHMENTS, 8);
 CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER: an image, after the
                                                            // attachments
 
-// Bits of each packed field by encoding. Tolerances are derived from these.
-CONTRACT_CONST(uint, ALBEDO_BITS, 8);
-CONTRACT_CONST(uint, OCCLUSION_BITS, 8);
-CONTRACT_CONST(uint, SPECULAR_BITS, 8);
-CONTRACT_CONST(uint, COMPACT_NORMAL_BITS, 12);
-CONTRACT_CONST(uint, COMPACT_GEOMETRIC_NORMAL_BITS, 8);
-CONTRACT_CONST(uint, COMPACT_ROUGHNESS_BITS, 8);
-CONTRACT_CONST(uint, COMPACT_METALLIC_BITS, 6);
-CONTRACT_CONST(uint, COMPACT_ID_BITS, 10);
-CONTRACT_CONST(uint, STANDARD_NORMAL_BITS, 16);
-CONTRACT_CONST(uint, STANDARD_ROUGHNESS_BITS, 12);
-CONTRACT_CONST(uint, STANDARD_METALLIC_BITS, 8);
-CONTRACT_CONST(uint, STANDARD_ID_BITS, 12);
-CONTRACT_CONST(uint, EMISSION_MANTISSA_BITS, 9);
-// Layers have the same bits in both packed encodings.
-CONTRACT_CONST(uint, CLEARCOAT_BITS, 12);
-CONTRACT_CONST(uint, CLEARCOAT_ROUGHNESS_BITS, 12);
-CONTRACT_CONST(uint, CLEARCOAT_NORMAL_BITS, 16);
-CONTRACT_CONST(uint, ANISOTROPY_BITS, 12);
-// The direction is an angle in [0, pi) about the decoded normal: highlights stretch both ways.
-CONTRACT_CONST(uint, ANISOTROPY_ANGLE_BITS, 16);
-CONTRACT_CONST(uint, SHEEN_BITS, 8);  // of the roots of its colour, and of its roughness
-CONTRACT_CONST(uint, IRIDESCENCE_BITS, 8);
-// (ior - 1) / (ior + 1), 0 to 1; code 0: no film, so codes from 1 count.
-CONTRACT_CONST(uint, IRIDESCENCE_IOR_BITS, 9);
-// A half without its sign: 10 bits of mantissa from 2^-14 to 65504 nm.
-CONTRACT_CONST(uint, IRIDESCENCE_THICKNESS_BITS, 15);
-CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_BITS, 8);  // of the roots of its colour, and of its weight
+// FIELD_BITS, and FIELD_SHIFT, the lowest bit of fields after the first.
+#define DIPTYCH_ONE(word, n, a, a_bits)     \
+    CONTRACT_CONST(uint, a##_BITS, a_bits); \
+    CONTRACT_WORD(word, (n)*a##_BITS);
+#define DIPTYCH_NEXT(word, shift, field, bits)  \
+    CONTRACT_CONST(uint, field##_BITS, bits);   \
+    CONTRACT_CONST(uint, field##_SHIFT, shift); \
+    CONTRACT_WORD(word, field##_SHIFT + field##_BITS);
+#define DIPTYCH_TWO(word, n, a, a_bits, b, b_bits) \
+    DIPTYCH_ONE(word, n, a, a_bits)                \
+    DIPTYCH_NEXT(word, (n)*a##_BITS, b, b_bits)
+#define DIPTYCH_THREE(word, n, a, a_bits, b, b_bits, c, c_bits) \
+    DIPTYCH_TWO(word, n, a, a_bits, b, b_bits)                  \
+    DIPTYCH_NEXT(word, b##_SHIFT + b##_BITS, c, c_bits)
+GBUFFER_WORDS(DIPTYCH_ONE, DIPTYCH_TWO, DIPTYCH_THREE)
+#undef DIPTYCH_ONE
+#undef DIPTYCH_TWO
+#undef DIPTYCH_THREE
+#undef DIPTYCH_NEXT
 
-// Words of each layer by encoding; they follow each other in the order of LAYER_*.
-CONTRACT_CONST(uint, CLEARCOAT_WORDS, 2);
-CONTRACT_CONST(uint, ANISOTROPY_WORDS, 1);
-CONTRACT_CONST(uint, SHEEN_WORDS, 1);
-CONTRACT_CONST(uint, IRIDESCENCE_WORDS, 1);
-CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_WORDS, 1);
-CONTRACT_CONST(uint, CLEARCOAT_FULL_WORDS, 5);
-CONTRACT_CONST(uint, ANISOTROPY_FULL_WORDS, 3);
-CONTRACT_CONST(uint, SHEEN_FULL_WORDS, 4);
-CONTRACT_CONST(uint, IRIDESCENCE_FULL_WORDS, 3);
-CONTRACT_CONST(uint, DIFFUSE_TRANSMISSION_FULL_WORDS, 4);
-CONTRACT_CONST(uint, LAYER_WORDS, 20);  // of LAYERS to LAYERS_5
+#define DIPTYCH_LAYER(layer, packed, full)       \
+    CONTRACT_CONST(uint, layer##_WORDS, packed); \
+    CONTRACT_CONST(uint, layer##_FULL_WORDS, full);
+STORED_LAYERS(DIPTYCH_LAYER)
+#undef DIPTYCH_LAYER
+CONTRACT_CONST(uint, LAYER_WORDS, 4 * (GBUFFER_SHADED - GBUFFER_LAYERS));
 
-// Largest component of 9.9.9.e5: (511 / 512) * 2^16 (EXT_texture_shared_exponent).
-CONTRACT_CONST(float, EMISSION_MAX, 65408.0f);
-// Smallest value of the largest component that keeps all nine bits: 2^-15.
-CONTRACT_CONST(float, EMISSION_MIN, 3.0517578125e-5f);
+// An exponent's code 0 stands for 2^-EMISSION_BIAS.
+CONTRACT_CONST(uint, EMISSION_BIAS, (1u << (EMISSION_EXPONENT_BITS - 1u)) - 1u);
+// Largest component: (511 / 512) * 2^16 with 9 bits of mantissa and 5 of exponent.
+CONTRACT_CONST(float, EMISSION_MAX,
+               float((1u << EMISSION_MANTISSA_BITS) - 1u) / float(1u << EMISSION_MANTISSA_BITS) * 2.0f *
+                   float(1u << EMISSION_BIAS));
+// Smallest value of the largest component that keeps every bit of its mantissa, 2^-15.
+CONTRACT_CONST(float, EMISSION_MIN, 1.0f / float(1u << EMISSION_BIAS));
+// Bits of a thickness's exponent, as a half has.
+CONTRACT_CONST(uint, HALF_EXPONENT_BITS, 5);
 
 CONTRACT_END
 

@@ -4,7 +4,8 @@
 // in both languages; the build proves it from the compiled SPIR-V.
 // CONTRACT_LANE and CONTRACT_TEXELS declare, for structs that shaders read as texels, the texel and
 // component of a member and the number of texels; C++ asserts them. The macro beside them constructs the
-// struct in GLSL. Never define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES: it changes the offsets.
+// struct in GLSL. CONTRACT_WORD: C++ asserts that a word holds so many bits. Never define
+// GLM_FORCE_DEFAULT_ALIGNED_GENTYPES: it changes the offsets.
 #ifndef DIPTYCH_CONTRACT_TYPES_H
 #define DIPTYCH_CONTRACT_TYPES_H
 
@@ -41,6 +42,7 @@ constexpr bool beginsAt(std::size_t offset, std::size_t texel, std::size_t lane)
 #define CONTRACT_CONST(type, name, value) inline constexpr type name = value
 #define CONTRACT_LANE(type, member, texel, lane) static_assert(beginsAt(offsetof(type, member), texel, lane))
 #define CONTRACT_TEXELS(type, texels) static_assert(sizeof(type) == 16 * (texels))
+#define CONTRACT_WORD(word, bits) static_assert((bits) <= 32, "the word " #word " has more than 32 bits")
 
 #else
 
@@ -49,6 +51,7 @@ constexpr bool beginsAt(std::size_t offset, std::size_t texel, std::size_t lane)
 #define CONTRACT_CONST(type, name, value) const type name = value
 #define CONTRACT_LANE(type, member, texel, lane)
 #define CONTRACT_TEXELS(type, texels)
+#define CONTRACT_WORD(word, bits)
 
 #endif
 #endif

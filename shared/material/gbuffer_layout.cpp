@@ -21,7 +21,7 @@ gpu::uint geometricNormalBits(GBufferEncoding encoding) {
         case GBufferEncoding::full:
             return 0;
         case GBufferEncoding::standard:
-            return gpu::STANDARD_NORMAL_BITS;
+            return gpu::STANDARD_GEOMETRIC_NORMAL_BITS;
         case GBufferEncoding::compact:
             return gpu::COMPACT_GEOMETRIC_NORMAL_BITS;
     }
@@ -34,13 +34,9 @@ namespace {
 struct Words {
     gpu::uint layer, packed, full;
 };
-constexpr std::array layer_words{
-    Words{gpu::LAYER_CLEARCOAT, gpu::CLEARCOAT_WORDS, gpu::CLEARCOAT_FULL_WORDS},
-    Words{gpu::LAYER_ANISOTROPY, gpu::ANISOTROPY_WORDS, gpu::ANISOTROPY_FULL_WORDS},
-    Words{gpu::LAYER_SHEEN, gpu::SHEEN_WORDS, gpu::SHEEN_FULL_WORDS},
-    Words{gpu::LAYER_IRIDESCENCE, gpu::IRIDESCENCE_WORDS, gpu::IRIDESCENCE_FULL_WORDS},
-    Words{gpu::LAYER_DIFFUSE_TRANSMISSION, gpu::DIFFUSE_TRANSMISSION_WORDS,
-          gpu::DIFFUSE_TRANSMISSION_FULL_WORDS}};
+#define DIPTYCH_WORDS(layer, packed, full) Words{gpu::LAYER_##layer, packed, full},
+constexpr std::array layer_words{STORED_LAYERS(DIPTYCH_WORDS)};
+#undef DIPTYCH_WORDS
 
 constexpr gpu::uint layerWords(gpu::uint layers, bool full) {
     gpu::uint sum = 0;

@@ -45,7 +45,8 @@ public:
     }
     std::vector<reference::Hazed> run() {
         Probes probes;
-        const std::vector<float> out = probes.run("air", input_, airWidth, 6, {gpu::FEATURE_haze, feature_});
+        const std::vector<float> out =
+            probes.run("air", input_, airWidth, 6, {{gpu::FEATURE_haze, feature_}});
         std::vector<reference::Hazed> all;
         for (std::size_t i = 0; i < out.size(); i += 6)
             all.push_back({{double{out[i]}, double{out[i + 1]}, double{out[i + 2]}},

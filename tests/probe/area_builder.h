@@ -55,9 +55,9 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
 // {diffuse, specular} radiance of each row for a light of radiance 1.
 inline std::vector<std::array<double, 2>> shadeArea(Probes& probes, const std::vector<float>& input,
                                                     bool points = false, gpu::uint multiscatter = 0) {
-    const std::vector<float> out =
-        probes.run("area", input, areaWidth, 2, {gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0},
-                   {gpu::FEATURE_multiscatter, multiscatter});
+    const std::vector<float> out = probes.run("area", input, areaWidth, 2,
+                                              {{gpu::FEATURE_area_lights, points ? gpu::AREA_POINTS : 0},
+                                               {gpu::FEATURE_multiscatter, multiscatter}});
     std::vector<std::array<double, 2>> rows;
     for (std::size_t i = 0; i + 1 < out.size(); i += 2) rows.push_back({double{out[i]}, double{out[i + 1]}});
     return rows;

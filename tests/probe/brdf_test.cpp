@@ -254,7 +254,7 @@ TEST(Brdf, WhatPassesTheSurfaceIsNotDiffuse) {
         for (const double mu : {0.2, 0.9})
             push(input, direction(mu, 0), direction(0.6, 2), {.roughness = 0.4, .metallic = metallic});
     const std::vector<float> opaque = probes.run("brdf", input, 11, 2),
-                             glass = probes.run("brdf", input, 11, 2, {gpu::FEATURE_transmission, 1});
+                             glass = probes.run("brdf", input, 11, 2, {{gpu::FEATURE_transmission, 1}});
     for (std::size_t i = 0; i < opaque.size(); i += 2) {
         EXPECT_GT(opaque[i], 0.01) << i;
         EXPECT_FLOAT_EQ(glass[i], 0.75f * opaque[i]) << i;

@@ -355,9 +355,9 @@ RectTally rectangles(Probes& probes, bool orthographic, RectShrunk shrunk) {
             rows_input.push_back(static_cast<float>(row));
         }
     }
-    const std::array<gpu::uint, 2> feature{gpu::FEATURE_orthographic, orthographic ? 1u : 0u};
-    const std::vector<float> out = probes.run("light_rect", input, 12, 4, {feature[0], feature[1]});
-    const std::vector<float> row_out = probes.run("light_row", rows_input, 13, 2, {feature[0], feature[1]});
+    const std::pair<gpu::uint, gpu::uint> feature{gpu::FEATURE_orthographic, orthographic};
+    const std::vector<float> out = probes.run("light_rect", input, 12, 4, {feature});
+    const std::vector<float> row_out = probes.run("light_row", rows_input, 13, 2, {feature});
     RectTally tally;
     std::size_t row = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -64,7 +64,7 @@ std::vector<Received> received(const Cube& cube, const std::vector<std::pair<glm
     }
     const std::vector<float> out =
         Probes().run("local_face", in, 42, 5,
-                     {gpu::FEATURE_shadow_kernel, static_cast<std::uint32_t>(cube.request.kernel)});
+                     {{gpu::FEATURE_shadow_kernel, static_cast<std::uint32_t>(cube.request.kernel)}});
     std::vector<Received> result;
     for (std::size_t i = 0; i < out.size(); i += 5)
         result.push_back(

@@ -68,7 +68,7 @@ TEST(Multiscatter, IsTheReferences) {
     }
     for (const auto& [multiscatter, feature] : compensationKinds) {
         const std::vector<float> out =
-            probes.run("multiscatter", input, multiscatterWidth, 4, {gpu::FEATURE_multiscatter, feature});
+            probes.run("multiscatter", input, multiscatterWidth, 4, {{gpu::FEATURE_multiscatter, feature}});
         int changed = 0;
         for (std::size_t i = 0; i < rows; ++i) {
             const reference::Surface& s = surfaces[i];

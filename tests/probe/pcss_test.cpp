@@ -48,7 +48,7 @@ double seen(const Steep& of, const glm::dvec2& up) {
             in.push_back(static_cast<float>(value));
     double sum = 0;
     for (const float visibility :
-         Probes().run("pcss", in, 15, 1, {gpu::FEATURE_shadow_kernel, Steep::kernel}))
+         Probes().run("pcss", in, 15, 1, {{gpu::FEATURE_shadow_kernel, Steep::kernel}}))
         sum += double{visibility};
     return sum / (Steep::parts * Steep::parts);
 }

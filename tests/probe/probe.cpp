@@ -53,7 +53,7 @@ struct ProbeLayout {
 using Feature = std::pair<std::uint32_t, std::uint32_t>;
 
 OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::string& shader,
-                        const std::array<Feature, 2>& features) {
+                        const std::vector<Feature>& features) {
     const OwnedShaderModule module = probeModule(device, shader + ".comp");
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
@@ -61,11 +61,14 @@ OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::stri
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
-    const std::array values{features[0].second, features[1].second};
-    const std::array entries{VkSpecializationMapEntry{features[0].first, 0, sizeof values[0]},
-                             VkSpecializationMapEntry{features[1].first, sizeof values[0], sizeof values[1]}};
-    const std::uint32_t given = features[0].first == features[1].first ? 1 : 2;
-    const VkSpecializationInfo specialization{given, entries.data(), sizeof values, values.data()};
+    std::vector<VkSpecializationMapEntry> entries;
+    std::vector<std::uint32_t> values;
+    for (const auto& [id, value] : features) {
+        entries.push_back({id, static_cast<std::uint32_t>(values.size() * sizeof value), sizeof value});
+        values.push_back(value);
+    }
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                              values.size() * sizeof values[0], values.data()};
     info.stage.pSpecializationInfo = &specialization;
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
@@ -77,14 +80,14 @@ OwnedPipeline makeProbe(Device& device, VkPipelineLayout layout, const std::stri
 }  // namespace
 
 std::vector<float> Probes::run(const std::string& shader, const std::vector<float>& input,
-                               std::size_t inWidth, std::size_t outWidth, Feature feature, Feature other) {
+                               std::size_t inWidth, std::size_t outWidth,
+                               const std::vector<Feature>& features) {
     Device& device = probeDevice();
     const std::size_t rows = input.size() / inWidth;
     const auto count = static_cast<std::uint32_t>(rows);
     // Compiles each shader once for all tests.
     static const ProbeLayout layout(device);
-    static std::map<std::pair<std::string, std::array<Feature, 2>>, OwnedPipeline> pipelines;
-    const std::array features{feature, other};
+    static std::map<std::pair<std::string, std::vector<Feature>>, OwnedPipeline> pipelines;
     OwnedPipeline& pipeline = pipelines[{shader, features}];
     if (pipeline == VK_NULL_HANDLE) pipeline = makeProbe(device, layout.pipeline, shader, features);
 

@@ -17,17 +17,17 @@ class Device;
 // The device that all tests of this program share.
 Device& probeDevice();
 
-// A shader of tests/probe/shaders, by file name.
+// A shader of tests/probe/shaders, by file name; or by path, without ".spv".
 OwnedShaderModule probeModule(Device& device, const std::string& shader);
 
 class Probes {
 public:
-    // `shader`: file name without ".comp". `input`: rows of inWidth floats. Returns as many rows of
-    // outWidth floats. `feature`, `other`: specialization constants and their values
+    // `shader`: file name without ".comp"; or a path without ".comp.spv". `input`: rows of inWidth floats.
+    // Returns as many rows of outWidth floats. `features`: specialization constants and their values
     // (shared/contract/features.h); all others are 0.
     std::vector<float> run(const std::string& shader, const std::vector<float>& input, std::size_t inWidth,
-                           std::size_t outWidth, std::pair<std::uint32_t, std::uint32_t> feature = {},
-                           std::pair<std::uint32_t, std::uint32_t> other = {});
+                           std::size_t outWidth,
+                           const std::vector<std::pair<std::uint32_t, std::uint32_t>>& features = {});
 
     Device& device() { return probeDevice(); }
 };

@@ -127,7 +127,7 @@ TEST(DiffuseTransmissionProbe, IsTheReferences) {
                 {i % 5 == 0 ? 0 : unit(random), unit(random), unit(random), i % 3 == 0 ? 0 : unit(random),
                  0.5 * unit(random), unit(random)});
     }
-    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, leafy);
+    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, {leafy});
     std::size_t passing = 0;
     for (std::size_t i = 0; i < rows; ++i) {
         const reference::Surface s = leafAt(input, i);
@@ -154,7 +154,7 @@ TEST(DiffuseTransmissionProbe, IsLambertsLawBehind) {
     std::vector<float> input;
     for (const double angle : {0.0, 0.7, edge_on_angle})
         addLeaf(input, {0, 0, 1}, -tilted(angle, 1), {0, 0, 1}, {0.75, 0.5, 1, 0, 0, 0});
-    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, leafy);
+    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, {leafy});
     for (std::size_t i = 0; i < 3; ++i) {
         const double cosine = -double{input[i * leaf_width + 5]};
         EXPECT_NEAR(double{out[3 * i + 1]}, 0.75 * 0.5 / std::numbers::pi * cosine, 1e-7);
@@ -176,7 +176,7 @@ TEST(DiffuseTransmissionProbe, IsReciprocal) {
         addLeaf(input, v, l, n, {weight, 0.8, 1, 0.25, f0, 1});
         addLeaf(input, l, v, -n, {weight, 0.8, 1, 0.25, f0, 1});
     }
-    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, leafy);
+    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, {leafy});
     for (std::size_t i = 0; i < pairs; ++i) {
         const double n_dot_l = -double{input[2 * i * leaf_width + 5]},
                      n_dot_v = double{input[2 * i * leaf_width + 2]};

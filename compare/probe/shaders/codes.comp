@@ -36,9 +36,9 @@ void main() {
     } else if (probed < ROOT) {
         out1(0, unpackUnorm(uint(in1(0)), 0, probed - UNORM_UNPACK));
     } else if (probed == ROOT) {
-        out1(0, float(packSqrt(vec3(0.0, in1(0), 0.0), 1.0) >> 8 & 255u));
+        out1(0, float(packSqrt(vec3(0.0, in1(0), 0.0), ALBEDO_BITS) >> ALBEDO_BITS));
     } else if (probed == ROOT_BACK) {
-        out1(0, unpackSqrt(uint(in1(0)) << 8).g);
+        out1(0, unpackSqrt(uint(in1(0)) << ALBEDO_BITS, ALBEDO_BITS).g);
     } else {
         out3(0, unpackSharedExponent(packSharedExponent(in3(0))));
     }

@@ -23,7 +23,7 @@ vec3 decodedNormal(const uint word) {
 // Both paths quantise the geometric normal equally, because shadow bias offsets along it.
 vec3 quantiseGeometricNormal(const vec3 n) {
     if (fullGBuffer() || !needsGeometricNormal()) return n;
-    uint bits = compactGBuffer() ? COMPACT_GEOMETRIC_NORMAL_BITS : STANDARD_NORMAL_BITS;
+    uint bits = compactGBuffer() ? COMPACT_GEOMETRIC_NORMAL_BITS : STANDARD_GEOMETRIC_NORMAL_BITS;
     return decodeOctahedral(encodeOctahedral(n, bits), bits);
 }
 
@@ -56,19 +56,14 @@ uint wordsOf(const uint layer, const uint packed_words, const uint full_words) {
     return !storesLayer(layer) ? 0u : fullGBuffer() ? full_words : packed_words;
 }
 
+#define WORDS_OF(layer) wordsOf(LAYER_##layer, layer##_WORDS, layer##_FULL_WORDS)
+
 // First word of a layer in LAYERS to LAYERS_5.
-uint anisotropyWord() { return wordsOf(LAYER_CLEARCOAT, CLEARCOAT_WORDS, CLEARCOAT_FULL_WORDS); }
-uint sheenWord() {
-    return anisotropyWord() + wordsOf(LAYER_ANISOTROPY, ANISOTROPY_WORDS, ANISOTROPY_FULL_WORDS);
-}
-uint iridescenceWord() { return sheenWord() + wordsOf(LAYER_SHEEN, SHEEN_WORDS, SHEEN_FULL_WORDS); }
-uint diffuseTransmissionWord() {
-    return iridescenceWord() + wordsOf(LAYER_IRIDESCENCE, IRIDESCENCE_WORDS, IRIDESCENCE_FULL_WORDS);
-}
-uint layerWords() {
-    return diffuseTransmissionWord() + wordsOf(LAYER_DIFFUSE_TRANSMISSION, DIFFUSE_TRANSMISSION_WORDS,
-                                               DIFFUSE_TRANSMISSION_FULL_WORDS);
-}
+uint anisotropyWord() { return WORDS_OF(CLEARCOAT); }
+uint sheenWord() { return anisotropyWord() + WORDS_OF(ANISOTROPY); }
+uint iridescenceWord() { return sheenWord() + WORDS_OF(SHEEN); }
+uint diffuseTransmissionWord() { return iridescenceWord() + WORDS_OF(IRIDESCENCE); }
+uint layerWords() { return diffuseTransmissionWord() + WORDS_OF(DIFFUSE_TRANSMISSION); }
 // Whether there is the attachment LAYERS + i.
 bool hasLayerAttachment(const uint i) { return layerWords() > 4u * i; }
 // Number of layer attachments that the first pass has room for; a second pass draws the others.
@@ -82,22 +77,21 @@ uint layersInFirstPass() {
     return MAX_COLOR_ATTACHMENTS - others;
 }
 
-const uint LAYER_IS_THERE = 1u << 28;
+const uint HAS_CLEARCOAT = 1u << CLEARCOAT_THERE_SHIFT, HAS_ANISOTROPY = 1u << ANISOTROPY_THERE_SHIFT;
 
 // Two words: the normal, and the other values.
 uvec2 encodeClearcoat(const Surface s) {
     if (!(s.clearcoat > 0.0)) return uvec2(0);
     return uvec2(encodeOctahedral(s.clearcoat_normal, CLEARCOAT_NORMAL_BITS),
                  packUnorm(s.clearcoat, CLEARCOAT_BITS) |
-                     (packUnorm(s.clearcoat_roughness, CLEARCOAT_ROUGHNESS_BITS) << CLEARCOAT_BITS) |
-                     LAYER_IS_THERE);
+                     PACKED(s.clearcoat_roughness, CLEARCOAT_ROUGHNESS) | HAS_CLEARCOAT);
 }
 
 void decodeClearcoat(const uvec2 words, inout Surface s) {
-    if ((words.y & LAYER_IS_THERE) == 0u) return;
+    if ((words.y & HAS_CLEARCOAT) == 0u) return;
     s.clearcoat_normal = decodeOctahedral(words.x, CLEARCOAT_NORMAL_BITS);
     s.clearcoat = unpackUnorm(words.y, 0, CLEARCOAT_BITS);
-    s.clearcoat_roughness = unpackUnorm(words.y, CLEARCOAT_BITS, CLEARCOAT_ROUGHNESS_BITS);
+    s.clearcoat_roughness = UNPACKED(words.y, CLEARCOAT_ROUGHNESS);
 }
 
 // `n`: the decoded normal, about which the direction will be turned.
@@ -107,33 +101,41 @@ uint encodeAnisotropy(const Surface s, const vec3 n) {
     float angle = angleOf(turn.y < 0.0 ? -turn.x : turn.x, abs(turn.y));
     float steps = float(1u << ANISOTROPY_ANGLE_BITS);
     uint code = uint(floor(angle * (INVERSE_PI * steps) + 0.5)) & ((1u << ANISOTROPY_ANGLE_BITS) - 1u);
-    return packUnorm(s.anisotropy, ANISOTROPY_BITS) | (code << ANISOTROPY_BITS) | LAYER_IS_THERE;
+    return packUnorm(s.anisotropy, ANISOTROPY_BITS) | (code << ANISOTROPY_ANGLE_SHIFT) | HAS_ANISOTROPY;
 }
 
 void decodeAnisotropy(const uint word, inout Surface s) {
-    if ((word & LAYER_IS_THERE) == 0u) return;
-    uint code = bitfieldExtract(word, int(ANISOTROPY_BITS), int(ANISOTROPY_ANGLE_BITS));
+    if ((word & HAS_ANISOTROPY) == 0u) return;
+    uint code = bitfieldExtract(word, int(ANISOTROPY_ANGLE_SHIFT), int(ANISOTROPY_ANGLE_BITS));
     float angle = float(code) * (PI / float(1u << ANISOTROPY_ANGLE_BITS));
     s.anisotropy = unpackUnorm(word, 0, ANISOTROPY_BITS);
     s.anisotropy_turn = vec2(cos(angle), sin(angle));
 }
 
 // Fields of one word. A surface without a sheen has the word 0.
-uint encodeSheen(const Surface s) { return packSqrt(s.sheen_color, s.sheen_roughness); }
+uint encodeSheen(const Surface s) {
+    return packSqrt(s.sheen_color, SHEEN_COLOR_BITS) | PACKED(s.sheen_roughness, SHEEN_ROUGHNESS);
+}
 
 void decodeSheen(const uint word, inout Surface s) {
-    s.sheen_color = unpackSqrt(word);
-    s.sheen_roughness = unpackUnorm(word, 24, SHEEN_BITS);
+    s.sheen_color = unpackSqrt(word, SHEEN_COLOR_BITS);
+    s.sheen_roughness = UNPACKED(word, SHEEN_ROUGHNESS);
 }
+
+const uint HALF_MANTISSA_BITS = IRIDESCENCE_THICKNESS_BITS - HALF_EXPONENT_BITS;
+const uint HALF_CUT = 23u - HALF_MANTISSA_BITS;                    // bits of a float's mantissa that it lacks
+const float HALF_STEPS = float(1u << (14u + HALF_MANTISSA_BITS));  // the smallest is 1 / HALF_STEPS
 
 // The nearest half to x in [0, 65504], ties to even.
 uint halfOf(const float x) {
     uint bits = floatBitsToUint(x);
-    uint normal = (bits - (112u << 23) + 0xfffu + (bits >> 13 & 1u)) >> 13;
-    return x < 6.103515625e-5 ? uint(x * 16777216.0 + 0.5) : normal;
+    uint rounding = (1u << (HALF_CUT - 1u)) - 1u;
+    uint normal = (bits - (112u << 23) + rounding + (bits >> HALF_CUT & 1u)) >> HALF_CUT;
+    return x < 6.103515625e-5 ? uint(x * HALF_STEPS + 0.5) : normal;
 }
 float fromHalf(const uint code) {
-    return code < 1024u ? float(code) * 5.9604644775390625e-8 : uintBitsToFloat((code << 13) + (112u << 23));
+    return code < 1u << HALF_MANTISSA_BITS ? float(code) * (1.0 / HALF_STEPS)
+                                           : uintBitsToFloat((code << HALF_CUT) + (112u << 23));
 }
 
 const float IRIDESCENCE_IOR_STEPS = float((1u << IRIDESCENCE_IOR_BITS) - 2u);
@@ -143,27 +145,28 @@ uint encodeIridescence(const Surface s) {
     if (!(s.iridescence_ior > 0.0)) return 0u;
     float x = (s.iridescence_ior - 1.0) / (s.iridescence_ior + 1.0);
     uint ior = 1u + uint(clamp(x, 0.0, 1.0) * IRIDESCENCE_IOR_STEPS + 0.5);
-    return packUnorm(s.iridescence, IRIDESCENCE_BITS) | (ior << IRIDESCENCE_BITS) |
-           (halfOf(s.iridescence_thickness) << (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
+    return packUnorm(s.iridescence, IRIDESCENCE_BITS) | (ior << IRIDESCENCE_IOR_SHIFT) |
+           (halfOf(s.iridescence_thickness) << IRIDESCENCE_THICKNESS_SHIFT);
 }
 
 void decodeIridescence(const uint word, inout Surface s) {
-    uint ior = bitfieldExtract(word, int(IRIDESCENCE_BITS), int(IRIDESCENCE_IOR_BITS));
+    uint ior = bitfieldExtract(word, int(IRIDESCENCE_IOR_SHIFT), int(IRIDESCENCE_IOR_BITS));
     if (ior == 0u) return;
     float x = min(float(ior - 1u) / IRIDESCENCE_IOR_STEPS, 0.9999);
     s.iridescence = unpackUnorm(word, 0, IRIDESCENCE_BITS);
     s.iridescence_ior = (1.0 + x) / (1.0 - x);
-    s.iridescence_thickness = fromHalf(word >> (IRIDESCENCE_BITS + IRIDESCENCE_IOR_BITS));
+    s.iridescence_thickness = fromHalf(word >> IRIDESCENCE_THICKNESS_SHIFT);
 }
 
 // Fields of one word. A surface without diffuse transmission has the word 0.
 uint encodeDiffuseTransmission(const Surface s) {
-    return packSqrt(s.diffuse_transmission_color, s.diffuse_transmission);
+    return packSqrt(s.diffuse_transmission_color, DIFFUSE_TRANSMISSION_COLOR_BITS) |
+           PACKED(s.diffuse_transmission, DIFFUSE_TRANSMISSION);
 }
 
 void decodeDiffuseTransmission(const uint word, inout Surface s) {
-    s.diffuse_transmission_color = unpackSqrt(word);
-    s.diffuse_transmission = unpackUnorm(word, 24, DIFFUSE_TRANSMISSION_BITS);
+    s.diffuse_transmission_color = unpackSqrt(word, DIFFUSE_TRANSMISSION_COLOR_BITS);
+    s.diffuse_transmission = UNPACKED(word, DIFFUSE_TRANSMISSION);
 }
 
 // Layers as words; the last are unused.
@@ -275,26 +278,28 @@ GBufferTexel encodeGBuffer(const Surface s) {
         if (on(feature_gbuffer_layers)) writeLayers(encodeLayers(s, s.normal), t);
         return t;
     }
-    t.attachments[GBUFFER_ALBEDO].x = packSqrt(s.albedo, s.occlusion);
+    t.attachments[GBUFFER_ALBEDO].x = packSqrt(s.albedo, ALBEDO_BITS) | PACKED(s.occlusion, OCCLUSION);
     if (compactGBuffer()) {
-        t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, COMPACT_NORMAL_BITS) |
-                                           (packUnorm(s.roughness, COMPACT_ROUGHNESS_BITS) << 24);
+        t.attachments[GBUFFER_NORMALS].x =
+            encodeOctahedral(s.normal, COMPACT_NORMAL_BITS) | PACKED(s.roughness, COMPACT_ROUGHNESS);
         t.attachments[GBUFFER_PARAMS].x =
-            (packUnorm(s.metallic, COMPACT_METALLIC_BITS) << 16) | (s.material_id << 22);
+            PACKED(s.metallic, COMPACT_METALLIC) | (s.material_id << COMPACT_ID_SHIFT);
         if (needsGeometricNormal())
             t.attachments[GBUFFER_PARAMS].x |=
                 encodeOctahedral(s.geometric_normal, COMPACT_GEOMETRIC_NORMAL_BITS);
     } else {
         t.attachments[GBUFFER_NORMALS].x = encodeOctahedral(s.normal, STANDARD_NORMAL_BITS);
         if (needsGeometricNormal())
-            t.attachments[GBUFFER_NORMALS].y = encodeOctahedral(s.geometric_normal, STANDARD_NORMAL_BITS);
+            t.attachments[GBUFFER_NORMALS].y =
+                encodeOctahedral(s.geometric_normal, STANDARD_GEOMETRIC_NORMAL_BITS);
         t.attachments[GBUFFER_PARAMS].x = packUnorm(s.roughness, STANDARD_ROUGHNESS_BITS) |
-                                          (packUnorm(s.metallic, STANDARD_METALLIC_BITS) << 12) |
-                                          (s.material_id << 20);
+                                          PACKED(s.metallic, STANDARD_METALLIC) |
+                                          (s.material_id << STANDARD_ID_SHIFT);
     }
     t.attachments[GBUFFER_EMISSION] = encodeRadiance(s.emission, on(feature_gbuffer_wide_emission));
     t.attachments[GBUFFER_LIGHTMAP] = encodeLightmap(s, on(feature_gbuffer_wide_lightmap));
-    t.attachments[GBUFFER_SPECULAR].x = packSqrt(s.dielectric_f0, s.dielectric_f90);
+    t.attachments[GBUFFER_SPECULAR].x =
+        packSqrt(s.dielectric_f0, SPECULAR_BITS) | PACKED(s.dielectric_f90, SPECULAR_F90);
     t.attachments[GBUFFER_IDS].x = s.material_id;
     if (on(feature_gbuffer_layers))
         writeLayers(encodeLayers(s, decodedNormal(t.attachments[GBUFFER_NORMALS].x)), t);
@@ -321,19 +326,20 @@ void decodePacked(const GBufferTexel t, inout Surface s) {
     uint albedo = t.attachments[GBUFFER_ALBEDO].x;
     uint normals = t.attachments[GBUFFER_NORMALS].x;
     uint params = t.attachments[GBUFFER_PARAMS].x;
-    s.albedo = unpackSqrt(albedo);
-    s.occlusion = unpackUnorm(albedo, 24, OCCLUSION_BITS);
+    s.albedo = unpackSqrt(albedo, ALBEDO_BITS);
+    s.occlusion = UNPACKED(albedo, OCCLUSION);
     s.normal = decodedNormal(normals);
     if (compactGBuffer()) {
-        s.roughness = unpackUnorm(normals, 24, COMPACT_ROUGHNESS_BITS);
+        s.roughness = UNPACKED(normals, COMPACT_ROUGHNESS);
         s.geometric_normal = decodeOctahedral(params, COMPACT_GEOMETRIC_NORMAL_BITS);
-        s.metallic = unpackUnorm(params, 16, COMPACT_METALLIC_BITS);
-        s.material_id = params >> 22;
+        s.metallic = UNPACKED(params, COMPACT_METALLIC);
+        s.material_id = params >> COMPACT_ID_SHIFT;
     } else {
-        s.geometric_normal = decodeOctahedral(t.attachments[GBUFFER_NORMALS].y, STANDARD_NORMAL_BITS);
+        s.geometric_normal =
+            decodeOctahedral(t.attachments[GBUFFER_NORMALS].y, STANDARD_GEOMETRIC_NORMAL_BITS);
         s.roughness = unpackUnorm(params, 0, STANDARD_ROUGHNESS_BITS);
-        s.metallic = unpackUnorm(params, 12, STANDARD_METALLIC_BITS);
-        s.material_id = params >> 20;
+        s.metallic = UNPACKED(params, STANDARD_METALLIC);
+        s.material_id = params >> STANDARD_ID_SHIFT;
     }
     if (on(feature_gbuffer_wide_material_id)) s.material_id = t.attachments[GBUFFER_IDS].x;
     if (on(feature_emission))
@@ -342,8 +348,8 @@ void decodePacked(const GBufferTexel t, inout Surface s) {
         decodeLightmap(t.attachments[GBUFFER_LIGHTMAP], on(feature_gbuffer_wide_lightmap), s);
     if (on(feature_dielectric_specular)) {
         uint specular = t.attachments[GBUFFER_SPECULAR].x;
-        s.dielectric_f0 = unpackSqrt(specular);
-        s.dielectric_f90 = unpackUnorm(specular, 24, SPECULAR_BITS);
+        s.dielectric_f0 = unpackSqrt(specular, SPECULAR_BITS);
+        s.dielectric_f90 = UNPACKED(specular, SPECULAR_F90);
     }
 }
 

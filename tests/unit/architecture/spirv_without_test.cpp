@@ -5,7 +5,7 @@
 #include "shared/contract/features.h"
 #include "shared/vulkan/spirv.h"
 #include "tests/support/campaign.h"
-#include "tests/support/files.h"
+#include "tests/support/shader_sources.h"
 #include "tests/support/spirv_module.h"
 #include "tests/support/spirv_text.h"
 #include "tests/support/spirv_tools.h"
@@ -102,44 +102,17 @@ const ShaderModule& moduleNamed(std::string_view name) {
     throw std::runtime_error(fmt::format("no module {}", name));
 }
 
-// Copies all files that shaders include to `root`/shaders and `root`/shared/contract and makes the cuts.
+// Copies the sources to `root` and makes the cuts.
 void copyWithout(const Without& without, const fs::path& root) {
-    const fs::path from = DIPTYCH_SOURCE_DIR;
-    for (const char* each : {"shaders/lib", "shaders/pass", "shared/contract"}) {
-        fs::create_directories(root / each);
-        fs::copy(from / each, root / each, fs::copy_options::recursive);
-    }
+    copyShaderSources(root);
     std::vector<Cut> cuts = without.cuts;
-    const std::string list = contentsOf(from / "shared/contract/features.h");
+    const std::string list = contentsOf(root / "shared/contract/features.h");
     const std::size_t row = list.find(fmt::format("    X({},", without.id)), end = list.find('\n', row);
     ASSERT_NE(row, std::string::npos);
     std::string line = list.substr(row, end + 1 - row), kept;
     if (!line.ends_with("\\\n")) kept = "\n";  // the list's last row ends the macro
     cuts.push_back({"shared/contract/features.h", line, kept});
-    for (const Cut& cut : cuts) {
-        std::string text = contentsOf(root / cut.file);
-        const std::size_t at = text.find(cut.old);
-        ASSERT_NE(at, std::string::npos) << cut.file << " no longer has\n" << cut.old;
-        ASSERT_EQ(text.find(cut.old, at + 1), std::string::npos) << cut.file << " has twice\n" << cut.old;
-        text.replace(at, cut.old.size(), cut.put);
-        std::ofstream(root / cut.file, std::ios::binary) << text;
-    }
-}
-
-void run(const std::string& command) {
-    ASSERT_EQ(std::system((command + " >&2").c_str()), 0) << command;
-}
-
-// The build's commands.
-void compile(const fs::path& root, std::string_view name, const fs::path& out) {
-    run(fmt::format("'{}' -V --quiet --target-env vulkan1.3 '-I{}' -DSTAGE_{} '{}' -o '{}'", DIPTYCH_GLSLANG,
-                    root.string(), name.substr(name.find('.') + 1), (root / "shaders/pass" / name).string(),
-                    out.string()));
-}
-void optimise(const fs::path& out) {
-    run(fmt::format("'{}' '{}'", DIPTYCH_EXACT_SPIRV, out.string()));
-    run(fmt::format("'{0}' {1} --scalar-block-layout '{2}' -o '{2}'", DIPTYCH_SPIRV_OPT, DIPTYCH_SPIRV_PASSES,
-                    out.string()));
+    for (const Cut& cut : cuts) replaceIn(root / cut.file, cut.old, cut.put);
 }
 
 using Values = std::map<std::uint32_t, std::uint32_t>;  // of specialization constants, otherwise 0
@@ -191,10 +164,11 @@ TEST_P(SpirvWithout, IsTheModuleOfSourcesWithoutIt) {
     copyWithout(without, root);
     if (HasFatalFailure()) return;
     if (isCampaign()) std::ranges::move(without.alike, std::back_inserter(without.modules));
-    for (const std::string_view name : without.alike) compile(root, name, file);
+    for (const std::string_view name : without.alike)
+        compileShader(root, fmt::format("shaders/pass/{}", name), file);
     for (const std::string_view name : without.modules) {
-        compile(root, name, file);
-        optimise(file);
+        compileShader(root, fmt::format("shaders/pass/{}", name), file);
+        optimiseShader(file);
         if (HasFatalFailure()) return;
         const std::span<const std::uint32_t> with = moduleNamed(name).words;
         const std::string bytes = contentsOf(file);
