@@ -260,4 +260,38 @@ Command compareCommand() {
         describeCompare, resolveCompare, runCompare);
 }
 
+std::vector<std::string> wordsOfWhatCounts(const CompareLine& options) {
+    WordList words;
+    words.add("--tolerances", options.tolerances.string());
+    words.add("--baseline", options.baseline_file.string());
+    words.add("--against-device", options.against_device);
+    if (!options.against_device.empty()) words.add("--device", options.device);
+    const std::vector<std::string> sides = wordsOf(options.sides);
+    words.words.insert(words.words.end(), sides.begin(), sides.end());
+    words.add(options.selection);
+    words.add("--allow-noise", options.allow_noise);
+    words.add("--strict", options.strict);
+    words.add("--allow-empty", options.allow_empty);
+    return words.words;
+}
+
+CompareOptions compareOptions(const CompareLine& options) {
+    CompareOptions compare;
+    compare.baseline = options.baseline;
+    compare.selection = options.selection;
+    compare.allow_noise = options.allow_noise;
+    compare.strict = options.strict;
+    compare.allow_empty = options.allow_empty;
+    compare.required = options.channels;
+    compare.words = wordsOfWhatCounts(options);
+    compare.light_differs = lightDifferences(options.sides.of(options.settings, drawn_paths[0]),
+                                             options.sides.of(options.settings, drawn_paths[1]));
+    if (options.tolerances.empty()) return compare;
+    compare.rules = readRules(options.tolerances);
+    std::vector<std::string> known;
+    for (const DebugMode& mode : debugModes()) known.emplace_back(mode.name);
+    checkChannels(compare.rules, known);
+    return compare;
+}
+
 }  // namespace diptych::cli

@@ -36,6 +36,13 @@ void resolveCompare(CompareLine& options);
 
 int runPixel(const CompareLine& options);  // --pixel
 
+// Words of options that influence the verdict, without scene, camera and Settings.
+std::vector<std::string> wordsOfWhatCounts(const CompareLine& options);
+
+// Options of `compare` that influence a verdict. Reads the rules; throws std::runtime_error, one line, if
+// they are invalid or name an unknown channel.
+CompareOptions compareOptions(const CompareLine& options);
+
 experiment::Compared comparedOf(const CompareLine& options);
 ExplanationQuestion explanationOf(const CompareLine& options);
 // Whether the baseline is a reference in mode scene, rendered now or read from a file.

@@ -279,8 +279,8 @@ int runExplain(const ExplainLine& options) {
         refuse("--camera {}: explain takes one view; run it once for each", options.cameras[1]);
     if (isReference(options.baseline) || !options.baseline_file.empty())
         refuse(
-            "--baseline reference or FILE.exr: explain works with the two rendered paths; use deferred or "
-            "forward_plus");
+            "--baseline reference or FILE.exr: explain works with the two rendered paths; use "
+            "deferred or forward_plus");
     if (std::ranges::none_of(options.scenes, isExr)) return explainScene(options);
     if (options.scenes.size() != 2 || !std::ranges::all_of(options.scenes, isExr))
         refuse("{}: explain takes one scene or two EXR files", options.scenes.front());

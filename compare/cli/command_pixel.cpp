@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_compare.h"
-#include "compare/cli/verdict_words.h"
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/output/writers.h"
 #include "shared/text/json_text.h"
@@ -21,8 +20,8 @@ void checkOnePixel(const CompareLine& options) {
         refuse("{}: takes one view; give one --camera and one --time, or run it once for each", pixel);
     if (isReference(options.baseline) || !options.baseline_file.empty())
         refuse(
-            "--baseline {}: {} compares the two paths and shows the reference beside them; use deferred or "
-            "forward_plus",
+            "--baseline {}: {} compares the two paths and shows the reference beside them; use "
+            "deferred or forward_plus",
             options.baseline_file.empty() ? "reference" : options.baseline_file.string(), pixel);
     const Size& size = options.settings.size;
     if (x >= size.width || y >= size.height)

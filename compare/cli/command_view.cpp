@@ -4,7 +4,6 @@
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
-#include "compare/cli/verdict_words.h"
 #include "compare/files/our_files.h"
 #include "compare/viewer/keys.h"
 #include "compare/viewer/viewer.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_compare.h"
 #include "compare/cli/scene_items.h"
-#include "compare/cli/verdict_words.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/shards/collection.h"

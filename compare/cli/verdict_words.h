@@ -2,12 +2,13 @@
 // Words of options that influence a verdict (rules, pixels, metric), without scene, camera and Settings.
 #pragma once
 
-#include "compare/cli/command_compare.h"
-#include "compare/verdict/comparison.h"
+#include "compare/verdict/selection.h"
 
 #include <fmt/format.h>
 
-#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace diptych::cli {
 
@@ -31,11 +32,5 @@ public:
 private:
     void put(const char* option, const std::string& value);
 };
-
-std::vector<std::string> wordsOfWhatCounts(const CompareLine& options);
-
-// Options of `compare` that influence a verdict. Reads the rules; throws std::runtime_error, one line, if
-// they are invalid or name an unknown channel.
-CompareOptions compareOptions(const CompareLine& options);
 
 }  // namespace diptych::cli

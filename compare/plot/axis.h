@@ -2,7 +2,7 @@
 // Maps values to positions, and names some of them. Lengths are in the drawing's own units.
 #pragma once
 
-#include "compare/plot/plot.h"
+#include "compare/plot/plot_axis.h"
 
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 // data; colours, marks, dashes, ticks, labels and the legend are the same in all plots.
 #pragma once
 
+#include "compare/plot/plot_axis.h"
 #include "shared/frame/setting_values.h"
 
 #include <cstddef>
@@ -22,15 +23,6 @@ enum class PlotPlace { file, page };
 // Nothing if both are equal.
 struct PlotRange {
     double low = 0, high = 0;
-};
-
-// On a logarithmic axis, points at 0 and below have a lane of their own before the axis; on every axis,
-// infinite values and NaN have one behind it.
-struct PlotAxis {
-    std::string name{};
-    bool logarithmic = true;
-    std::vector<double> shown{};        // visible besides all points and bars
-    std::vector<std::string> places{};  // names of 0, 1, ... at even distances instead; upwards, 0 is on top
 };
 
 struct PlotPoint {

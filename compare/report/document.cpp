@@ -4,7 +4,6 @@
 
 #include "compare/output/writers.h"
 #include "compare/page/page.h"
-#include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "compare/report/trends.h"
 
@@ -12,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <set>
 
 namespace diptych {
 
@@ -139,23 +137,6 @@ std::vector<Text> textsIn(const std::vector<std::string>& lines) {
     return {lines.begin(), lines.end()};
 }
 
-// Each note once, with its scenes if there are several: "a.glb, b.glb, with different numbers".
-std::vector<std::pair<std::string, std::string>> notesWithScenes(const Report& report,
-                                                                 const std::string& folder) {
-    std::set<std::string> all;
-    for (const Comparison& comparison : report.comparisons) all.insert(report.baseline(comparison).scene);
-    std::vector<std::pair<std::string, std::string>> notes;
-    for (const GroupedNote& note : groupedNotes(report)) {
-        std::vector<std::string> names;
-        for (const std::string& scene : note.scenes) names.push_back(inFolder(scene, folder));
-        std::string about;
-        if (all.size() > 1)
-            about = names.size() == all.size() ? fmt::format("{} scenes", all.size()) : listed(names, 3);
-        notes.emplace_back(about + (note.varies ? ", with different numbers" : ""), note.text);
-    }
-    return notes;
-}
-
 // The keys and gestures that compare/page/gestures.js handles.
 constexpr const char* legend =
     "<details class=\"keys box\"><summary>Keys and gestures</summary><dl><dt><kbd>1</kbd> "
@@ -261,25 +242,6 @@ std::string sectionScript(const Report& report, const ReportLayout& layout, std:
     return fmt::format(
         "diptychSection({},{});\n", layout.part ? Json(layout.sections[index]).dump() : layout.ids[index],
         Json(sectionHtml(report, layout, index)).dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-std::string tableEnd(const Report& report) {
-    std::string out;
-    for (const SceneError& failure : report.failures) out += fmt::format("FAIL {}\n", errorText(failure));
-    for (const SceneError& error : report.errors) out += fmt::format("ERROR {}\n", errorText(error));
-    for (const auto& [about, note] : notesWithScenes(report, ""))
-        out += fmt::format("note{}{}: {}\n", about.empty() || about[0] == ',' ? "" : ", ", about, note);
-    return out + verdictLine(report) + "\n";
-}
-
-std::string reportTable(const Report& report) {
-    std::string out;
-    for (const std::string& line : report.first_notes) out += line + "\n";
-    for (std::size_t i = 0; i < report.comparisons.size(); ++i)
-        out += inText(comparisonBlocks(report, nullptr, i));
-    for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
-        out += inText(closerPathBlocks(report, nullptr, i, report.closer_paths.size() > 1));
-    return out + tableEnd(report);
 }
 
 }  // namespace diptych

@@ -4,11 +4,15 @@
 #include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/files/output_folder.h"
+#include "compare/output/writers.h"
 #include "compare/report/document.h"
 #include "compare/report/encoder.h"
 #include "compare/report/json.h"
 #include "compare/report/layout.h"
+#include "compare/report/titles.h"
 #include "shared/image/atomic_file.h"
+
+#include <fmt/format.h>
 
 #include <chrono>
 
@@ -46,6 +50,25 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     writeFile(folder / "index.html", reportHtml(report, layout, texts));
     folder.put(layout.files(), earlier);
     return json;
+}
+
+std::string tableEnd(const Report& report) {
+    std::string out;
+    for (const SceneError& failure : report.failures) out += fmt::format("FAIL {}\n", errorText(failure));
+    for (const SceneError& error : report.errors) out += fmt::format("ERROR {}\n", errorText(error));
+    for (const auto& [about, note] : notesWithScenes(report, ""))
+        out += fmt::format("note{}{}: {}\n", about.empty() || about[0] == ',' ? "" : ", ", about, note);
+    return out + verdictLine(report) + "\n";
+}
+
+std::string reportTable(const Report& report) {
+    std::string out;
+    for (const std::string& line : report.first_notes) out += line + "\n";
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i)
+        out += inText(comparisonBlocks(report, nullptr, i));
+    for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
+        out += inText(closerPathBlocks(report, nullptr, i, report.closer_paths.size() > 1));
+    return out + tableEnd(report);
 }
 
 }  // namespace diptych

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace diptych {
 bool hasMultiplePairs(const Report& report) {
@@ -244,6 +245,22 @@ std::string verdictLine(const Report& report) {
         others.size() > 1 ? fmt::format(", and {} more", others.size() - 1) : std::string();
     return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({}){}", errors, failing, all,
                        listed(places, scenesNamed), what, more);
+}
+
+std::vector<std::pair<std::string, std::string>> notesWithScenes(const Report& report,
+                                                                 const std::string& folder) {
+    std::set<std::string> all;
+    for (const Comparison& comparison : report.comparisons) all.insert(report.baseline(comparison).scene);
+    std::vector<std::pair<std::string, std::string>> notes;
+    for (const GroupedNote& note : groupedNotes(report)) {
+        std::vector<std::string> names;
+        for (const std::string& scene : note.scenes) names.push_back(page::inFolder(scene, folder));
+        std::string about;
+        if (all.size() > 1)
+            about = names.size() == all.size() ? fmt::format("{} scenes", all.size()) : listed(names, 3);
+        notes.emplace_back(about + (note.varies ? ", with different numbers" : ""), note.text);
+    }
+    return notes;
 }
 
 }  // namespace diptych

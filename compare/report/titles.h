@@ -68,5 +68,9 @@ std::string listed(const std::vector<std::string>& names, std::size_t most);
 // of 26 comparisons failed: Box.glb, ... (lit beyond tolerance)". Scenes that could not be rendered come
 // first.
 std::string verdictLine(const Report& report);
+// Each once, with its scenes if there are several: "a.glb, b.glb, with different numbers". Scenes are named
+// below `folder`.
+std::vector<std::pair<std::string, std::string>> notesWithScenes(const Report& report,
+                                                                 const std::string& folder);
 
 }  // namespace diptych

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command printed in a report has every option that affects the verdict, as given.
 #include "compare/cli/verdict_words.h"
+#include "compare/cli/command_compare.h"
 #include "compare/cli/command_diff.h"
 #include "tests/support/command_lines.h"
 

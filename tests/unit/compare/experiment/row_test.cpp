@@ -66,12 +66,14 @@ TEST(Rows, TheirSchemaHasEveryMeasureWithItsUnit) {
                          std::string_view means, bool whole) {
         return fmt::format("{}.{} [{}] {}: {}", group, name, unit, whole ? "integer" : "number", means);
     };
-    for (const auto& [group, of] : groups.items())
-        for (const auto& [name, measure] : of.value("properties", Json::object()).items())
+    for (const auto& [group, of] : groups.items()) {
+        const Json properties = of.value("properties", Json::object());
+        for (const auto& [name, measure] : properties.items())
             if (measure["type"].is_array())
                 found.push_back(line(group, name, measure.value("unit", ""),
                                      measure["description"].get<std::string>(),
                                      measure["type"] == Json{"integer", "null"}));
+    }
     for (const NamedMeasure& of : measures)
         expected.push_back(line(of.group, of.name, of.unit, of.means, of.isWhole()));
     EXPECT_EQ(found, expected) << "rows.schema.json against measures.h";

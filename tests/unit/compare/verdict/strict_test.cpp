@@ -2,7 +2,6 @@
 // A channel on one side only is reported by name, and fails if both sides must have the same channels.
 #include "compare/cli/command_compare.h"
 #include "compare/cli/command_diff.h"
-#include "compare/cli/verdict_words.h"
 #include "compare/files/frame_exr.h"
 #include "compare/report/json.h"
 #include "compare/report/picture_diff_report.h"
