@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "compare/audit/report.h"
 #include "compare/plot/plot.h"
+#include "compare/audit/report.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>

@@ -20,7 +20,7 @@ constexpr Color8 palette[] = {{0x56, 0xb4, 0xe9}, {0xe6, 0x9f, 0x00}, {0x00, 0x9
 static_assert(std::size(palette) == ownColors);
 constexpr Color8 otherColor{0xd8, 0xd8, 0xd8};
 constexpr Color8 negativeColor{0x46, 0x96, 0xff};  // far from errorColor() for protan readers too
-constexpr double darkened = 0.3;  // brightness of the image behind the map of causes
+constexpr double darkened = 0.3;                   // brightness of the image behind the map of causes
 
 std::uint8_t byteOf(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));

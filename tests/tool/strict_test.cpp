@@ -22,7 +22,9 @@ TEST(StrictTool, DiffFailsOverAChannelOfOneFile) {
             << ran.out;
         ran = runTool(folder, command + " --strict");
         EXPECT_EQ(ran.code, 1) << ran.out;
-        EXPECT_NE(ran.out.find(std::string("  FAIL ") + (files[0] == 'a' ? "a.exr: " : "b.exr: ") + line), std::string::npos) << ran.out;
+        EXPECT_NE(ran.out.find(std::string("  FAIL ") + (files[0] == 'a' ? "a.exr: " : "b.exr: ") + line),
+                  std::string::npos)
+            << ran.out;
         ran = runTool(folder, command + " --strict -q -o report");
         EXPECT_EQ(ran.code, 1);
         const auto report = nlohmann::json::parse(contentsOf(folder / "report/report.json"));

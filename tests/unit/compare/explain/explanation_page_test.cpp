@@ -87,7 +87,7 @@ TEST(ExplanationPictures, TheMapShowsTheCauseElseTheDarkPicture) {
     EXPECT_THROW(dominantPicture(e, shown), std::logic_error);
 }
 
-TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesGreen) {
+TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesBlue) {
     const Explanation e = made(3);
     EXPECT_EQ(topOfMaps(e), 4);
     std::set<std::string> names;
@@ -98,8 +98,8 @@ TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesGreen) {
     EXPECT_TRUE(names.contains("share-1.haze.png"));
     EXPECT_TRUE(names.contains("share-3.cause-2.png"));
     const Image8 last = sharePicture(e.causes.back().map, 4);
-    EXPECT_GT(last.data[4], last.data[3] + 50);
-    EXPECT_GT(last.data[4], last.data[5] + 50);
+    EXPECT_GT(last.data[5], last.data[3] + 50);
+    EXPECT_GT(last.data[5], last.data[4] + 20);
     EXPECT_EQ(last.data[0], 0);
 }
 

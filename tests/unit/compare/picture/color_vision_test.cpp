@@ -14,7 +14,8 @@ namespace {
 
 constexpr int samples = 64;
 
-// Lightness must rise over each 64th of the map. Fifths must differ by 15 (CIELAB), halves in lightness by 30.
+// Lightness must rise over each 64th of the map. Fifths must differ by 15 (CIELAB), halves in lightness
+// by 30.
 void expectReadable(Rgb8 (*colorAt)(double), const ColorVision& vision) {
     for (int i = 1; i <= samples; ++i)
         EXPECT_GT(labOf(colorAt(1.0 * i / samples), vision)[0],

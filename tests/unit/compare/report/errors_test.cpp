@@ -141,11 +141,11 @@ std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr)
 
 TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
     const std::string largest = judgedCard({.figure = "max", .measured = 0.25, .limit = 0.002});
-    EXPECT_NE(largest.find(">limit 0.002<"), std::string::npos) << largest;
+    EXPECT_NE(largest.find(">limit 0.002, beyond the left edge<"), std::string::npos) << largest;
     EXPECT_NE(largest.find("<rect class=\"part past\""), std::string::npos);
     EXPECT_NE(largest.find("</i>beyond the limit"), std::string::npos) << "in the difference's legend";
-    const std::string within = judgedCard({.figure = "p999", .measured = 0.25, .limit = 0.5});
-    EXPECT_NE(within.find(">limit 0.5, beyond the right edge<"), std::string::npos) << within;
+    const std::string within = judgedCard({.figure = "p999", .measured = 0.25, .limit = 50});
+    EXPECT_NE(within.find(">limit 50, beyond the right edge<"), std::string::npos) << within;
     EXPECT_EQ(within.find("<rect class=\"part past\""), std::string::npos);
     for (const char* figure : {"mean", "flip", "relative_max", "angle_max"}) {
         const std::string other = judgedCard({.figure = figure, .measured = 0.25, .limit = 0.002});
@@ -164,9 +164,6 @@ TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
     const std::string card = judgedCard({.figure = "flip", .measured = 0.25, .limit = 0.002}, &flip);
     EXPECT_NE(card.find("<h4>Worst pixels, by FLIP</h4>"), std::string::npos) << card;
     EXPECT_NE(card.find("data-pixel=\"1,2\">1, 2</a><span>0.125</span>"), std::string::npos) << card;
-    EXPECT_NE(card.find("worst pixel 1, 2, by FLIP<br><span class=\"values\"> 0.125</span>"),
-              std::string::npos)
-        << card;
     EXPECT_NE(card.find(">FLIP</text>"), std::string::npos);
     EXPECT_NE(card.find("<title>0.121 to 0.133: 1 pixel</title>"), std::string::npos)
         << "and not where 0.25 lies: " << card;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The output of a sweep: table, CSV, JSON, plots and page.
-#include "compare/output/writers.h"
 #include "compare/cli/option_groups.h"
+#include "compare/output/writers.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
