@@ -211,12 +211,9 @@ TEST(GltfMeshopt, Quaternions) {
     view.buffer = 0;
     view.byteLength = 24;
     model.rest["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
-        {"buffer", 0},
-        {"byteLength", model.buffers[0].data.size()},
-        {"byteStride", 8},
-        {"count", 3},
-        {"mode", "ATTRIBUTES"},
-        {"filter", "QUATERNION"}};
+        {"buffer", 0},          {"byteLength", model.buffers[0].data.size()},
+        {"byteStride", 8},      {"count", 3},
+        {"mode", "ATTRIBUTES"}, {"filter", "QUATERNION"}};
     std::vector<std::string> notes;
     std::map<std::size_t, std::string> broken;
     gltf::decompress(model, {}, broken, notes);
