@@ -149,7 +149,7 @@ TEST(ChooseTool, AFolderHoldsThePageAndTheSettings) {
     EXPECT_EQ(Json::parse(std::ifstream(folder / "choice/settings.json")), json["settings"]);
     EXPECT_EQ(emptyIn(json), std::set<std::string>());
     const std::string page = contentsOf(folder / "choice/index.html");
-    EXPECT_EQ(page.find("http"), page.find("http://www.w3.org")) << "nothing from elsewhere";
+    EXPECT_EQ(page.find("://"), page.npos) << "nothing from elsewhere";
     for (const Json& candidate : json["rows"])
         EXPECT_NE(page.find(candidate["words"].get<std::string>()), page.npos);
     EXPECT_EQ(runTool(folder, command).code, 0) << "our own folder is replaced";

@@ -286,115 +286,20 @@ TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
     std::getline(lines, head);
     std::getline(lines, head);
     std::getline(lines, row);
+    head.replace(head.find("judged by"), 9, "judged_by");
     std::istringstream heads(head), cells(row);
+    const std::map<std::string, std::string> expected{
+        {"psnr", "14"},       {"p99.9", "0.2"},    {"rmse", "0.2"},  {"max", "0.2"},
+        {"judged_by", "max"}, {"measured", "0.2"}, {"limit", "0.3"}, {"verdict", "pass"}};
+    std::size_t found = 0;
     for (std::string name, cell; heads >> name;) {
         ASSERT_TRUE(cells >> cell) << row;
-        if (name == "psnr") {
-            EXPECT_EQ(cell, "14");
-        } else if (name == "p99.9" || name == "rmse" || name == "max") {
-            EXPECT_EQ(cell, "0.2");
+        if (const auto value = expected.find(name); value != expected.end()) {
+            EXPECT_EQ(cell, value->second) << name;
+            ++found;
         }
     }
-    EXPECT_TRUE(row.ends_with("  max       0.2    0.3  pass")) << row;
-}
-
-// The reported pixel is the worst by the deciding metric: here a dark one, although a bright one differs
-// more.
-TEST(DiffCommand, TheWorstPixelIsOfTheFigureThatDecides) {
-    const Folder folder;
-    Image a(8, 4, 3, 1.0f), b = a;
-    for (int c = 0; c < 3; ++c) {
-        a.at(1, 1, c) = 0.01f;
-        b.at(1, 1, c) = 0.02f;
-        b.at(6, 2, c) = 1.5f;
-    }
-    writePfm(folder / "a.pfm", a);
-    writePfm(folder / "b.pfm", b);
-    EXPECT_NE(runTool(folder, "diff a.pfm b.pfm --metric max").out.find("worst at 6,2"), std::string::npos);
-    EXPECT_NE(runTool(folder, "diff a.pfm b.pfm --metric relative").out.find("worst at 1,1"),
-              std::string::npos);
-}
-
-// The printed command contains everything that affected the verdict.
-TEST(DiffCommand, TheCommandOfAFailureFailsAgain) {
-    const Folder folder;
-    writePng(folder / "a.png", grey(100));
-    writePng(folder / "b b.png", grey(120));
-    ASSERT_EQ(
-        runTool(folder, "diff a.png 'b b.png' --metric max --tolerance 0.07 --crop 1,1,9x9 -q -o report")
-            .code,
-        1);
-    const std::string page = contentsOf(folder / "report" / "junit.xml");
-    const std::size_t at = page.find("reproduce: diptych ");
-    ASSERT_NE(at, std::string::npos) << page;
-    std::string command = page.substr(at + 19, page.find('\n', at) - at - 19);
-    for (std::size_t i; (i = command.find("&apos;")) != command.npos;) command.replace(i, 6, "'");
-    for (std::size_t i; (i = command.find("&#39;")) != command.npos;) command.replace(i, 5, "'");
-    for (const char* word : {"--metric max", "--tolerance 0.07", "--crop 1,1,9x9"})
-        EXPECT_NE(command.find(word), command.npos) << command;
-    EXPECT_EQ(runTool(folder, command).code, 1) << command;
-}
-
-TEST(DiffCommand, SizesMustAgree) {
-    const Folder folder;
-    writePng(folder / "a.png", grey(1));
-    writePng(folder / "b.png", grey(1, 16, 32));
-    EXPECT_TRUE(runTool(folder, "diff a.png b.png")
-                    .failedOver("a.png is 32x16 and b.png is 16x32: images must have the same size"));
-    EXPECT_TRUE(runTool(folder, "diff a.png none.png").failedOver("none.png: no such file"));
-    folder.write("text.png", "no picture");
-    EXPECT_TRUE(runTool(folder, "diff a.png text.png").failedOver("text.png: "));
-}
-
-TEST(DiffCommand, ARuleOfAFileDecides) {
-    const Folder folder;
-    writePng(folder / "a.png", grey(100));
-    writePng(folder / "b.png", grey(102));
-    folder.write("t.json", R"({"rules": [
-        {"channel": "*", "max": 0.008, "warn": {"max": 0.001}, "because": "two codes of 255"}]})");
-    Ran ran = runTool(folder, "diff a.png b.png --tolerances t.json");
-    EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
-    EXPECT_NE(ran.out.find("warning a.png, lit: max 0.007843 exceeds 0.001"), std::string::npos) << ran.out;
-    folder.write("t.json", R"({"rules": [{"channel": "lit", "max": 0.007, "because": "less"}]})");
-    ran = runTool(folder, "diff a.png b.png --tolerances t.json");
-    EXPECT_EQ(ran.code, 1);
-    EXPECT_NE(ran.out.find("(t.json, rule 1: max <= 0.007, because less)"), std::string::npos) << ran.out;
-    folder.write("t.json", "{}");
-    EXPECT_TRUE(
-        runTool(folder, "diff a.png b.png --tolerances t.json").failedOver("t.json: has no array \"rules\""));
-}
-
-TEST(DiffCommand, SomePixelsMayFail) {
-    const Folder folder;
-    Image8 a = grey(100), b = a;
-    for (int i = 0; i < 5 * 3; ++i) b.data[static_cast<std::size_t>(i)] = 200;  // 5 of 512 pixels
-    writePng(folder / "a.png", a);
-    writePng(folder / "b.png", b);
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance 0.01 --failing 0.0097").code, 1);
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --tolerance 0.01 --failing 0.0098").code, 0) << "5 / 512";
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --crop 5,0,27x16").code, 0);
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q --crop 4,0,28x16").code, 1);
-}
-
-TEST(DiffCommand, WritesErrorsPicturesAndReports) {
-    const Folder folder;
-    writePng(folder / "a.png", grey(100));
-    writePng(folder / "b.png", grey(120));
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o error.exr").code, 1);
-    const PictureFile errors = readExr(folder / "error.exr");
-    ASSERT_EQ(errors.layers.size(), 1u);
-    EXPECT_EQ(errors.layers[0].channels, std::vector<std::string>{"lit.Y"});
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o error.png").code, 1);
-    EXPECT_TRUE(fs::exists(folder / "error.png"));
-    EXPECT_EQ(runTool(folder, "diff a.png b.png -q -o report").code, 1);
-    for (const char* name :
-         {"index.html", "report.json", "junit.xml", "lit.reference.png", "lit.difference.png"})
-        EXPECT_TRUE(fs::exists(folder / "report" / name)) << name;
-    const Json report = Json::parse(contentsOf(folder / "report" / "report.json"));
-    EXPECT_EQ(report["verdict"], "fail");
-    EXPECT_EQ(report["comparisons"][0]["channels"][0]["rule"], "default of diff: flip <= 0");
-    folder.write("mine/keep.txt", "x");
-    EXPECT_TRUE(runTool(folder, "diff a.png b.png -o mine").failedOver("--force replaces it"));
+    EXPECT_EQ(found, expected.size()) << head;
 }
 
 // Two folders: images of the same name are compared, unmatched ones fail, and one report contains all.
