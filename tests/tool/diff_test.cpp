@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 #include <sstream>
+#include <string>
 
 namespace diptych {
 namespace {
