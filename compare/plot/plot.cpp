@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace diptych {
 
@@ -133,18 +134,24 @@ private:
     // The vertical axis is named above it: a rotated name beside it would collide with the ticks if text is
     // large. The names of its places are inside, above bars.
     std::string axes() const {
-        std::string lines, texts;
+        std::map<std::string_view, std::string> lines;  // by kind
+        std::string out, texts;
+        const auto to = [](double x, double y, double to_x, double to_y) {
+            return fmt::format("M{} {}L{} {}", length(x), length(y), length(to_x), length(to_y));
+        };
         for (const PlotTick& tick : across_.ticks()) {
-            lines += line(tick.kind, tick.line, box_.top, tick.line, box_.bottom);
+            lines[tick.kind] += to(tick.line, box_.top, tick.line, box_.bottom);
             texts += text("tick middle", tick.at, box_.bottom + 20, tick.text);
         }
         const bool places = !panel_.up.places.empty();
         for (const PlotTick& tick : up_.ticks()) {
-            if (!places) lines += line(tick.kind, box_.left, tick.line, box_.right, tick.line);
+            if (!places) lines[tick.kind] += to(box_.left, tick.line, box_.right, tick.line);
             texts += places ? text("tick", box_.left + 4, tick.at - 8, tick.text)
                             : text("tick end", box_.left - 8, tick.at + 4, tick.text);
         }
-        return lines + line("axis", box_.left, box_.bottom, box_.right, box_.bottom) +
+        for (const auto& [kind, path] : lines)
+            out += fmt::format("<path class=\"{}\" d=\"{}\"/>", kind, path);
+        return out + line("axis", box_.left, box_.bottom, box_.right, box_.bottom) +
                line("axis", box_.left, box_.top, box_.left, box_.bottom) + texts +
                text("name middle", (box_.left + box_.right) / 2, box_.bottom + 47, panel_.across.name) +
                text("name", box_.left - nameLeft, box_.top - 14, panel_.up.name);
