@@ -28,7 +28,7 @@ inline std::vector<MomentResult> seenThrough(gpu::uint shadows, const std::vecto
     for (const MomentFilter& f : filters)
         in.insert(in.end(), {f.near, f.far, f.receiver, f.share, f.exponent, f.negative, f.nearest, f.bleed,
                              f.min_variance, f.bias});
-    const std::vector<float> out = Probes().run("moments", in, 10, 5, {gpu::FEATURE_shadows, shadows});
+    const std::vector<float> out = Probes().run("moments", in, 10, 5, {{gpu::FEATURE_shadows, shadows}});
     std::vector<MomentResult> results;
     for (std::size_t i = 0; i < out.size(); i += 5)
         results.push_back({out[i], {out[i + 1], out[i + 2], out[i + 3], out[i + 4]}});
@@ -45,7 +45,7 @@ inline std::vector<float> seenThrough(gpu::uint shadows, const std::vector<Store
     for (const auto& [m, f] : stored)
         in.insert(in.end(), {m[0], m[1], m[2], m[3], f.receiver, f.exponent, f.negative, f.nearest, f.bleed,
                              f.min_variance, f.bias});
-    return Probes().run("stored_moments", in, 11, 1, {gpu::FEATURE_shadows, shadows});
+    return Probes().run("stored_moments", in, 11, 1, {{gpu::FEATURE_shadows, shadows}});
 }
 
 }  // namespace diptych
