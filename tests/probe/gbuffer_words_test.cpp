@@ -98,8 +98,7 @@ struct Table {
 };
 Table tableOf(const fs::path& header, int lowered = -1) {
     const std::string text = contentsOf(header);
-    const std::size_t begin = text.find("#define GBUFFER_WORDS"),
-                      end = text.find("// clang-format on", begin);
+    const std::size_t begin = text.find("#define GBUFFER_WORDS"), end = text.find("\n\n", begin);
     std::istringstream lines(text.substr(begin, end - begin));
     std::string changed;
     Table table;
