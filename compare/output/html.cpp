@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::output {
@@ -75,6 +76,7 @@ std::string_view kindOf(const Column& column) {
     return column.kind == Column::number ? "n" : column.kind == Column::prose ? "whole" : "";
 }
 
+// Nothing if no column has a title.
 std::string headOf(const Table& table) {
     std::string out;
     for (const auto& [title, count] : table.groups)
@@ -84,7 +86,9 @@ std::string headOf(const Table& table) {
         out += fmt::format("<th{}{}>{}{}{}</th>", classes({kindOf(column), column.style}),
                            attribute("title", column.means), table.sortable ? "<button type=\"button\">" : "",
                            markup(column.title), table.sortable ? "</button>" : "");
-    return "<thead><tr>" + out + "</tr></thead>\n";
+    const bool titled =
+        std::ranges::any_of(table.columns, [](const Column& column) { return !column.title.empty(); });
+    return titled ? "<thead><tr>" + out + "</tr></thead>\n" : "";
 }
 
 std::string rowOf(const Table& table, const Row& row) {

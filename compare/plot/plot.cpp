@@ -110,7 +110,7 @@ public:
         // The first of overlapping series is on top.
         for (const bool best : {false, true})
             for (std::size_t i = panel_.series.size(); i-- > 0;) out += seriesOf(panel_.series[i], best);
-        return "<g>" + out + "</g>" + labels();
+        return out + labels();
     }
 
 private:
@@ -151,8 +151,10 @@ private:
         }
         for (const auto& [kind, path] : lines)
             out += fmt::format("<path class=\"{}\" d=\"{}\"/>", kind, path);
-        return out + line("axis", box_.left, box_.bottom, box_.right, box_.bottom) +
-               line("axis", box_.left, box_.top, box_.left, box_.bottom) + texts +
+        return out +
+               fmt::format("<path class=\"axis\" d=\"M{0} {1}V{2}H{3}\"/>", length(box_.left),
+                           length(box_.top), length(box_.bottom), length(box_.right)) +
+               texts +
                text("name middle", (box_.left + box_.right) / 2, box_.bottom + 47, panel_.across.name) +
                text("name", box_.left - nameLeft, box_.top - 14, panel_.up.name);
     }
@@ -246,7 +248,8 @@ std::string legendOf(const Plot& plot, const Styles& styles, double& top) {
     std::vector<std::pair<std::string, std::string>> entries;  // names and symbols, each once
     const auto add = [&](const std::string& name, const std::string& kind, const std::string& symbol) {
         if (!name.empty() && std::ranges::count(entries, name, &decltype(entries)::value_type::first) == 0)
-            entries.emplace_back(name, fmt::format("<g class=\"{}\">{}</g>", kind, symbol));
+            entries.emplace_back(name,
+                                 kind.empty() ? symbol : fmt::format("<g class=\"{}\">{}</g>", kind, symbol));
     };
     const auto addLine = [&](const std::string& name, const char* kind) {
         add(name, "point", line(kind, 0, 0, keyWidth, 0));
@@ -260,7 +263,8 @@ std::string legendOf(const Plot& plot, const Styles& styles, double& top) {
     addLine(plot.interval, "bar");
     for (const PlotPanel& panel : plot.panels) {
         if (!panel.front.empty()) addLine("Pareto front", "front");
-        for (const PlotLimit& limit : panel.limits) addLine(limit.name, limitClass(limit));
+        for (const PlotLimit& limit : panel.limits)
+            add(limit.name, "", line(limitClass(limit), 0, 0, keyWidth, 0));
     }
     const bool narrow =
         std::ranges::all_of(entries, [](const auto& entry) { return entry.first.size() <= shortName; });
@@ -274,7 +278,7 @@ std::string legendOf(const Plot& plot, const Styles& styles, double& top) {
     }
     if (x > plotLeft) top += keyHeight;
     top += 12;
-    return "<g class=\"key\">" + out + "</g>";
+    return out;
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ private:
 
     Box allFigures() const {
         output::Table table{.columns = {}, .style = "", .box = "scroll"};
-        addColumn(table, {"metric"}, channel_.figures, [](const auto& figure) { return figure.first; });
+        addColumn(table, {""}, channel_.figures, [](const auto& figure) { return figure.first; });
         addColumn(table, {"", output::Column::number}, channel_.figures,
                   [](const auto& figure) { return number(figure.second); });
         addColumn(table, {.title = "", .style = "soft wide"}, channel_.figures, [](const auto& of) {
