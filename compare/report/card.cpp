@@ -141,7 +141,7 @@ private:
     }
 
     Box allFigures() const {
-        output::Table table{.columns = {}, .style = "", .box = "scroll"};
+        output::Table table{.columns = {}, .style = "", .box = ""};
         addColumn(table, {""}, channel_.figures, [](const auto& figure) { return figure.first; });
         addColumn(table, {"", output::Column::number}, channel_.figures,
                   [](const auto& figure) { return number(figure.second); });
@@ -149,7 +149,7 @@ private:
             const Figure* figure = findFigure(of.first);
             return figure ? figure->meaning : "";
         });
-        return {"figures", {table}, "", "All metrics"};
+        return {"figures scroll", {table}, "", "All metrics"};
     }
 
     // The command that reproduces the failure, and the one that shows it in a window.

@@ -81,9 +81,8 @@ std::string worstList(const ChannelDiff& channel, const ChannelPictures& picture
             fmt::format("<li>{}<span>{}{}</span></li>", place, number(pixel.error), unitOf(*channel.mode));
     }
     return fmt::format(
-        "<div class=\"worst\"><h4>Worst pixels{}</h4><ol>{}</ol><p class=\"soft\">at least {} pixels "
-        "apart</p></div>\n",
-        channel.shown_error ? ", by " + markup(channel.shown_error_name) : "", items, worstApart);
+        "<div class=\"worst\" title=\"at least {} pixels apart\"><h4>Worst pixels{}</h4><ol>{}</ol></div>\n",
+        worstApart, channel.shown_error ? ", by " + markup(channel.shown_error_name) : "", items);
 }
 
 }  // namespace
