@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/cli/option_groups.h"
 #include "compare/experiment/two_devices.h"
 #include "compare/explain/conventions.h"
 #include "compare/explain/device_shares.h"

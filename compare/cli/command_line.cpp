@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
 
+#include "compare/cli/add_option.h"
 #include "compare/cli/manual.h"
 #include "compare/run/version.h"
 #include "shared/scene/builtin/builtin.h"

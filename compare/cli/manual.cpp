@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/manual.h"
 
+#include "compare/cli/output_group.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
