@@ -30,7 +30,7 @@ using page::number;
 
 namespace {
 
-// Of a cause's materials and lights, the first with at least this part of its share.
+// A row names at most three materials and three lights, each with at least 5 % of the cause's share.
 constexpr std::size_t shownParts = 3;
 constexpr double shownPart = 0.05;
 constexpr const char* litFiles[] = {"lit.baseline.png", "lit.test.png"};

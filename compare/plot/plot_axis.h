@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an axis of a plot shows.
+// Describes an axis of a plot.
 #pragma once
 
 #include <string>

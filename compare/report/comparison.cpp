@@ -178,7 +178,7 @@ List glossaryOf(const Comparison& comparison) {
     return list;
 }
 
-// What the page's cards say, as far as it is more than a pass.
+// Repeats the cards' findings for failures, warnings, rules, and differences that the encoding explains.
 List findingsOf(const Report& report, const Comparison& comparison) {
     const std::string place = placeOf(report, comparison);
     List list;

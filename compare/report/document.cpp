@@ -41,7 +41,7 @@ std::string deviceText(const ReportDevice& device) {
     return fmt::format("{} ({}), {}", device.name, device.type, device.driver);
 }
 
-// Below the heading: what was drawn, and on which devices.
+// The line below the heading names scene, view, size, encoding and devices.
 Text aboutOf(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     Text about;
     if (report.comparisons.size() == 1) {

@@ -27,10 +27,10 @@ std::string sectionScript(const Report& report, const ReportLayout& layout, std:
 // report, numberLater and titleLater replace number and title.
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index);
 
-// A comparison; without a layout what a terminal shows. `index` is the index of the comparison.
+// Describe one comparison, and which path is closer to the reference. `layout`: the page's; nullptr: for a
+// terminal. `index`: in Report::comparisons, or closer_paths. `several`: names scene, camera and time.
 std::vector<output::Block> comparisonBlocks(const Report& report, const ReportLayout* layout,
                                             std::size_t index);
-// Which path is closer to the reference; `several`: names the scene, camera and time.
 std::vector<output::Block> closerPathBlocks(const Report& report, const ReportLayout* layout,
                                             std::size_t index, bool several);
 
@@ -54,7 +54,8 @@ std::vector<output::Block> indexBlocks(const Report& report, const ReportLayout&
 std::string cardId(const std::string& comparison, const DebugMode& mode);
 output::Span cardLink(const std::string& comparison, const DebugMode& mode);
 
-// What decided a channel, where its error is largest, and its tolerance; the pixel leads into the card.
+// A sentence names what decided the channel, the pixel with the largest error, and the tolerance with its
+// reason. The pixel links to the `card` with this id.
 output::Text findingOf(const ChannelDiff& channel, const std::string& card);
 
 }  // namespace diptych

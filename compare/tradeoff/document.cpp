@@ -57,7 +57,7 @@ std::string switches() {
            "cameras.</span></div>\n";
 }
 
-// Markup of each error, of which the page shows one.
+// Joins markup for every error; the page's buttons show one of them.
 template <class MarkupOf>
 std::string ofErrors(const MarkupOf& markupOf) {
     std::string out;

@@ -11,8 +11,8 @@
 
 namespace diptych {
 
-// Of one pixel: what is `read` from a packed field, compared with the value before, `own`. `slack`: granted
-// beside the bound, in the channel's metric.
+// Compares one pixel's decoded value, `read`, with the value before packing, `own`. `slack` is added to the
+// bound, in the channel's metric.
 PixelUse storedUse(const StoredField& field, const float* read, const float* own, int components,
                    double slack = 0);
 

@@ -36,7 +36,7 @@ bool isWeights(const std::optional<AnimatedPart>& part) {
     return part == AnimatedPart::weights || part == AnimatedPart::mesh_weights;
 }
 
-// What the tables of the schema (properties.h) say of a pointer. No name in them needs the escapes ~0 and ~1.
+// A pointer's property in the schema's tables (properties.h). No name in them needs the escapes ~0 and ~1.
 struct Match {
     AnimatedPart part = {};
     std::size_t slot = gpu::SLOT_COUNT;  // SLOT_* and pointer of the texture that the property belongs to

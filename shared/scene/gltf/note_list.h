@@ -43,7 +43,7 @@ private:
     std::size_t more_ = 0;
 };
 
-// Calls `read`. If it throws, the rest of what it reads is omitted with a note.
+// Calls `read`. If it throws, a note says so, and the scene lacks what `read` had not yet read.
 template <class Read>
 void readOrNote(NoteList& notes, const Read& read) {
     try {
