@@ -69,7 +69,8 @@
           "shading position relative to the camera, world axes, m", \
           place, 120, exact, 0, 0, none, none, 0) \
     X(12, geometric_normal, 3, angular, vector, unit, both, "triangle normal, world", \
-          facet, 130, octahedral, STANDARD_GEOMETRIC_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, none, none, 9) \
+          facet, 130, octahedral, STANDARD_GEOMETRIC_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, \
+          none, none, 9) \
     X(20, light_count, 1, absolute, scalar, positive, paths_only, "number of lights evaluated at the pixel", \
           list, 450, exact, 0, 0, none, none, 0) \
     X(21, list_overflow, 1, exact, scalar, share, paths_only, "1 where the pixel's light list overflowed", \

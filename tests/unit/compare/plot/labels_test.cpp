@@ -99,8 +99,8 @@ TEST(PlotLabels, ANumberNearerToAnotherPointIsLedTo) {
             points.emplace_back(x, std::pow(10.0, -1e-3 * (next() % 1000)));
         }
         const std::string svg = labelled(points, false);
-        const std::regex mark(
-            R"re(data-row="(\d+)"[^>]*>(?:<(?:title|path)[^>]*>)*(?:</title>)?<circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
+        const std::regex mark(R"re(data-row="(\d+)"[^>]*>(?:<(?:title|path)[^>]*>)*(?:</title>)?)re"
+                              R"re(<circle class="mark" cx="([\d.]+)" cy="([\d.]+)")re"),
             label(R"re((class="lead"[^>]*>)?<text class="row middle" x="([\d.]+)" )re"
                   R"re(y="([\d.]+)">(\d+)</text>)re");
         std::map<int, std::array<double, 2>> marks;
