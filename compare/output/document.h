@@ -4,7 +4,6 @@
 
 #include <concepts>
 #include <cstddef>
-#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -62,10 +61,7 @@ inline Cell sorted(double value, Text text) {
     cell.value = value;
     return cell;
 }
-// Sorted: three digits, "1.25 MiB", four digits.
-Cell numberCell(double value);
-Cell bytesCell(std::uint64_t count);
-Cell millisecondsCell(double ms);
+Cell numberCell(double value);  // sorted, three digits
 inline Cell either(Text terminal, Text page) {
     Cell cell(terminal);
     cell.page = std::move(page);

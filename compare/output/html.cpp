@@ -175,14 +175,6 @@ Cell numberCell(double value) {
     return sorted(value, page::number(value));
 }
 
-Cell bytesCell(std::uint64_t count) {
-    return sorted(static_cast<double>(count), page::bytes(count));
-}
-
-Cell millisecondsCell(double ms) {
-    return sorted(ms, fmt::format("{:.4g}", ms));
-}
-
 std::string inHtml(const Text& text) {
     std::string out;
     for (const Span& span : text.spans) out += markupOf(span);

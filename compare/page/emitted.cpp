@@ -27,10 +27,10 @@ struct Grammar {
 // <svg> is an ordinary element.
 constexpr Grammar pages{
     " a article b bdi button code dd details div dl dt figcaption figure footer h1 h2 h3 h4 header i kbd "
-    "li ol p pre section span summary svg table tbody td th thead tr ul ",
-    " br img input wbr ",
-    " circle defs g image path rect text title use ",
-    " alt aria-hidden aria-label aria-pressed class colspan cx cy d data-do data-figure data-mode "
+    "li ol p section span summary svg table tbody td th thead tr ul ",
+    " img input wbr ",
+    " circle g path rect text title ",
+    " alt aria-label aria-pressed class colspan cx cy d data-do data-figure data-mode "
     "data-names data-pixel data-row data-show data-shows data-unit data-value data-values height href id "
     "loading max min r role src step style tabindex title transform type value viewBox width x xmlns y ",
     " data-same hidden open ",
@@ -73,7 +73,7 @@ bool isStyle(std::string_view value) {
         value.remove_prefix(std::min(value.size(), one.size() + 1));
         const std::size_t colon = std::min(one.find(':'), one.size());
         const std::string_view set = one.substr(colon);
-        if (!isOneOf(one.substr(0, colon), " width height left top --u --v --w background ") ||
+        if (!isOneOf(one.substr(0, colon), " width --u --v --w background ") ||
             !consistsOf(set, ":.%#,() -") || set.find("url") != set.npos)
             return false;
     }

@@ -15,7 +15,7 @@ namespace {
 TEST(Emitted, OnlyWhatTheWritersEmitPasses) {
     using page::checkMarkup;
     for (const char* sound :
-         {"", "a &amp; b", "<p class=\"a\">a<br>b</p>", "<details open><summary>a</summary></details>",
+         {"", "a &amp; b", "<p class=\"a\">a<wbr>b</p>", "<details open><summary>a</summary></details>",
           "<svg viewBox=\"0 0 1 1\"><title>a</title><rect x=\"1\"/></svg>", "<a href=\"#s\x01\">\x02</a>",
           "<img src=\"_box-1/lit.a..b.png\" data-same>", "<img src=\"data:image/png;base64,AA/+==\">",
           "<i style=\"width:3.5%;background:#aabbcc\"></i>", "<p data-values=\"a/lit.values.js\"></p>"})
