@@ -41,17 +41,17 @@ Sampler readSampler(const Json& file, const std::string& who) {
     if (magnify != TINYGLTF_TEXTURE_FILTER_NEAREST && magnify != TINYGLTF_TEXTURE_FILTER_LINEAR)
         fail(who, fmt::format("{} is not a magFilter", magnify));
     sampler.magnify_linear = magnify == TINYGLTF_TEXTURE_FILTER_LINEAR;
-    struct Filter {
+    struct MinFilter {
         int file;
         bool linear, mipmaps, mipmaps_linear;
     };
-    constexpr Filter filters[] = {{TINYGLTF_TEXTURE_FILTER_NEAREST, false, false, false},
-                                  {TINYGLTF_TEXTURE_FILTER_LINEAR, true, false, false},
-                                  {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST, false, true, false},
-                                  {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST, true, true, false},
-                                  {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR, false, true, true},
-                                  {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, true, true, true}};
-    const auto filter = std::ranges::find(filters, minify, &Filter::file);
+    constexpr MinFilter filters[] = {{TINYGLTF_TEXTURE_FILTER_NEAREST, false, false, false},
+                                     {TINYGLTF_TEXTURE_FILTER_LINEAR, true, false, false},
+                                     {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST, false, true, false},
+                                     {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST, true, true, false},
+                                     {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR, false, true, true},
+                                     {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, true, true, true}};
+    const auto filter = std::ranges::find(filters, minify, &MinFilter::file);
     if (filter == std::end(filters)) fail(who, fmt::format("{} is not a minFilter", minify));
     sampler.minify_linear = filter->linear;
     sampler.mipmaps = filter->mipmaps;
