@@ -238,10 +238,10 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
 }
 
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index) {
-    using Json = nlohmann::json;
-    return fmt::format(
-        "diptychSection({},{});\n", layout.part ? Json(layout.sections[index]).dump() : layout.ids[index],
-        Json(sectionHtml(report, layout, index)).dump(-1, ' ', false, Json::error_handler_t::replace));
+    const std::string id = layout.part ? nlohmann::json(layout.sections[index]).dump() : layout.ids[index];
+    return fmt::format("diptychSection({},{});\n", id,
+                       nlohmann::json(sectionHtml(report, layout, index))
+                           .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace diptych

@@ -117,17 +117,17 @@ Box costs(const Frame& a, const Frame& b) {
 }
 
 Box settings(const Frame& a, const Frame& b) {
-    using Json = nlohmann::ordered_json;
-    const Json left = parseOrderedJson(toJson(a.settings)), right = parseOrderedJson(toJson(b.settings));
+    const nlohmann::ordered_json left = parseOrderedJson(toJson(a.settings)),
+                                 right = parseOrderedJson(toJson(b.settings));
     Table table{
         .columns = {{""}, {.title = a.name, .style = "mono wide"}, {.title = b.name, .style = "mono wide"}},
         .style = "",
         .box = "scroll"};
-    const auto text = [](const Json& json) {
-        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const auto text = [](const nlohmann::ordered_json& json) {
+        return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     };
     for (const auto& [key, value] : left.items()) {
-        const Json& other = right.at(key);
+        const auto& other = right.at(key);
         table.rows.push_back(
             {{Span(key, Span::name), text(value), text(other)}, value == other ? "" : "differs"});
     }
