@@ -22,7 +22,6 @@ Json jsonOf(const BenchRow& row) {
                  {"assign", nameOf(row.settings.assign)},
                  {"transparency", nameOf(row.settings.transparency)},
                  {"lighting", nameOf(row.settings.lighting)},
-                 {"samples", row.settings.msaa},
                  {"same_picture", !drawsAnotherPicture(row.settings.assign)},
                  {"size", jsonOf(row.settings.size)},
                  {"light_count", orNull(row.requested_lights)},

@@ -69,7 +69,7 @@ Sentences missesInWords(const experiment::Row& row, const Budget& budget) {
     Sentences lines;
     const auto gap = [&](double value, double limit, const char* what, const std::string& limit_text) {
         if (value > limit)
-            lines.emplace_back(fmt::format("{:.1f} % over the {} budget of {}", 100 * (value / limit - 1),
+            lines.emplace_back(fmt::format("{} over the {} budget of {}", page::percent(value / limit - 1),
                                            what, limit_text));
     };
     if (budget.error) gap(row[budget.figure], *budget.error, "error", fmt::format("{:.4g}", *budget.error));

@@ -60,6 +60,7 @@ std::vector<std::string> withoutOut(const std::vector<std::string>& words) {
 
 int runSubmit(const SubmitLine& options) {
     if (options.engine != "slurm") refuse("submit {}: is not supported; use slurm", options.engine);
+    if (!options.out.empty()) refuse("-o {}: give -o to the command after --", options.out.string());
     const std::vector<std::string>& words = options.submitted;
     if (words.empty())
         refuse("submit slurm: a command is missing; for example submit slurm -- compare scenes/ -o report");

@@ -37,6 +37,15 @@ std::string wordsOf(const Text& text) {
     return words;
 }
 
+// For a terminal. A name with line breaks begins no line of its own; other controls are printOut()'s task.
+std::string lineOf(std::string words) {
+    for (std::size_t at; (at = words.find('\n')) != words.npos;) words.replace(at, 1, "\\u000a");
+    return words;
+}
+std::string lineOf(const Text& text) {
+    return lineOf(wordsOf(text));
+}
+
 // Heads and rows of some columns.
 std::vector<Line> linesOf(const Table& table, const std::vector<std::size_t>& columns) {
     std::vector<Line> lines(table.rows.size() + 1);
@@ -63,16 +72,16 @@ std::string groupLine(const Table& table, const std::vector<std::size_t>& widths
 
 // The lines of each kind of block.
 struct Lines {
-    std::string operator()(const Heading& heading) const { return wordsOf(heading.text) + "\n"; }
-    std::string operator()(const Paragraph& paragraph) const { return wordsOf(paragraph.text) + "\n"; }
+    std::string operator()(const Heading& heading) const { return lineOf(heading.text) + "\n"; }
+    std::string operator()(const Paragraph& paragraph) const { return lineOf(paragraph.text) + "\n"; }
     std::string operator()(const List& list) const {
         std::string out;
-        for (const Text& item : list.items) out += "  " + wordsOf(item) + "\n";
+        for (const Text& item : list.items) out += "  " + lineOf(item) + "\n";
         return out;
     }
     std::string operator()(const Terms& terms) const {
         std::string out;
-        for (const auto& [term, meaning] : terms.items) out += wordsOf(term) + ": " + wordsOf(meaning) + "\n";
+        for (const auto& [term, meaning] : terms.items) out += lineOf(term) + ": " + lineOf(meaning) + "\n";
         return out;
     }
     std::string operator()(const Table& table) const { return inText(table); }
@@ -99,7 +108,9 @@ std::string inText(const Table& table, std::size_t first, std::size_t last) {
             if (const Column& column = table.columns[i];
                 column.where != Column::page && (column.kind == Column::prose) == prose)
                 columns.push_back(i);
-    const std::vector<Line> lines = linesOf(table, columns);
+    std::vector<Line> lines = linesOf(table, columns);
+    for (Line& line : lines)
+        std::ranges::transform(line, line.begin(), [](const std::string& s) { return lineOf(s); });
     std::vector<std::size_t> widths;
     for (std::size_t i = 0; i < columns.size(); ++i) {
         widths.push_back(table.columns[columns[i]].width);

@@ -269,7 +269,7 @@ private:
                 const float* values =
                     pixels.pixel(static_cast<std::size_t>(s.worst_y * pixels.width + s.worst_x));
                 row(fmt::format("{} at {},{}", frame->name, s.worst_x, s.worst_y),
-                    fmt::format("{:.6g}", fmt::join(values, values + pixels.components, " ")));
+                    fmt::format("{}", fmt::join(values, values + pixels.components, " ")));
             }
         if (channel_.unexplained_pixels)
             row("pixels unexplained by the encoding", fmt::format("{}", *channel_.unexplained_pixels));

@@ -3,6 +3,7 @@
 #include "compare/report/document.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
+#include "shared/text/digits.h"
 
 #include <fmt/format.h>
 
@@ -120,9 +121,9 @@ output::Table channelTable(const Comparison& comparison, const std::string& id, 
     addCriterion({.title = "judged by", .style = "soft by"}, "nothing",
                  [](const Criterion& criterion) { return criterion.figure; });
     addCriterion({"measured", Column::number}, either("-", ""),
-                 [](const Criterion& criterion) { return page::number(criterion.measured); });
+                 [](const Criterion& criterion) { return digitsApart(criterion.measured, criterion.limit); });
     addCriterion({"limit", Column::number}, either("-", ""), [](const Criterion& criterion) {
-        const std::string limit = page::number(criterion.limit);
+        const std::string limit = digitsApart(criterion.limit, criterion.measured);
         return either((criterion.least ? ">= " : "") + limit, (criterion.least ? "\u2265 " : "") + limit);
     });
     add({.title = "used", .where = Column::page, .style = "optional"},
@@ -143,8 +144,9 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
     else if (channel.unexplained_pixels && channel.rule.empty())
         text.spans.emplace_back(explainedWords(channel));
     else if (const auto& c = channel.criterion)
-        text.spans.emplace_back(fmt::format("{} {}, {} {} allowed", c->figure, page::number(c->measured),
-                                            c->least ? "at least" : "at most", page::number(c->limit)));
+        text.spans.emplace_back(
+            fmt::format("{} {}, {} {} allowed", c->figure, digitsApart(c->measured, c->limit),
+                        c->least ? "at least" : "at most", digitsApart(c->limit, c->measured)));
     else
         text.spans.emplace_back("differs");
     if (s.different > 0 && s.worst_x >= 0)

@@ -4,6 +4,7 @@
 #include "compare/report/json.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
+#include "shared/text/digits.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -128,7 +129,8 @@ private:
         const std::string limit =
             channel.criterion
                 ? fmt::format("{} {}, limit {}", channel.criterion->figure,
-                              number(channel.criterion->measured), number(channel.criterion->limit))
+                              digitsApart(channel.criterion->measured, channel.criterion->limit),
+                              digitsApart(channel.criterion->limit, channel.criterion->measured))
                 : "no limit";
         if (channel.verdict != Verdict::fail)
             return fmt::format("      <system-out>{}{}\n</system-out>\n", warning, markup(limit));

@@ -8,6 +8,7 @@
 #include "compare/verdict/measurement.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
+#include "shared/text/digits.h"
 
 #include <fmt/format.h>
 
@@ -81,14 +82,16 @@ std::string faultOf(const ChannelDiff& channel) {
         return {};
     }
     if (c.measured <= c.limit) return {};
+    const std::string measured = digitsApart(c.measured, c.limit, 4),
+                      limit = digitsApart(c.limit, c.measured, 4);
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.most_pixels
-               ? fmt::format("{} of the pixels exceed {:.4g}, and at most 0.1 % may: {} is {:.4g}{}", share,
-                             c.limit, c.figure, c.measured,
+               ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", share, limit,
+                             c.figure, measured,
                              channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
                                                     "and the encoding's change"
                                                   : "")
-               : fmt::format("max {:.4g} exceeds {:.4g} at {} of the pixels", c.measured, c.limit, share);
+               : fmt::format("max {} exceeds {} at {} of the pixels", measured, limit, share);
 }
 
 // If NaN or infinity contributes to a channel's failure, mentions it before any metric, because no mean

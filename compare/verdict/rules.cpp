@@ -3,6 +3,7 @@
 
 #include "shared/image/file_bytes.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/digits.h"
 #include "shared/text/fail.h"
 #include "shared/text/json.h"
 #include "shared/text/named.h"
@@ -139,15 +140,6 @@ std::vector<Rule> readDocument(const Json& document, const std::string& name) {
     return rules;
 }
 
-// Four digits, and as many more as it takes to differ from `other`.
-std::string shown(double value, double other) {
-    for (int digits = 4; digits < 17; ++digits)
-        if (std::string text = fmt::format("{:.{}g}", value, digits);
-            value == other || text != fmt::format("{:.{}g}", other, digits))
-            return text;
-    return fmt::format("{:.17g}", value);
-}
-
 std::string quantityText(const Quantity& quantity) {
     return quantity.figure == FAILING ? fmt::format("share of pixels above {:g}", quantity.above)
                                       : quantity.figure;
@@ -159,8 +151,8 @@ std::optional<std::string> boundViolation(const Condition& c, const Measured& me
     if (!value) return fmt::format("{} is not defined for this channel", what);
     const bool least = isBetterIfMore(c.quantity.figure);
     if (least ? *value >= c.limit : *value <= c.limit) return {};
-    return fmt::format("{} {} {} {}", what, shown(*value, c.limit), least ? "is below" : "exceeds",
-                       shown(c.limit, *value));
+    return fmt::format("{} {} {} {}", what, digitsApart(*value, c.limit, 4), least ? "is below" : "exceeds",
+                       digitsApart(c.limit, *value, 4));
 }
 
 std::string joined(const Condition& condition, const char* word) {

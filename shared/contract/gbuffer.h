@@ -3,8 +3,8 @@
 // device's rounding on writes to a render target has no effect (lavapipe truncates halves), and forward+
 // can compute exactly what deferred will read.
 //
-// compact and standard store GBUFFER_WORDS. compact has one word in each attachment; standard has the two
-// normals in NORMALS. full stores float32:
+// compact and standard store GBUFFER_WORDS, one in each attachment; standard has the two normals in NORMALS.
+// full stores float32:
 //   albedo    albedo, occlusion                 specular  dielectric F0, F90
 //   normals   normal, roughness                 emission  emission, id
 //   params    geometric normal, metallic        lightmap  lightmap, 1
@@ -15,10 +15,11 @@
 // 0 on surfaces without a lightmap; shaders/lib/surface/gbuffer.glsl distinguishes them from black.
 // specular exists if a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit.
 // ids exists if a packed id has too few bits.
-// layers to layers 5 have four words each, only for what materials have. A layer that the surface lacks is
-// words of 0.
-// shaded exists with MSAA, when every attachment is multisampled. It stores where the surface was evaluated
-// in the pixel: the mean location of the samples that its triangle covers, and the depth there (float32).
+// layers to layers 5 have up to four words each, only for what materials have. A layer that the surface lacks
+// is words of 0.
+// shaded exists with MSAA, when every attachment is multisampled. It stores the depth (float32) where the
+// surface was evaluated in the pixel, at the mean location of the samples that its triangle covers, and a
+// mask of these samples beside one of those that alpha leaves.
 // If there are more than MAX_COLOR_ATTACHMENTS, a second pass draws the last layers.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H
@@ -45,8 +46,8 @@
 // clang-format on
 
 // Words of the packed encodings, and the bits of their fields, from the lowest bit. The first field has n
-// components, each of so many bits. Another number changes encoder, decoder and tolerances of its field, and
-// nothing else.
+// components, each of so many bits. From these numbers follow encoder, decoder and tolerances, and which
+// values need an attachment of their own or float32.
 // word  n  field  bits  ...
 //   Colours are square roots, so 0.04, the default F0, is exactly 51/255. Normals are octahedral.
 //   Radiance is that of EXT_texture_shared_exponent, 9.9.9.e5.

@@ -74,6 +74,8 @@ std::vector<ExrChannel> channelsOf(const Attributes& part, bool wanted) {
     std::set<std::string> names;
     std::string subsampled;
     for (std::string name = in.name(); !name.empty(); name = in.name()) {
+        if (name.find('\n') != name.npos)
+            fail(fmt::format("channel {}: has a line break in its name", oneLine(name)));
         const auto type = in.number<std::int32_t>();
         in.take(4);  // pLinear and three reserved bytes
         const auto xSampling = in.number<std::int32_t>(), ySampling = in.number<std::int32_t>();
@@ -180,6 +182,7 @@ struct Reader {
 void Reader::readPart(const Attributes& attributes, int number) {
     const std::string_view kind = several() ? attributes.textOf("type") : std::string_view();
     const std::string_view name = attributes.textOf("name");
+    if (name.find('\n') != name.npos) fail("has a line break in its name");
     const bool deep = isDeep(kind),
                wanted = asked.empty() || asked == name || asked == std::to_string(number);
     if (several() && !deep && kind != "scanlineimage" && kind != "tiledimage")

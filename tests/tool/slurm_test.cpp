@@ -75,6 +75,7 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
     EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + slurmCompare).out.find("--array=1-5\n"),
               std::string::npos);
     EXPECT_TRUE(runTool(folder, "submit slurm").failedOver("a command is missing"));
+    EXPECT_TRUE(runTool(folder, "submit slurm -o report -- compare").failedOver("to the command after --"));
     EXPECT_TRUE(runTool(folder, "submit cron -- compare").failedOver("use slurm"));
     EXPECT_TRUE(
         runTool(folder, "submit slurm -- render builtin:points").failedOver("can be split into shards"));

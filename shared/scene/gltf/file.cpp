@@ -263,14 +263,15 @@ Json takeTinygltfPart(Json& document) {
     for (const char* key :
          {"accessors", "animations", "bufferViews", "cameras", "meshes", "nodes", "scene", "scenes", "skins"})
         if (const auto at = document.find(key); at != document.end()) part[key] = std::move(*at);
-    // tinygltf leaves out channels without a node. One with KHR_animation_pointer gets node 0, which is
-    // ignored; the others are removed.
+    // tinygltf leaves out channels without a node. One whose target is a pointer gets node 0, which is
+    // ignored; the others move nothing.
     static const Json::json_pointer pointer("/extensions/KHR_animation_pointer");
     if (part.contains("animations"))
         for (Json& animation : part["animations"])
             std::erase_if(animation["channels"].get_ref<Json::array_t&>(), [](Json& channel) {
                 Json& target = channel["target"];
-                if (!target.contains("node") && target.contains(pointer)) target["node"] = 0;
+                if (!target.contains("node") && target["path"] == "pointer" && target.contains(pointer))
+                    target["node"] = 0;
                 return !target.contains("node");
             });
     if (Json taken = takeAdditions(part); !taken.is_null()) document.update(taken);

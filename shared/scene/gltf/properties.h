@@ -130,8 +130,8 @@ constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  name()};
 
 constexpr Property meshopt[] = {required(index("buffer", "buffers")),
-                                whole("byteOffset"),
-                                required(whole("byteLength")),
+                                whole("byteOffset", 0, maxSize),
+                                required(whole("byteLength", 0, maxSize)),
                                 required(whole("byteStride", 1, 256)),
                                 required(whole("count", 0, maxInt)),
                                 required(text("mode", "ATTRIBUTES TRIANGLES INDICES")),

@@ -71,8 +71,7 @@ void noteTransmission(const Json& materials, const std::vector<bool>& drawn, Sce
         "with KHR_materials_dispersion, but without transmission through a thickness: no effect");
     note([&](std::size_t i) { return lit(i) && diffuses(i) && thick(i); },
          "with KHR_materials_diffuse_transmission and a volume: diffuses as a thin surface and absorbs over "
-         "the "
-         "thickness, scattering in the volume is not modelled");
+         "the thickness, scattering in the volume is not modelled");
 }
 
 }  // namespace diptych::gltf

@@ -46,6 +46,11 @@ TEST(OutputText, WideLettersKeepTheColumns) {
     EXPECT_EQ(inText(table), "n       x\n\u6f22\u5b57    1\n\u00e4bcde  22\n\U00020000b     3\n");
 }
 
+TEST(OutputText, ANameBeginsNoLineOfItsOwn) {
+    EXPECT_EQ(inText(Table{{{"n"}, {"x"}}, {{{"a\npass", "1"}}}}), "n            x\na\\u000apass  1\n");
+    EXPECT_EQ(inText(std::vector<Block>{Paragraph{{"a\npass"}}}), "a\\u000apass\n");
+}
+
 TEST(OutputText, GroupsStandAboveTheMiddleOfTheirColumns) {
     const Table table{.columns = {{"", Column::words, 3}, {"a", Column::number, 3}, {"b", Column::number, 4}},
                       .rows = {{{"x", "1", "2"}}},

@@ -241,7 +241,9 @@ TEST(PlotColors, PathsDifferInLightnessAndFromTheGround) {
             EXPECT_GE(contrastOf(paths[i][theme], grounds[theme]), 3);
             for (const ColorVision& vision : colorVisions) {
                 const auto lightness = [&](std::size_t path) { return labOf(paths[path][theme], vision)[0]; };
-                if (i == 1) EXPECT_GT(std::abs(lightness(0) - lightness(1)), 15) << vision.name;
+                if (i == 1) {
+                    EXPECT_GT(std::abs(lightness(0) - lightness(1)), 15) << vision.name;
+                }
                 for (std::size_t k = 0; k < i; ++k)
                     EXPECT_GT(distance(paths[i][theme], paths[k][theme], vision), 40) << vision.name;
             }
@@ -259,10 +261,11 @@ TEST(PlotColors, PartsOfABarDifferForEveryReader) {
         for (std::size_t i = 0; i < parts.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
                 EXPECT_GT(distance(parts[i], parts[k], vision), 15) << vision.name << ": " << k << ", " << i;
-                if (k + 1 == i)
+                if (k + 1 == i) {
                     EXPECT_GT(
                         std::abs(labOf(parts[i], colorVisions[0])[0] - labOf(parts[k], colorVisions[0])[0]),
                         9);
+                }
             }
 }
 

@@ -248,6 +248,9 @@ TEST(ExrParts, LiesOfALaterPartAreNamedByIt) {
     std::string kind = file;
     kind.replace(kind.rfind("scanlineimage"), 4, "\nscn");
     EXPECT_EQ(partFault(kind), "a.exr: part \"normals\": has the unknown type \"?scnlineimage\"");
+    std::string name = file;
+    name[name.rfind("normals")] = '\n';
+    EXPECT_EQ(partFault(name), "a.exr: part \"?ormals\": has a line break in its name");
     EXPECT_EQ(partFault(file.substr(0, file.rfind("displayWindow") + 3)),
               "a.exr: its header holds a name without an end");
     // If pixels are missing, the library's message is prefixed with the part's name.

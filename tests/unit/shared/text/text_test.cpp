@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Untrusted strings: their form in messages, and the limits on JSON before parsing.
+#include "shared/text/digits.h"
 #include "shared/text/indexed_names.h"
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
@@ -13,6 +14,13 @@
 
 namespace diptych {
 namespace {
+
+TEST(Digits, TellNumbersApart) {
+    EXPECT_EQ(digitsApart(0.0123456, 0.01), "0.0123");
+    EXPECT_EQ(digitsApart(0.0100004, 0.01), "0.0100004");
+    EXPECT_EQ(digitsApart(0.01, 0.0100004), "0.01");
+    EXPECT_EQ(digitsApart(0.01, 0.01, 4), "0.01");
+}
 
 TEST(OneLine, ControlCharactersAreShownAsQuestionMarks) {
     EXPECT_EQ(oneLine("a name"), "a name");

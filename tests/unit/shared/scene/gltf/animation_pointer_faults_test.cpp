@@ -102,6 +102,14 @@ TEST(GltfAnimationPointer, OneAnimationMovesNothingTwice) {
     EXPECT_TRUE(mentions(plain.load().notes, "an earlier channel already animates node 0"));
 }
 
+// Only the path "pointer" has one; another path moves its node, and without a node nothing.
+TEST(GltfAnimationPointer, OnOtherPathsIsIgnored) {
+    PointerFile f;
+    f.channel("/nodes/1/translation", {0, 0, 0, 1, 1, 1});
+    f.json["animations"][0]["channels"][0]["target"]["path"] = "translation";
+    EXPECT_TRUE(f.load().animations.empty());
+}
+
 // An unlit material only shows its base colour, and a sun has no cone: such channels change nothing.
 TEST(GltfAnimationPointer, WhatCannotBeSeenIsIgnored) {
     PointerFile f;
