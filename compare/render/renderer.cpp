@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -66,6 +67,8 @@ public:
     }
 
 private:
+    using Repaired = std::vector<std::uint32_t>;
+
     void announce(const std::string& step) const {
         if (options_.on_step) options_.on_step(frame_.name + ": " + step);
     }
@@ -123,6 +126,15 @@ private:
         return request;
     }
 
+    // Adds pixels of any of a channel's images: of all samples, through the G-buffer, before blending.
+    void addRepaired(Channel channel, const Repaired& pixels) {
+        if (pixels.empty() || !isRequested(channel)) return;
+        Repaired& all = frame_.repaired[channel];
+        Repaired both;
+        std::ranges::set_union(all, pixels, std::back_inserter(both));
+        all = std::move(both);
+    }
+
     // Keeps lit from before blending, if lit was requested.
     void takeUnblended(const CapturedImage& read, Image image) {
         if (!isRequested(Channel::lit)) return;
@@ -138,29 +150,29 @@ private:
         const std::size_t first = passes.size();
         std::vector<CapturedImage> captured =
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
-        readCaptured(first, captured, [this](const CapturedImage& read, Image image, Repaired repaired) {
-            if (read.before_blending) return takeUnblended(read, std::move(image));
-            if (read.sample > 0) {
-                keepInFile(image.data);
-                letGo(image.data);
-                frame_.further_samples[read.mode].push_back(std::move(image));
-                return;
-            }
-            if (read.through_gbuffer) {
-                keepInFile(image.data);
-                frame_.through_gbuffer[read.mode] = std::move(image);
-                return;
-            }
-            if (read.mode == Channel::lit) {
-                frame_.counters.unreproduced_pixels =
-                    unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
-                image = std::move(lit_);
-            }
-            if (read.mode != Channel::lit && !repaired.empty())
-                frame_.repaired[read.mode] = std::move(repaired);
-            keepInFile(image.data);
-            frame_.channels[read.mode] = std::move(image);
-        });
+        readCaptured(first, captured,
+                     [this](const CapturedImage& read, Image image, const Repaired& repaired) {
+                         addRepaired(read.mode, repaired);
+                         if (read.before_blending) return takeUnblended(read, std::move(image));
+                         if (read.sample > 0) {
+                             keepInFile(image.data);
+                             letGo(image.data);
+                             frame_.further_samples[read.mode].push_back(std::move(image));
+                             return;
+                         }
+                         if (read.through_gbuffer) {
+                             keepInFile(image.data);
+                             frame_.through_gbuffer[read.mode] = std::move(image);
+                             return;
+                         }
+                         if (read.mode == Channel::lit) {
+                             frame_.counters.unreproduced_pixels =
+                                 unequalPixels(image, lit_, device_.profile().bit_exact ? 0 : gpuUlps);
+                             image = std::move(lit_);
+                         }
+                         keepInFile(image.data);
+                         frame_.channels[read.mode] = std::move(image);
+                     });
         if (options_.twice != Twice::none) {
             announce("second run");
             step("second run", 1);
@@ -189,9 +201,8 @@ private:
     // Runs the capture's passes group by group, beginning at pass `first`. Passes each group's channels to
     // `take`, image by image, without NaN and infinity. Frees each image before reading the next, so that
     // few channels are in memory at a time.
-    using Repaired = std::vector<std::uint32_t>;
     void readCaptured(std::size_t first, std::span<const CapturedImage> captured,
-                      const std::function<void(const CapturedImage&, Image, Repaired)>& take) {
+                      const std::function<void(const CapturedImage&, Image, const Repaired&)>& take) {
         PassList& passes = prepared_.passes;
         while (!captured.empty()) {
             const std::size_t pass = captured.front().pass;
@@ -209,8 +220,8 @@ private:
                         break;
                 std::vector<Image> read = readImages(passes, requests);
                 for (std::size_t i = 0; i < read.size(); ++i) {
-                    Repaired repaired = repairNonfinite(read[i]);
-                    take(captured[i], std::move(read[i]), std::move(repaired));
+                    const Repaired repaired = repairNonfinite(read[i]);
+                    take(captured[i], std::move(read[i]), repaired);
                 }
                 captured = captured.subspan(read.size());
             }
