@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <vector>
 
 namespace diptych {
@@ -24,9 +25,7 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
     gpuView.spot_light_count = lights.spot;
-    gpuView.rect_light_count = lights.rect;
-    gpuView.disc_light_count = lights.disc;
-    gpuView.tube_light_count = lights.tube;
+    std::inclusive_scan(lights.areas.begin(), lights.areas.end(), gpuView.area_ends);
     gpuView.ambient = lights.ambient;
     gpuView.specular_aa_limit = choice.specular_aa_limit;
     lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, texelsOrAddress);

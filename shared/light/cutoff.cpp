@@ -2,7 +2,7 @@
 #include "shared/light/cutoff.h"
 
 #include "shared/contract/constants.h"
-#include "shared/scene/model/luminance.h"
+#include "shared/scene/lights/casters.h"
 #include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>
@@ -18,23 +18,8 @@ namespace diptych {
 
 namespace {
 
-// Intensity from afar in the direction of the maximum, W/sr.
 double luminousIntensity(const Light& light) {
-    const double i = luminance(glm::dvec3(light.color)) * static_cast<double>(light.intensity);
-    const double r = static_cast<double>(light.radius);
-    switch (light.kind) {
-        case LightKind::rect:
-            return i * static_cast<double>(light.width) * static_cast<double>(light.height);
-        case LightKind::disc:
-            return i * std::numbers::pi * r * r;
-        case LightKind::tube:
-            return i * 2 * r * static_cast<double>(light.length);
-        case LightKind::directional:
-        case LightKind::point:
-        case LightKind::spot:
-            break;
-    }
-    return i;
+    return intensityFromAfar(light, strengthOf(light));
 }
 
 bool endless(const Light& light) {
@@ -102,8 +87,7 @@ double shape(const Light& light, const glm::dvec3& direction, const LightFalloff
         const double inner = std::cos(static_cast<double>(light.inner_cone));
         return falloff.cone((c - outer) / std::max(inner - outer, 0.001));
     }
-    if (light.kind == LightKind::rect || light.kind == LightKind::disc)
-        return light.two_sided ? std::abs(c) : std::max(c, 0.0);
+    if (isArea(light.kind) && !isClosed(light.kind)) return light.two_sided ? std::abs(c) : std::max(c, 0.0);
     return 1;
 }
 

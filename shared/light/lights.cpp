@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace diptych {
 
@@ -61,6 +62,21 @@ bool shines(const Light& light) {
 
 }  // namespace
 
+ShownArea shownArea(const GpuLights& lights, std::size_t area, const glm::dvec3& to_place) {
+    const gpu::AreaLight& light = lights.area_lights[area];
+    std::size_t kind = 0;
+    for (; area >= lights.areas[kind]; ++kind) area -= lights.areas[kind];
+    const double r = double{light.radius}, half = glm::length(glm::dvec3(light.x));
+    const double cosine = glm::dot(glm::dvec3(light.direction), to_place);
+    if (areaKinds[kind] == LightKind::tube) {
+        const double side = 4 * half * r, end = std::numbers::pi * r * r;
+        return {side + end, side * std::sqrt(std::max(0.0, 1 - cosine * cosine)) + end * std::abs(cosine)};
+    }
+    const double halves = glm::length(glm::cross(glm::dvec3(light.x), glm::dvec3(light.y)));
+    const double flat = halves * (areaKinds[kind] == LightKind::disc ? std::numbers::pi : 4);
+    return {flat, flat * (light.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
+}
+
 float inverseSquaredRange(float range) {
     const float squared = range * range;
     if (!(squared > 0)) return std::numeric_limits<float>::infinity();
@@ -99,9 +115,7 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
     takeThose(LightKind::spot, true, result.casting_spots);
     result.spot = result.casting_spots;
     take(LightKind::spot, result.spot);
-    take(LightKind::rect, result.rect);
-    take(LightKind::disc, result.disc);
-    take(LightKind::tube, result.tube);
+    for (std::size_t i = 0; i < areaKinds.size(); ++i) take(areaKinds[i], result.areas[i]);
     result.lights.push_back({.position = {}, .inverse_range_squared = 1, .intensity = {}, .range = 0});
     result.spot_cones.push_back({{0, 0, 1}, 0, 0, {}});
     result.area_lights.push_back(

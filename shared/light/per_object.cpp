@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 namespace diptych {
@@ -32,28 +32,10 @@ const gpu::SpotCone* coneOf(const GpuLights& lights, std::size_t i) {
     return i >= first && i < first + lights.spot ? &lights.spot_cones[i - first] : nullptr;
 }
 
-const gpu::AreaLight* areaOf(const GpuLights& lights, std::size_t i) {
+// Index among the area lights.
+std::optional<std::size_t> areaOf(const GpuLights& lights, std::size_t i) {
     const std::size_t first = lights.directional + lights.point + lights.spot;
-    return i >= first ? &lights.area_lights[i - first] : nullptr;
-}
-
-// Projected area of an area light from afar, m^2, which converts radiance to intensity: the largest over
-// all directions, and in the unit direction `to_place` from its centre.
-struct Shown {
-    double most, there;
-};
-Shown shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place) {
-    const gpu::AreaLight& area = *areaOf(lights, i);
-    const std::size_t number = lights.count() - i;  // from the end, where the tubes are
-    const double r = double{area.radius}, half = glm::length(glm::dvec3(area.x));
-    const double cosine = glm::dot(glm::dvec3(area.direction), to_place);
-    if (number <= lights.tube) {
-        const double side = 4 * half * r, end = std::numbers::pi * r * r;
-        return {side + end, side * std::sqrt(std::max(0.0, 1 - cosine * cosine)) + end * std::abs(cosine)};
-    }
-    const double halves = glm::length(glm::cross(glm::dvec3(area.x), glm::dvec3(area.y)));
-    const double flat = halves * (number <= lights.tube + lights.disc ? std::numbers::pi : 4);
-    return {flat, flat * (area.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
+    return i >= first ? std::optional(i - first) : std::nullopt;
 }
 
 // Cosine of the smallest angle between the light's axis and a direction to the box's bounding sphere.
@@ -115,10 +97,11 @@ double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& o
     const double reach = windowAt(lights.falloff, light, nearest * (1 - 1e-5));
     if (!(reach > 0)) return 0;
     double shone = strength * reach / (nearest * nearest + radius * radius / 4 + 1e-20);
-    if (const gpu::AreaLight* area = areaOf(lights, i)) {
-        const double near = std::max(nearest - double{area->extent}, 0.0), extent = double{area->extent};
+    if (const std::optional<std::size_t> area = areaOf(lights, i)) {
+        const double extent = double{lights.area_lights[*area].extent},
+                     near = std::max(nearest - extent, 0.0);
         const double square = near * near + radius * radius / 4 + extent * extent + 1e-20;
-        shone = strength * reach * shownArea(lights, i, {}).most / square;
+        shone = strength * reach * shownArea(lights, *area, {}).most / square;
     }
     if (const gpu::SpotCone* cone = coneOf(lights, i))
         shone *= coneAt(lights.falloff, *cone,
@@ -188,10 +171,11 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size
     const glm::dvec3 to_light = glm::dvec3(light.position) - object.centre;
     const double distance = glm::length(to_light), radius = std::max(glm::length(object.half), 1e-10);
     const glm::dvec3 l = distance > 0 ? to_light / distance : glm::dvec3(0);
-    const gpu::AreaLight* area = areaOf(lights, i);
-    const double soft = std::max(distance, area ? std::max(radius, double{area->extent}) : radius);
+    const std::optional<std::size_t> area = areaOf(lights, i);
+    const double soft =
+        std::max(distance, area ? std::max(radius, double{lights.area_lights[*area].extent}) : radius);
     double shone = windowAt(lights.falloff, light, distance) / (soft * soft);
-    if (area) shone *= shownArea(lights, i, -l).there;
+    if (area) shone *= shownArea(lights, *area, -l).there;
     if (const gpu::SpotCone* cone = coneOf(lights, i))
         shone *= coneAt(lights.falloff, *cone, -glm::dot(l, glm::dvec3(cone->direction)));
     if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
