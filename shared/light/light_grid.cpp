@@ -138,12 +138,10 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
         const glm::dvec3 apex = toView(light.position);
         glm::dvec3 centre = apex, axis(0, 0, 1);
         double radius = static_cast<double>(light.range), cosCone = -1, sinCone = 0;
-        const std::size_t spot = i - lights.directional - lights.point;
-        if (i >= lights.directional + lights.point && spot < lights.spot) {
-            const gpu::SpotCone& cone = lights.spot_cones[spot];
-            axis = toView(cone.direction);
+        if (const gpu::SpotCone* cone = lights.coneOf(i)) {
+            axis = toView(cone->direction);
             // The shader rounds offset + scale * cos, so a spot may light slightly outside its cone.
-            cosCone = std::clamp(static_cast<double>(-cone.offset / cone.scale) - 2e-6, -1.0, 1.0);
+            cosCone = std::clamp(static_cast<double>(-cone->offset / cone->scale) - 2e-6, -1.0, 1.0);
             sinCone = std::sqrt(1 - cosCone * cosCone);
             // Smallest bounding sphere of the spot's spherical sector.
             if (std::isfinite(radius) && cosCone > 0) {

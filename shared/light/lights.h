@@ -34,15 +34,24 @@ struct GpuLights {
     std::uint32_t area() const { return std::reduce(areas.begin(), areas.end()); }
     std::uint32_t local() const { return point + spot + area(); }
     std::uint32_t count() const { return directional + local(); }
+    std::size_t firstSpot() const { return directional + point; }
+    std::size_t firstArea() const { return firstSpot() + spot; }
+
+    // Null unless light `i` is a spot, or an area light.
+    const gpu::SpotCone* coneOf(std::size_t i) const {
+        return i >= firstSpot() && i < firstArea() ? &spot_cones[i - firstSpot()] : nullptr;
+    }
+    const gpu::AreaLight* shapeOf(std::size_t i) const {
+        return i >= firstArea() ? &area_lights[i - firstArea()] : nullptr;
+    }
 };
 
-// Projected area of an area light from afar, m^2, which converts radiance to intensity: the largest over
-// all directions, and in the unit direction `to_place` from its centre. `area`: its index among the area
-// lights.
+// Projected area of the area light `i` from afar, m^2, which converts radiance to intensity: the largest
+// over all directions, and in the unit direction `to_place` from its centre.
 struct ShownArea {
     double most, there;
 };
-ShownArea shownArea(const GpuLights& lights, std::size_t area, const glm::dvec3& to_place);
+ShownArea shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place);
 
 // Light::inverse_range_squared for a range in metres, 1/m^2: the smallest float32 whose product with the
 // squared range is at least 1, so that no light arrives from the range on. 0 if the squared range is

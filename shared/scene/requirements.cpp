@@ -79,8 +79,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     int skinned = -1, morphed = -1;
     std::set<int> skins;
     for (const Instance& instance : pose.instances) {
-        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        const Primitive& primitive = primitiveOf(scene, instance);
         if (primitive.indices.empty()) continue;
         ++r.draws;
         r.triangles += primitive.indices.size() / 3;
