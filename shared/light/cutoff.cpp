@@ -83,8 +83,8 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, st
 double shape(const Light& light, const glm::dvec3& direction, const LightFalloff& falloff) {
     const double c = glm::dot(direction, light.direction);
     if (light.kind == LightKind::spot) {
-        const double outer = std::cos(static_cast<double>(light.outer_cone));
-        const double inner = std::cos(static_cast<double>(light.inner_cone));
+        const double outer = std::cos(double{light.outer_cone});
+        const double inner = std::cos(double{light.inner_cone});
         return falloff.cone((c - outer) / std::max(inner - outer, 0.001));
     }
     if (isArea(light.kind) && !isClosed(light.kind)) return light.two_sided ? std::abs(c) : std::max(c, 0.0);
@@ -112,8 +112,7 @@ double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> li
         for (const Light& light : lights) {
             if (!endless(light)) continue;
             const glm::dvec3 to = light.position - point.position;
-            const double d2 =
-                std::max(glm::dot(to, to), static_cast<double>(gpu::MIN_LIGHT_DISTANCE_SQUARED));
+            const double d2 = std::max(glm::dot(to, to), double{gpu::MIN_LIGHT_DISTANCE_SQUARED});
             const glm::dvec3 direction = to / std::sqrt(d2);
             const double flux = luminousIntensity(light) * shape(light, -direction, falloff) *
                                 std::abs(glm::dot(point.normal, direction)) / d2 * point.area;

@@ -26,8 +26,8 @@ gpu::Light gpuLight(const Light& light, const glm::dvec3& eye) {
 
 gpu::SpotCone spotCone(const Light& light) {
     // Reference formula of KHR_lights_punctual; the lower bound keeps a hard cone (inner = outer) finite.
-    const double cosOuter = std::cos(static_cast<double>(light.outer_cone));
-    const double scale = 1 / std::max(0.001, std::cos(static_cast<double>(light.inner_cone)) - cosOuter);
+    const double cosOuter = std::cos(double{light.outer_cone});
+    const double scale = 1 / std::max(0.001, std::cos(double{light.inner_cone}) - cosOuter);
     return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale), {}};
 }
 

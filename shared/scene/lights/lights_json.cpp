@@ -100,8 +100,8 @@ void checkKeys(const JsonFields& fields, LightKind kind) {
 
 void readCone(const JsonFields& fields, Light& light) {
     constexpr double right = glm::half_pi<double>();
-    const double inner = fields.number("innerConeAngle", static_cast<double>(light.inner_cone), 0, any);
-    const double outer = fields.number("outerConeAngle", static_cast<double>(light.outer_cone), 0, any);
+    const double inner = fields.number("innerConeAngle", double{light.inner_cone}, 0, any);
+    const double outer = fields.number("outerConeAngle", double{light.outer_cone}, 0, any);
     if (outer > right + rounding) fields.fail("outerConeAngle", fmt::format("{:g} is above pi / 2", outer));
     if (!(static_cast<float>(inner) < static_cast<float>(outer)))
         fields.fail("innerConeAngle", fmt::format("{:g} is not below outerConeAngle {:g}", inner, outer));
@@ -110,7 +110,7 @@ void readCone(const JsonFields& fields, Light& light) {
 }
 
 float sizeIn(const JsonFields& fields, std::string_view key, float fallback) {
-    return static_cast<float>(fields.number(key, static_cast<double>(fallback), leastSize, maxCoordinate));
+    return static_cast<float>(fields.number(key, double{fallback}, leastSize, maxCoordinate));
 }
 
 glm::dvec3 levelAxis(const glm::dvec3& direction) {
@@ -128,7 +128,7 @@ glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
 }
 
 void readShape(const JsonFields& fields, Light& light) {
-    std::array size{static_cast<double>(light.width), static_cast<double>(light.height)};
+    std::array size{double{light.width}, double{light.height}};
     fields.numbers("size", size);
     for (const double side : size) fields.within("size", side, leastSize, maxCoordinate);
     light.width = static_cast<float>(size[0]);
