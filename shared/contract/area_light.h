@@ -4,11 +4,24 @@
 
 #include "types.h"
 
+// The kinds of area lights, in the order of the light buffer. The name is the "type" in JSON, and the first
+// word of the kind's functions in shaders/lib/lights. Cost: of its shading, in point lights
+// (shared/light/MEASURED.md, "Errors of area lights").
+//
+// tests/architecture/README.md lists the files to change for a new kind.
+//   number  name  cost
+// clang-format off
+#define AREA_KINDS(X) \
+    X(0, rect, 5)     \
+    X(1, disc, 11)    \
+    X(2, tube, 37)
+// clang-format on
+
 CONTRACT_BEGIN
 
 // Shape of a rectangle, disc or tube. Its Light stores the centre as position, the range from the centre,
 // and as intensity the radiance in W/(sr m^2), constant over the shape and all directions.
-// Area lights are the last lights: rectangles, discs, tubes. Shape i belongs to area light i.
+// Area lights are the last lights. Shape i belongs to area light i.
 struct AreaLight {
     vec3 x;  // m, from the centre; rectangle: to the middle of a side; disc: to the rim; tube: to an end
     float radius;     // m; disc, tube
@@ -27,12 +40,15 @@ CONTRACT_LANE(AreaLight, direction, 2, 0);
 CONTRACT_LANE(AreaLight, two_sided, 2, 3);
 CONTRACT_TEXELS(AreaLight, 3);
 
-// FEATURE_area_lights: a sum of the shapes in the scene. AREA_POINTS evaluates them as representative
+// FEATURE_area_lights: a sum of the kinds in the scene. AREA_POINTS evaluates them as representative
 // points; without it they use linearly transformed cosines.
-CONTRACT_CONST(uint, AREA_RECTS, 1);
-CONTRACT_CONST(uint, AREA_DISCS, 2);
-CONTRACT_CONST(uint, AREA_TUBES, 4);
-CONTRACT_CONST(uint, AREA_POINTS, 8);
+#define DIPTYCH_AREA_BIT(number, name, cost) CONTRACT_CONST(uint, AREA_##name, 1u << number);
+AREA_KINDS(DIPTYCH_AREA_BIT)
+#undef DIPTYCH_AREA_BIT
+#define DIPTYCH_AREA_ONE(number, name, cost) +1
+CONTRACT_CONST(uint, AREA_KIND_COUNT, 0 AREA_KINDS(DIPTYCH_AREA_ONE));
+#undef DIPTYCH_AREA_ONE
+CONTRACT_CONST(uint, AREA_POINTS, 1u << AREA_KIND_COUNT);
 
 CONTRACT_END
 

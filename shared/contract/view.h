@@ -2,6 +2,7 @@
 #ifndef DIPTYCH_CONTRACT_VIEW_H
 #define DIPTYCH_CONTRACT_VIEW_H
 
+#include "area_light.h"
 #include "types.h"
 
 CONTRACT_BEGIN
@@ -27,9 +28,7 @@ struct View {
     uint directional_light_count;
     uint point_light_count;
     uint spot_light_count;
-    uint rect_light_count;
-    uint disc_light_count;
-    uint tube_light_count;
+    uint area_ends[AREA_KIND_COUNT];  // of each kind's indices among the area lights
     vec3 ambient;             // W/(sr m^2), uniform
     float specular_aa_limit;  // kappa of shaders/lib/surface/specular_aa.glsl
     // Addresses of the lights' buffers, for FEATURE_addressed_lights.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <vector>
 
 namespace diptych {
@@ -24,25 +25,18 @@ FrameBuffers::FrameBuffers(Device& device, Uploader& uploader, const Layouts& la
     gpuView.directional_light_count = lights.directional;
     gpuView.point_light_count = lights.point;
     gpuView.spot_light_count = lights.spot;
-    gpuView.rect_light_count = lights.rect;
-    gpuView.disc_light_count = lights.disc;
-    gpuView.tube_light_count = lights.tube;
+    std::inclusive_scan(lights.areas.begin(), lights.areas.end(), gpuView.area_ends);
     gpuView.ambient = lights.ambient;
     gpuView.specular_aa_limit = choice.specular_aa_limit;
-    lights_ = makeBuffer<gpu::Light>(device, uploader, "lights", lights.lights, texelsOrAddress);
-    spot_cones_ =
-        makeBuffer<gpu::SpotCone>(device, uploader, "spot cones", lights.spot_cones, texelsOrAddress);
-    area_lights_ =
-        makeBuffer<gpu::AreaLight>(device, uploader, "area lights", lights.area_lights, texelsOrAddress);
-    const auto texels = [&](const char* name, const GpuBuffer& buffer) {
-        return texelsUnless(lists_.addressed(), device, name, buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const auto upload = [&]<typename T>(const char* name, const std::vector<T>& from, GpuBuffer& buffer,
+                                        OwnedBufferView& texels) {
+        buffer = makeBuffer<T>(device, uploader, name, from, texelsOrAddress);
+        texels = texelsUnless(lists_.addressed(), device, name, buffer, VK_FORMAT_R32G32B32A32_SFLOAT);
+        return addressWords(buffer.address());
     };
-    lights_view_ = texels("lights", lights_);
-    spot_cones_view_ = texels("spot cones", spot_cones_);
-    area_lights_view_ = texels("area lights", area_lights_);
-    gpuView.lights = addressWords(lights_.address());
-    gpuView.spot_cones = addressWords(spot_cones_.address());
-    gpuView.area_lights = addressWords(area_lights_.address());
+    gpuView.lights = upload("lights", lights.lights, lights_, lights_view_);
+    gpuView.spot_cones = upload("spot cones", lights.spot_cones, spot_cones_, spot_cones_view_);
+    gpuView.area_lights = upload("area lights", lights.area_lights, area_lights_, area_lights_view_);
     view_ = makeBuffer<gpu::View>(device, uploader, "view", std::span(&gpuView, 1),
                                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     const PackedView packed = packedView(gpuView, lists_.grid());

@@ -59,9 +59,8 @@ Variant sceneVariant(const Requirements& needs, const GpuLights& lights, const V
                      const GBufferLayout& gbuffer, const Settings& settings) {
     Variant variant;
     gpu::uint area = 0;
-    if (lights.rect > 0) area |= gpu::AREA_RECTS;
-    if (lights.disc > 0) area |= gpu::AREA_DISCS;
-    if (lights.tube > 0) area |= gpu::AREA_TUBES;
+    for (std::size_t kind = 0; kind < lights.areas.size(); ++kind)
+        if (lights.areas[kind] > 0) area |= 1u << kind;
     if (area != 0 && settings.area_lights == AreaLights::representative) area |= gpu::AREA_POINTS;
     variant.set(gpu::FEATURE_emission, needs.emission)
         .set(gpu::FEATURE_dielectric_specular, needs.dielectric_specular)

@@ -20,6 +20,10 @@ constexpr std::array layer_sums{LayerSum{gpu::LAYER_CLEARCOAT, "partial clear co
                                 LayerSum{gpu::LAYER_DIFFUSE_TRANSMISSION, "partial transmitted sum"}};
 static_assert(2 + layer_sums.size() == std::tuple_size_v<PartialSumImages>);
 
+#define DIPTYCH_COST(number, name, cost) cost,
+constexpr double area_costs[] = {AREA_KINDS(DIPTYCH_COST)};
+#undef DIPTYCH_COST
+
 }  // namespace
 
 void LightBatch::read(Pass& pass, VkPipelineStageFlags2 stages) const {
@@ -50,9 +54,9 @@ std::vector<VkFormat> partialSumFormats(gpu::uint layers) {
 double shadingMs(const PassList& passes, const FrameInputs& inputs, const LightBatch& batch) {
     const DeviceCosts& costs = inputs.device.profile().costs;
     const GpuLights& all = inputs.lights;
-    // Cost of area lights in point lights (shared/light/MEASURED.md, "Errors of area lights").
-    const double points = all.point + all.spot + 5.0 * all.rect + 11.0 * all.disc + 37.0 * all.tube,
-                 each = points / std::max(1.0, static_cast<double>(all.local()));
+    double points = all.point + all.spot;
+    for (std::size_t kind = 0; kind < all.areas.size(); ++kind) points += area_costs[kind] * all.areas[kind];
+    const double each = points / std::max(1.0, static_cast<double>(all.local()));
     double lights = lightsAtPixel(inputs);
     if (batch.kind != gpu::BATCH_WHOLE)
         lights = std::min(lights, static_cast<double>(batch.end - batch.first) *

@@ -2,7 +2,7 @@
 #include "shared/light/cutoff.h"
 
 #include "shared/contract/constants.h"
-#include "shared/scene/model/luminance.h"
+#include "shared/scene/lights/casters.h"
 #include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>
@@ -18,23 +18,8 @@ namespace diptych {
 
 namespace {
 
-// Intensity from afar in the direction of the maximum, W/sr.
 double luminousIntensity(const Light& light) {
-    const double i = luminance(glm::dvec3(light.color)) * static_cast<double>(light.intensity);
-    const double r = static_cast<double>(light.radius);
-    switch (light.kind) {
-        case LightKind::rect:
-            return i * static_cast<double>(light.width) * static_cast<double>(light.height);
-        case LightKind::disc:
-            return i * std::numbers::pi * r * r;
-        case LightKind::tube:
-            return i * 2 * r * static_cast<double>(light.length);
-        case LightKind::directional:
-        case LightKind::point:
-        case LightKind::spot:
-            break;
-    }
-    return i;
+    return intensityFromAfar(light, strengthOf(light));
 }
 
 bool endless(const Light& light) {
@@ -98,12 +83,11 @@ std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Pose& pose, st
 double shape(const Light& light, const glm::dvec3& direction, const LightFalloff& falloff) {
     const double c = glm::dot(direction, light.direction);
     if (light.kind == LightKind::spot) {
-        const double outer = std::cos(static_cast<double>(light.outer_cone));
-        const double inner = std::cos(static_cast<double>(light.inner_cone));
+        const double outer = std::cos(double{light.outer_cone});
+        const double inner = std::cos(double{light.inner_cone});
         return falloff.cone((c - outer) / std::max(inner - outer, 0.001));
     }
-    if (light.kind == LightKind::rect || light.kind == LightKind::disc)
-        return light.two_sided ? std::abs(c) : std::max(c, 0.0);
+    if (isArea(light.kind) && !isClosed(light.kind)) return light.two_sided ? std::abs(c) : std::max(c, 0.0);
     return 1;
 }
 
@@ -128,8 +112,7 @@ double energyCut(const Scene& scene, const Pose& pose, std::span<const Light> li
         for (const Light& light : lights) {
             if (!endless(light)) continue;
             const glm::dvec3 to = light.position - point.position;
-            const double d2 =
-                std::max(glm::dot(to, to), static_cast<double>(gpu::MIN_LIGHT_DISTANCE_SQUARED));
+            const double d2 = std::max(glm::dot(to, to), double{gpu::MIN_LIGHT_DISTANCE_SQUARED});
             const glm::dvec3 direction = to / std::sqrt(d2);
             const double flux = luminousIntensity(light) * shape(light, -direction, falloff) *
                                 std::abs(glm::dot(point.normal, direction)) / d2 * point.area;

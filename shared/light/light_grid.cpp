@@ -49,7 +49,7 @@ TypicalLight typicalLight(std::span<const gpu::LightBound> bounds) {
     std::vector<double> radii, depths;
     TypicalLight light;
     for (const gpu::LightBound& b : bounds) {
-        const double r = static_cast<double>(b.radius), z = static_cast<double>(b.centre.z);
+        const double r = double{b.radius}, z = double{b.centre.z};
         if (r >= 1e6 || z + r <= 0) continue;
         radii.push_back(r);
         depths.push_back(std::max(z, r));
@@ -73,9 +73,9 @@ void sizeTiles(gpu::LightGrid& grid, const View& view, gpu::uint shift) {
 // Volume, m^3, of the positions of a cell's centre at which the typical light reaches the cell: the
 // Minkowski sum of a box and a sphere, by Steiner's formula.
 double reachVolume(const gpu::LightGrid& grid, bool orthographic, const TypicalLight& light) {
-    const double r = light.radius, depth = light.depth + static_cast<double>(grid.slice_offset);
-    const double side = static_cast<double>(grid.pixel) * (orthographic ? 1 : light.depth) *
-                        static_cast<double>(1u << grid.tile_shift);
+    const double r = light.radius, depth = light.depth + double{grid.slice_offset};
+    const double side =
+        double{grid.pixel} * (orthographic ? 1 : light.depth) * static_cast<double>(1u << grid.tile_shift);
     // Average over the first and last slice of an octave.
     const double deep = 0.75 * depth / static_cast<double>(1u << (23 - std::min(grid.slice_shift, 23u)));
     return side * side * deep + 2 * (side * side + 2 * side * deep) * r +
@@ -137,13 +137,11 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
         const gpu::Light& light = lights.lights[i];
         const glm::dvec3 apex = toView(light.position);
         glm::dvec3 centre = apex, axis(0, 0, 1);
-        double radius = static_cast<double>(light.range), cosCone = -1, sinCone = 0;
-        const std::size_t spot = i - lights.directional - lights.point;
-        if (i >= lights.directional + lights.point && spot < lights.spot) {
-            const gpu::SpotCone& cone = lights.spot_cones[spot];
-            axis = toView(cone.direction);
+        double radius = double{light.range}, cosCone = -1, sinCone = 0;
+        if (const gpu::SpotCone* cone = lights.coneOf(i)) {
+            axis = toView(cone->direction);
             // The shader rounds offset + scale * cos, so a spot may light slightly outside its cone.
-            cosCone = std::clamp(static_cast<double>(-cone.offset / cone.scale) - 2e-6, -1.0, 1.0);
+            cosCone = std::clamp(double{-cone->offset / cone->scale} - 2e-6, -1.0, 1.0);
             sinCone = std::sqrt(1 - cosCone * cosCone);
             // Smallest bounding sphere of the spot's spherical sector.
             if (std::isfinite(radius) && cosCone > 0) {
@@ -153,14 +151,13 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
             }
         }
         radius += radius_rounding * (radius + glm::length(apex));
-        if (radius >= static_cast<double>(gpu::MAX_BOUND_RADIUS)) centre = glm::dvec3(0);
-        bounds.push_back(
-            {.centre = gpu::vec3(centre),
-             .radius = static_cast<float>(std::min(radius, static_cast<double>(gpu::MAX_BOUND_RADIUS))),
-             .apex = gpu::vec3(apex),
-             .cos_cone = static_cast<float>(cosCone),
-             .axis = gpu::vec3(axis),
-             .sin_cone = static_cast<float>(sinCone)});
+        if (radius >= double{gpu::MAX_BOUND_RADIUS}) centre = glm::dvec3(0);
+        bounds.push_back({.centre = gpu::vec3(centre),
+                          .radius = static_cast<float>(std::min(radius, double{gpu::MAX_BOUND_RADIUS})),
+                          .apex = gpu::vec3(apex),
+                          .cos_cone = static_cast<float>(cosCone),
+                          .axis = gpu::vec3(axis),
+                          .sin_cone = static_cast<float>(sinCone)});
     }
     return bounds;
 }
@@ -168,8 +165,7 @@ std::vector<gpu::LightBound> lightBounds(const GpuLights& lights, const View& vi
 gpu::uint cellOf(const gpu::LightGrid& grid, int x, int y, float depth) {
     const gpu::uint column = static_cast<gpu::uint>(x) >> grid.tile_shift,
                     row = static_cast<gpu::uint>(y) >> grid.tile_shift;
-    const gpu::uint slice =
-        grid.slices == 1 ? 0 : std::min(sliceOf(grid, static_cast<double>(depth)), grid.slices - 1);
+    const gpu::uint slice = std::min(sliceOf(grid, double{depth}), grid.slices - 1);
     return (slice * grid.tiles.y + row) * grid.tiles.x + column;
 }
 
@@ -191,8 +187,8 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
     const auto tiles = [&](double lo, double hi, double near, double far, float centre, gpu::uint count) {
         const double from = orthographic ? lo : lo / (lo < 0 ? near : far);
         const double to = orthographic ? hi : hi / (hi < 0 ? far : near);
-        const double side = static_cast<double>(grid.pixel) * static_cast<double>(1u << grid.tile_shift);
-        const double middle = static_cast<double>(centre) / static_cast<double>(1u << grid.tile_shift);
+        const double side = double{grid.pixel} * static_cast<double>(1u << grid.tile_shift);
+        const double middle = double{centre} / static_cast<double>(1u << grid.tile_shift);
         const double first =
             std::clamp(std::floor(from / side + middle) - 1, 0.0, static_cast<double>(count));
         const double last = std::clamp(std::floor(to / side + middle) + 2, 0.0, static_cast<double>(count));
@@ -200,15 +196,15 @@ std::uint64_t listedAtMost(const gpu::LightGrid& grid, bool orthographic,
     };
     std::uint64_t pairs = 0;
     for (const gpu::LightBound& b : bounds) {
-        const double r = static_cast<double>(b.radius), x = static_cast<double>(b.centre.x),
-                     y = static_cast<double>(b.centre.y), z = static_cast<double>(b.centre.z);
+        const double r = double{b.radius}, x = double{b.centre.x}, y = double{b.centre.y},
+                     z = double{b.centre.z};
         if (z + r < 0) continue;
-        const gpu::uint first = grid.slices == 1 ? 0 : std::min(sliceOf(grid, z - r), grid.slices - 1);
-        const gpu::uint last = grid.slices == 1 ? 0 : std::min(sliceOf(grid, z + r), grid.slices - 1);
+        const gpu::uint first = std::min(sliceOf(grid, z - r), grid.slices - 1);
+        const gpu::uint last = std::min(sliceOf(grid, z + r), grid.slices - 1);
         for (gpu::uint s = first; s <= last; ++s) {
             const SliceDepths slab = sliceDepths(grid, s);
-            const double near = std::max({static_cast<double>(slab.near), z - r, 1e-30});
-            const double far = std::max(near, std::min(static_cast<double>(slab.far), z + r));
+            const double near = std::max({double{slab.near}, z - r, 1e-30});
+            const double far = std::max(near, std::min(double{slab.far}, z + r));
             const double dz = std::max({near - z, z - far, 0.0});
             const double cut = std::sqrt(std::max(r * r - dz * dz, 0.0));
             pairs += tiles(x - cut, x + cut, near, far, grid.centre.x, grid.tiles.x) *

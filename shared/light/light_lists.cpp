@@ -141,8 +141,6 @@ void LightLists::makeInputsOfPasses() {
     tile_depths_ = listBuffer(device_, "tile depths", choice_.lists == gpu::LISTS_TILED ? grid_.lists : 0,
                               sizeof(gpu::vec2));
     overflow_ = listBuffer(device_, "light list overflow", 1, 4);
-    overflow_seen_ = GpuBuffer(device_, "light list overflow, read back", 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                               MemoryUse::readback);
     sampler_ = makeNearestSampler(device_);
     sets_ = DescriptorSets(device_, layouts_.lists(), listTypes, 1);
     sets_.texels(0, gpu::BINDING_BOUNDS, bounds_view_);
@@ -277,46 +275,36 @@ void LightLists::read(PassList& passes, Pass& pass, VkPipelineStageFlags2 stages
         .uses(passes.buffer("list counts", listed_), access::storageRead(stages));
 }
 
-std::uint64_t LightLists::overflowed() const {
-    if (!any()) return 0;
+std::vector<gpu::uint> LightLists::wordsOf(const GpuBuffer& from, std::uint64_t first,
+                                           std::size_t count) const {
+    std::vector<gpu::uint> words(count);
+    if (count == 0) return words;
+    const GpuBuffer seen(device_, "light list, read back", count * sizeof(gpu::uint),
+                         VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
     device_.submit([&](VkCommandBuffer commands) {
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-        const VkBufferCopy copy{0, 0, sizeof(gpu::uint)};
-        vkCmdCopyBuffer(commands, overflow_.handle(), overflow_seen_.handle(), 1, &copy);
+        const VkBufferCopy copy{first * sizeof(gpu::uint), 0, count * sizeof(gpu::uint)};
+        vkCmdCopyBuffer(commands, from.handle(), seen.handle(), 1, &copy);
         memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
-    gpu::uint lists = 0;
-    std::memcpy(&lists, overflow_seen_.mapped(), sizeof lists);
-    return lists;
+    std::memcpy(words.data(), seen.mapped(), count * sizeof(gpu::uint));
+    return words;
+}
+
+std::uint64_t LightLists::overflowed() const {
+    return any() ? wordsOf(overflow_, 0, 1)[0] : 0;
 }
 
 std::vector<gpu::uint> LightLists::lightsAt(int x, int y, float depth) const {
     if (!any()) return {};
-    const auto read = [&](const GpuBuffer& from, std::uint64_t first, std::size_t count) {
-        std::vector<gpu::uint> words(count);
-        if (count == 0) return words;
-        const GpuBuffer seen(device_, "light list, read back", count * sizeof(gpu::uint),
-                             VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::readback);
-        device_.submit([&](VkCommandBuffer commands) {
-            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                          VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
-                          VK_ACCESS_2_TRANSFER_READ_BIT);
-            const VkBufferCopy copy{first * sizeof(gpu::uint), 0, count * sizeof(gpu::uint)};
-            vkCmdCopyBuffer(commands, from.handle(), seen.handle(), 1, &copy);
-            memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-        });
-        std::memcpy(words.data(), seen.mapped(), count * sizeof(gpu::uint));
-        return words;
-    };
     constexpr std::uint64_t headWords = sizeof(gpu::LightListHead) / sizeof(gpu::uint);
-    const std::vector<gpu::uint> words = read(heads_, headWords * cellOf(grid_, x, y, depth), headWords);
+    const std::vector<gpu::uint> words = wordsOf(heads_, headWords * cellOf(grid_, x, y, depth), headWords);
     gpu::LightListHead head{};
     std::memcpy(&head, words.data(), sizeof head);
-    std::vector<gpu::uint> lights = read(indices_, std::uint64_t{head.begin} * grid_.width,
-                                         std::size_t{head.end - head.begin} * grid_.width);
+    std::vector<gpu::uint> lights = wordsOf(indices_, std::uint64_t{head.begin} * grid_.width,
+                                            std::size_t{head.end - head.begin} * grid_.width);
     std::erase(lights, grid_.null_light);
     return lights;
 }

@@ -95,6 +95,8 @@ private:
     void makeLists();
     // Buffers of the passes that fill the lists, and their descriptor set.
     void makeInputsOfPasses();
+    // 32-bit words that the last frame's passes wrote.
+    std::vector<gpu::uint> wordsOf(const GpuBuffer& from, std::uint64_t first, std::size_t count) const;
 
     Device& device_;
     const ListLayouts& layouts_;
@@ -102,7 +104,7 @@ private:
     gpu::LightGrid grid_{};
     bool addressed_ = false;
     GpuBuffer grid_buffer_, bounds_, candidates_, masks_, used_words_, four_begins_, counts_, tile_depths_,
-        overflow_, overflow_seen_, heads_, indices_, listed_;
+        overflow_, heads_, indices_, listed_;
     OwnedBufferView bounds_view_, masks_view_, heads_view_, indices_view_;
     OwnedSampler sampler_;
     DescriptorSets sets_;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace diptych {
 
@@ -25,8 +26,8 @@ gpu::Light gpuLight(const Light& light, const glm::dvec3& eye) {
 
 gpu::SpotCone spotCone(const Light& light) {
     // Reference formula of KHR_lights_punctual; the lower bound keeps a hard cone (inner = outer) finite.
-    const double cosOuter = std::cos(static_cast<double>(light.outer_cone));
-    const double scale = 1 / std::max(0.001, std::cos(static_cast<double>(light.inner_cone)) - cosOuter);
+    const double cosOuter = std::cos(double{light.outer_cone});
+    const double scale = 1 / std::max(0.001, std::cos(double{light.inner_cone}) - cosOuter);
     return {glm::vec3(light.direction), static_cast<float>(scale), static_cast<float>(-cosOuter * scale), {}};
 }
 
@@ -61,6 +62,21 @@ bool shines(const Light& light) {
 
 }  // namespace
 
+ShownArea shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place) {
+    const gpu::AreaLight& light = *lights.shapeOf(i);
+    std::size_t kind = 0, past_kind = lights.firstArea() + lights.areas[0];
+    while (i >= past_kind) past_kind += lights.areas[++kind];
+    const double r = double{light.radius}, half = glm::length(glm::dvec3(light.x));
+    const double cosine = glm::dot(glm::dvec3(light.direction), to_place);
+    if (areaKinds[kind] == LightKind::tube) {
+        const double side = 4 * half * r, end = std::numbers::pi * r * r;
+        return {side + end, side * std::sqrt(std::max(0.0, 1 - cosine * cosine)) + end * std::abs(cosine)};
+    }
+    const double halves = glm::length(glm::cross(glm::dvec3(light.x), glm::dvec3(light.y)));
+    const double flat = halves * (areaKinds[kind] == LightKind::disc ? std::numbers::pi : 4);
+    return {flat, flat * (light.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
+}
+
 float inverseSquaredRange(float range) {
     const float squared = range * range;
     if (!(squared > 0)) return std::numeric_limits<float>::infinity();
@@ -72,7 +88,8 @@ float inverseSquaredRange(float range) {
 GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
                     std::span<const std::size_t> casters) {
     GpuLights result;
-    const auto takeThose = [&](LightKind kind, bool casting, std::uint32_t& count) {
+    const auto take = [&](LightKind kind, bool casting = false) {
+        std::uint32_t count = 0;
         for (std::size_t i = 0; i < lights.size(); ++i) {
             const Light& light = lights[i];
             if (light.kind != kind || !shines(light) || std::ranges::binary_search(casters, i) != casting)
@@ -84,24 +101,20 @@ GpuLights gpuLights(std::span<const Light> lights, const glm::dvec3& eye,
             if (isArea(kind)) result.area_lights.push_back(areaLight(light));
             ++count;
         }
+        return count;
     };
-    const auto take = [&](LightKind kind, std::uint32_t& count) { takeThose(kind, false, count); };
-    take(LightKind::directional, result.directional);
+    result.directional = take(LightKind::directional);
     for (std::size_t i = 0; i < result.directional; ++i) {
         const auto strength = [&](std::size_t light) { return strengthOf(lights[result.sources[light]]); };
         if (result.importance[i] != Importance::not_important &&
             (!result.base || strength(i) > strength(*result.base)))
             result.base = i;
     }
-    takeThose(LightKind::point, true, result.casting_points);
-    result.point = result.casting_points;
-    take(LightKind::point, result.point);
-    takeThose(LightKind::spot, true, result.casting_spots);
-    result.spot = result.casting_spots;
-    take(LightKind::spot, result.spot);
-    take(LightKind::rect, result.rect);
-    take(LightKind::disc, result.disc);
-    take(LightKind::tube, result.tube);
+    result.casting_points = take(LightKind::point, true);
+    result.point = result.casting_points + take(LightKind::point);
+    result.casting_spots = take(LightKind::spot, true);
+    result.spot = result.casting_spots + take(LightKind::spot);
+    for (std::size_t i = 0; i < areaKinds.size(); ++i) result.areas[i] = take(areaKinds[i]);
     result.lights.push_back({.position = {}, .inverse_range_squared = 1, .intensity = {}, .range = 0});
     result.spot_cones.push_back({{0, 0, 1}, 0, 0, {}});
     result.area_lights.push_back(

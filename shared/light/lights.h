@@ -6,6 +6,8 @@
 #include "shared/light/falloff.h"
 #include "shared/scene/model/scene.h"
 
+#include <array>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,7 +17,7 @@ namespace diptych {
 // Lights as shaders read them: by type, each type in the given order, but casting points and spots before
 // others. Every sum over lights in every path runs in this order.
 struct GpuLights {
-    std::vector<gpu::Light> lights;           // directional, point, spot, rect, disc, tube, null light
+    std::vector<gpu::Light> lights;           // directional, point, spot, area by kind, null light
     std::vector<gpu::SpotCone> spot_cones;    // then the null light's
     std::vector<gpu::AreaLight> area_lights;  // then the null light's
     std::vector<Importance> importance;       // of all but the null light
@@ -26,12 +28,30 @@ struct GpuLights {
     LightFalloff falloff;      // of all local lights, in shaders and on the host
     bool environment = false;  // the scene has an environment as well
     glm::vec3 ambient{0};      // W/(sr m^2), uniform
-    std::uint32_t directional = 0, point = 0, spot = 0, rect = 0, disc = 0, tube = 0;
+    std::uint32_t directional = 0, point = 0, spot = 0;
+    std::array<std::uint32_t, areaKinds.size()> areas{};  // by kind
     std::uint32_t casting_points = 0, casting_spots = 0;  // first of their type
-    std::uint32_t area() const { return rect + disc + tube; }
+    std::uint32_t area() const { return std::reduce(areas.begin(), areas.end()); }
     std::uint32_t local() const { return point + spot + area(); }
     std::uint32_t count() const { return directional + local(); }
+    std::size_t firstSpot() const { return directional + point; }
+    std::size_t firstArea() const { return firstSpot() + spot; }
+
+    // Null unless light `i` is a spot, or an area light.
+    const gpu::SpotCone* coneOf(std::size_t i) const {
+        return i >= firstSpot() && i < firstArea() ? &spot_cones[i - firstSpot()] : nullptr;
+    }
+    const gpu::AreaLight* shapeOf(std::size_t i) const {
+        return i >= firstArea() ? &area_lights[i - firstArea()] : nullptr;
+    }
 };
+
+// Projected area of the area light `i` from afar, m^2, which converts radiance to intensity: the largest
+// over all directions, and in the unit direction `to_place` from its centre.
+struct ShownArea {
+    double most, there;
+};
+ShownArea shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place);
 
 // Light::inverse_range_squared for a range in metres, 1/m^2: the smallest float32 whose product with the
 // squared range is at least 1, so that no light arrives from the range on. 0 if the squared range is

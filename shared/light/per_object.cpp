@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace diptych {
@@ -25,35 +24,6 @@ double windowAt(const LightFalloff& falloff, const gpu::Light& light, double dis
 
 double coneAt(const LightFalloff& falloff, const gpu::SpotCone& cone, double cosine) {
     return falloff.cone(double{cone.offset} + cosine * double{cone.scale});
-}
-
-const gpu::SpotCone* coneOf(const GpuLights& lights, std::size_t i) {
-    const std::size_t first = lights.directional + lights.point;
-    return i >= first && i < first + lights.spot ? &lights.spot_cones[i - first] : nullptr;
-}
-
-const gpu::AreaLight* areaOf(const GpuLights& lights, std::size_t i) {
-    const std::size_t first = lights.directional + lights.point + lights.spot;
-    return i >= first ? &lights.area_lights[i - first] : nullptr;
-}
-
-// Projected area of an area light from afar, m^2, which converts radiance to intensity: the largest over
-// all directions, and in the unit direction `to_place` from its centre.
-struct Shown {
-    double most, there;
-};
-Shown shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place) {
-    const gpu::AreaLight& area = *areaOf(lights, i);
-    const std::size_t number = lights.count() - i;  // from the end, where the tubes are
-    const double r = double{area.radius}, half = glm::length(glm::dvec3(area.x));
-    const double cosine = glm::dot(glm::dvec3(area.direction), to_place);
-    if (number <= lights.tube) {
-        const double side = 4 * half * r, end = std::numbers::pi * r * r;
-        return {side + end, side * std::sqrt(std::max(0.0, 1 - cosine * cosine)) + end * std::abs(cosine)};
-    }
-    const double halves = glm::length(glm::cross(glm::dvec3(area.x), glm::dvec3(area.y)));
-    const double flat = halves * (number <= lights.tube + lights.disc ? std::numbers::pi : 4);
-    return {flat, flat * (area.two_sided > 0 ? std::abs(cosine) : std::max(cosine, 0.0))};
 }
 
 // Cosine of the smallest angle between the light's axis and a direction to the box's bounding sphere.
@@ -115,12 +85,12 @@ double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& o
     const double reach = windowAt(lights.falloff, light, nearest * (1 - 1e-5));
     if (!(reach > 0)) return 0;
     double shone = strength * reach / (nearest * nearest + radius * radius / 4 + 1e-20);
-    if (const gpu::AreaLight* area = areaOf(lights, i)) {
-        const double near = std::max(nearest - double{area->extent}, 0.0), extent = double{area->extent};
+    if (const gpu::AreaLight* area = lights.shapeOf(i)) {
+        const double extent = double{area->extent}, near = std::max(nearest - extent, 0.0);
         const double square = near * near + radius * radius / 4 + extent * extent + 1e-20;
         shone = strength * reach * shownArea(lights, i, {}).most / square;
     }
-    if (const gpu::SpotCone* cone = coneOf(lights, i))
+    if (const gpu::SpotCone* cone = lights.coneOf(i))
         shone *= coneAt(lights.falloff, *cone,
                         nearestCosine(glm::dvec3(cone->direction), to_centre, radius) + 1e-5);
     return shone;
@@ -160,7 +130,7 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
     for (std::size_t i = 0; i < count; ++i) {
         if (!(brightness[i] > 0)) continue;
         // Vertices do not support area lights.
-        const double vertex = areaOf(lights, i) ? 0 : either[i] - pixel[i];
+        const double vertex = lights.shapeOf(i) ? 0 : either[i] - pixel[i];
         shares[i] = {pixel[i], vertex, 1 - (pixel[i] + vertex)};
     }
     return shares;
@@ -188,11 +158,11 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size
     const glm::dvec3 to_light = glm::dvec3(light.position) - object.centre;
     const double distance = glm::length(to_light), radius = std::max(glm::length(object.half), 1e-10);
     const glm::dvec3 l = distance > 0 ? to_light / distance : glm::dvec3(0);
-    const gpu::AreaLight* area = areaOf(lights, i);
+    const gpu::AreaLight* area = lights.shapeOf(i);
     const double soft = std::max(distance, area ? std::max(radius, double{area->extent}) : radius);
     double shone = windowAt(lights.falloff, light, distance) / (soft * soft);
     if (area) shone *= shownArea(lights, i, -l).there;
-    if (const gpu::SpotCone* cone = coneOf(lights, i))
+    if (const gpu::SpotCone* cone = lights.coneOf(i))
         shone *= coneAt(lights.falloff, *cone, -glm::dot(l, glm::dvec3(cone->direction)));
     if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
 }
@@ -207,8 +177,8 @@ ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const Objec
     tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t o) {
         Own& own = all[o];
         const std::vector<LightShares> shares = lightShares(lights, objects[o], pixels);
-        const std::size_t points = lights.directional + lights.point, spots = points + lights.spot;
-        const std::size_t kinds[] = {0, lights.directional, points, spots, lights.count()};
+        const std::size_t kinds[] = {0, lights.directional, lights.firstSpot(), lights.firstArea(),
+                                     lights.count()};
         const auto list = [&](double LightShares::*share, std::size_t kind) {
             for (std::size_t i = kinds[kind]; i < kinds[kind + 1]; ++i)
                 if (shares[i].*share > 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
+#include "shared/scene/lights/lights_json.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/animation.h"
 #include "shared/text/counted.h"
@@ -78,8 +79,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     int skinned = -1, morphed = -1;
     std::set<int> skins;
     for (const Instance& instance : pose.instances) {
-        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        const Primitive& primitive = primitiveOf(scene, instance);
         if (primitive.indices.empty()) continue;
         ++r.draws;
         r.triangles += primitive.indices.size() / 3;
@@ -106,12 +106,7 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     r.textures = static_cast<std::uint32_t>(textures.size());
 
     for (const Light& light : lights) {
-        r.directional_lights += light.kind == LightKind::directional;
-        r.point_lights += light.kind == LightKind::point;
-        r.spot_lights += light.kind == LightKind::spot;
-        r.rect_lights += light.kind == LightKind::rect;
-        r.disc_lights += light.kind == LightKind::disc;
-        r.tube_lights += light.kind == LightKind::tube;
+        ++r.light_counts[indexOf(light.kind)];
         r.sun_discs += light.kind == LightKind::directional && light.angle > 0;
     }
     if (scene.environment) r.environment = oneLine(scene.environment->name);
@@ -120,9 +115,8 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
 
 std::string Requirements::areaLightsInWords() const {
     std::vector<std::string> kinds;
-    for (const auto& [count, kind] :
-         {std::pair{rect_lights, "rect"}, std::pair{disc_lights, "disc"}, std::pair{tube_lights, "tube"}})
-        if (count > 0) kinds.push_back(fmt::format("{} {}", count, kind));
+    for (const LightKind kind : areaKinds)
+        if (lights(kind) > 0) kinds.push_back(fmt::format("{} {}", lights(kind), nameOf(kind)));
     return fmt::format("{} ({})", counted(areaLights(), "area light"), fmt::join(kinds, ", "));
 }
 
@@ -202,18 +196,18 @@ void Requirements::addLayerLines(std::vector<Line>& lines) const {
 
 void Requirements::addMotionAndLightLines(std::vector<Line>& lines) const {
     const auto say = sayIn(lines);
-    const std::uint32_t local_lights = point_lights + spot_lights;
+    const std::uint32_t directional = lights(LightKind::directional), points = lights(LightKind::point),
+                        spots = lights(LightKind::spot);
     say(animations > 0, "animation",
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),
         "the scene has no animation");
     say(skinned + morphed > 0, "skins and morph targets", deformedInWords(),
         "no mesh is skinned or morphed: no deformation");
-    say(directional_lights > 0, "directional lights", fmt::format("{} in the scene", directional_lights),
+    say(directional > 0, "directional lights", fmt::format("{} in the scene", directional),
         "none in the scene");
-    say(local_lights > 0, "point and spot lights",
-        fmt::format("{} point and {} spot in the scene", point_lights, spot_lights),
-        "none in the scene: no light lists");
+    say(points + spots > 0, "point and spot lights",
+        fmt::format("{} point and {} spot in the scene", points, spots), "none in the scene: no light lists");
     say(areaLights() > 0, "area lights", areaLightsInWords() + " in the scene",
         "none in the scene: no table of linearly transformed cosines");
     lines.push_back({false, "sun discs",

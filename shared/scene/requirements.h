@@ -5,7 +5,9 @@
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/pose.h"
 
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,7 @@ struct Requirements {
     float min_emission = 0;       // smallest of the non-zero factors' largest components, W/(sr m^2)
     std::uint32_t materials = 0;  // all of the scene's, used or not; bounds material ids
     std::uint32_t textures = 0;   // textures of used materials
-    std::uint32_t directional_lights = 0, point_lights = 0, spot_lights = 0;
-    std::uint32_t rect_lights = 0, disc_lights = 0, tube_lights = 0;
+    std::array<std::uint32_t, indexOf(areaKinds.back()) + 1> light_counts{};  // by LightKind
     std::uint32_t sun_discs = 0;                           // directional lights with an angular diameter
     std::string environment;                               // name; empty: none
     std::uint32_t skinned = 0, morphed = 0;                // nodes
@@ -47,8 +48,11 @@ struct Requirements {
     std::uint32_t animations = 0;                          // playing
     std::uint64_t draws = 0, triangles = 0, vertices = 0;  // per instance
 
-    std::uint32_t areaLights() const { return rect_lights + disc_lights + tube_lights; }
-    std::uint32_t lights() const { return directional_lights + point_lights + spot_lights + areaLights(); }
+    std::uint32_t lights(LightKind kind) const { return light_counts[indexOf(kind)]; }
+    std::uint32_t lights() const { return std::reduce(light_counts.begin(), light_counts.end()); }
+    std::uint32_t areaLights() const {
+        return std::reduce(light_counts.begin() + indexOf(areaKinds.front()), light_counts.end());
+    }
     std::string areaLightsInWords() const;  // "2 area lights (1 rect, 1 tube)"
     // "1 skinned mesh, 2 morphed: 96 vertices by 5 joints"; empty if nothing is deformed
     std::string deformedInWords() const;

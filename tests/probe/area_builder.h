@@ -7,6 +7,7 @@
 #include "shared/light/fit/lobe.h"
 #include "shared/light/lights.h"
 #include "shared/light/ltc.h"
+#include "shared/scene/lights/lights_json.h"
 #include "tests/probe/probe.h"
 #include "tests/support/reference_builder.h"
 
@@ -42,7 +43,7 @@ inline void pushArea(std::vector<float>& input, const Light& light, const Receiv
     const gpu::AreaLight& s = lights.area_lights.at(0);
     const auto push = [&](const auto&... values) { (input.push_back(static_cast<float>(values)), ...); };
     const auto push3 = [&](const auto& v) { push(v.x, v.y, v.z); };
-    push(light.kind == LightKind::rect ? 0 : light.kind == LightKind::disc ? 1 : 2);
+    push(indexOf(light.kind) - indexOf(areaKinds.front()));
     push3(l.position), push3(s.x), push(s.radius), push3(s.y), push(s.extent), push3(s.direction);
     push(s.two_sided, l.inverse_range_squared);
     push3(r.to_viewer), push(r.roughness, r.metallic, r.albedo, r.f0, r.f90);
@@ -112,7 +113,7 @@ inline std::vector<glm::dvec3> outlineOf(const Light& light) {
 // Integral of p / pi over the light's directions p under the transformed cosine, in its frame. Lambert's
 // formula in double: the outline is transformed vertex by vertex and clipped at the horizon.
 inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
-    const bool flat = light.kind != LightKind::tube;
+    const bool flat = !isClosed(light.kind);
     if (flat && !light.two_sided && glm::dot(light.position, light.direction) >= 0) return {};
     const double sine = std::hypot(to_viewer.x, to_viewer.y);
     const double cx = sine > 1e-9 ? -to_viewer.x / sine : 1, cy = sine > 1e-9 ? -to_viewer.y / sine : 0;

@@ -48,7 +48,7 @@ std::vector<Light> placesOf(LightKind kind, double angle, double distance, doubl
 std::vector<AreaCase> measured(Probes& probes) {
     std::vector<AreaCase> cases;
     std::vector<float> input;
-    for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::tube})
+    for (const LightKind kind : areaKinds)
         for (const double roughness : roughnesses)
             for (const double angle : angles)
                 for (const double distance : distances)
@@ -150,12 +150,9 @@ TEST(AreaError, IsBoundedByTheFit) {
     EXPECT_LT(all.metal.mean(), 0.1 * all.points.mean())
         << "a representative point is as good: the table is not worth its while";
     std::string text;
-    const auto kindOf = [](const AreaCase& c) {
-        return std::string(c.kind == LightKind::rect ? "rect" : c.kind == LightKind::disc ? "disc" : "tube");
-    };
     text += tableOf(cases, "roughness, angle", roughnessAndAngle);
     text += tableOf(cases, "distance", [](const AreaCase& c) { return fmt::format("{:.1f} m", c.distance); });
-    text += tableOf(cases, "shape", kindOf);
+    text += tableOf(cases, "shape", [](const AreaCase& c) { return std::string(nameOf(c.kind)); });
     if (const char* file = std::getenv("DIPTYCH_AREA_TABLE")) std::ofstream(file) << text;
 }
 

@@ -222,13 +222,8 @@ TEST_P(AreaPoints, HalfASizeIsSeen) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaPoints,
-                         testing::Values(LightKind::rect, LightKind::disc, LightKind::tube),
-                         [](const auto& kind) {
-                             return kind.param == LightKind::rect   ? "rect"
-                                    : kind.param == LightKind::disc ? "disc"
-                                                                    : "tube";
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, AreaPoints, testing::ValuesIn(areaKinds),
+                         [](const auto& kind) { return std::string(nameOf(kind.param)); });
 
 }  // namespace
 }  // namespace diptych::tests

@@ -266,13 +266,8 @@ TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
         EXPECT_NEAR(rows[i][0], expected[i], allowed[i] * expected[i]) << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes,
-                         testing::Values(LightKind::rect, LightKind::disc, LightKind::tube),
-                         [](const auto& kind) {
-                             return kind.param == LightKind::rect   ? "rect"
-                                    : kind.param == LightKind::disc ? "disc"
-                                                                    : "tube";
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes, testing::ValuesIn(areaKinds),
+                         [](const auto& kind) { return std::string(nameOf(kind.param)); });
 
 }  // namespace
 }  // namespace diptych::tests

@@ -113,7 +113,7 @@ TEST(Multiscatter, AreaLightsAreCompensatedAsTheLobeIs) {
     Probes probes;
     std::vector<float> mirrors, bases;
     std::vector<tests::Receiver> receivers;
-    for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::tube})
+    for (const LightKind kind : areaKinds)
         for (const double roughness : {0.3, 0.6, 1.0})
             for (const double degrees : {0.0, 40.0, 80.0}) {
                 Light light = reference::lightOf(kind, {0.3, -0.4, 1.2}, {0.1, 0.2, -1});

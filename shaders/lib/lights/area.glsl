@@ -187,7 +187,7 @@ float unitOf(const AreaIncident i, const AreaLight shape) {
         } while (++turn < 2u);                 \
     }
 
-AreaLobes fromRect(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
+AreaLobes rectLobes(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints())
         return fromPoint(a, rectPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance);
@@ -198,7 +198,7 @@ AreaLobes fromRect(const AreaView a, const Light light, const AreaLight shape, c
     return fromFactors(a, plain, lobe, i.radiance);
 }
 
-AreaLobes fromDisc(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
+AreaLobes discLobes(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
     AreaIncident i = fromAreaLight(light, shape, position, true);
     if (areaPoints())
         return fromPoint(a, discPoint(i.centre, shape, a.n, specularRay(a.brdf, a.n, a.v)), i.radiance);
@@ -209,7 +209,7 @@ AreaLobes fromDisc(const AreaView a, const Light light, const AreaLight shape, c
     return fromFactors(a, plain, lobe, i.radiance);
 }
 
-AreaLobes fromTube(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
+AreaLobes tubeLobes(const AreaView a, const Light light, const AreaLight shape, const vec3 position) {
     AreaIncident i = fromAreaLight(light, shape, position, false);
     float along = dot(i.centre, shape.direction);
     bool within = lengthOf(i.centre - shape.direction * along) <= shape.radius &&

@@ -59,10 +59,7 @@ SpotCone spotConeAt(const uint i) {
     return SPOT_CONE_OF_TEXELS(a, b);
 }
 
-// Indices among the area lights: rectangles, then discs, then tubes.
-uint firstDisc() { return view.rect_light_count; }
-uint firstTube() { return view.rect_light_count + view.disc_light_count; }
-uint areaCount() { return firstTube() + view.tube_light_count; }
+uint areaCount() { return view.area_ends[AREA_KIND_COUNT - 1u]; }
 AreaLight areaLightAt(const uint area) {
     vec4 a = areaLightTexel(3u * area), b = areaLightTexel(3u * area + 1u),
          c = areaLightTexel(3u * area + 2u);
@@ -101,8 +98,7 @@ PixelLights lightsAt(const vec2 pixel, const float z, const bool blended) {
         return PixelLights(list, LIGHT_LIST_HEAD_OF_TEXEL(head));
     }
     uint points = view.point_light_count, spots = points + view.spot_light_count;
-    uint areas = view.rect_light_count + view.disc_light_count + view.tube_light_count;
-    return PixelLights(0u, LightListHead(0u, points, spots, spots + areas));
+    return PixelLights(0u, LightListHead(0u, points, spots, spots + areaCount()));
 }
 
 PixelLights lightsAt(const vec2 pixel, const float z) { return lightsAt(pixel, z, false); }

@@ -153,19 +153,21 @@ void addCastingSpot(const Shading shading, const uint i, const LocalCasters cast
         }                                                                                              \
     }
 
-// Continues with the area lights of one shape, with indices below `end`. One loop per shape, because a
-// loop body costs all the code in it, executed or not.
-#define ADD_AREA(from, end)                                                                       \
-    while (walk.more && walk.number < end) {                                                      \
-        Light light = withShare(lightAt(walk.light));                                             \
-        AreaLight shape = areaLightAt(walk.number);                                               \
-        uint i = 0u;                                                                              \
-        do {                                                                                      \
-            AreaLobes reflected = from(viewOf(views, i), light, shape, shading.surface.position); \
-            addFrom(i, reflected.lobes, reflected.sheen, radiance);                               \
-        } while (++i < reflectorCount());                                                         \
-        step(walk);                                                                               \
-    }
+// Continues with the area lights of one kind. One loop per kind, because a loop body costs all the code in
+// it, executed or not.
+#define ADD_AREA(kind, name, cost)                                                            \
+    if (on(feature_area_lights & AREA_##name))                                                \
+        while (walk.more && walk.number < view.area_ends[kind]) {                             \
+            Light light = withShare(lightAt(walk.light));                                     \
+            AreaLight shape = areaLightAt(walk.number);                                       \
+            uint i = 0u;                                                                      \
+            do {                                                                              \
+                AreaLobes reflected =                                                         \
+                    name##Lobes(viewOf(views, i), light, shape, shading.surface.position);    \
+                addFrom(i, reflected.lobes, reflected.sheen, radiance);                       \
+            } while (++i < reflectorCount());                                                 \
+            step(walk);                                                                       \
+        }
 
 // `emission`: dimmed by a clear coat.
 Shading makeShading(const Surface s, inout vec3 emission) {
@@ -288,9 +290,7 @@ void addAreaLights(const Shading shading, const PixelLights lights, inout Radian
     if (hasLayer(LAYER_CLEARCOAT)) views.coat = areaView(shading.coat);
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) views.behind = areaView(shading.behind);
     AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
-    if (on(feature_area_lights & AREA_RECTS)) ADD_AREA(fromRect, firstDisc())
-    if (on(feature_area_lights & AREA_DISCS)) ADD_AREA(fromDisc, firstTube())
-    if (on(feature_area_lights & AREA_TUBES)) ADD_AREA(fromTube, areaCount())
+    AREA_KINDS(ADD_AREA)
 }
 
 void addAmbient(const Shading shading, inout Radiance radiance) {

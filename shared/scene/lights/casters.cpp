@@ -15,15 +15,10 @@ double strengthOf(const Light& light) {
 
 std::optional<std::size_t> brightestSun(std::span<const Light> lights) {
     std::optional<std::size_t> brightest;
-    double most = 0;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i].kind != LightKind::directional) continue;
-        const double brightness = strengthOf(lights[i]);
-        if (brightness > most) {
-            most = brightness;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].kind == LightKind::directional &&
+            strengthOf(lights[i]) > (brightest ? strengthOf(lights[*brightest]) : 0))
             brightest = i;
-        }
-    }
     return brightest;
 }
 

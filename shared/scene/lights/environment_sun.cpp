@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -172,7 +173,7 @@ glm::dvec3 aroundSpot(const SkyTexels& sky, const Texels& spot) {
 struct Moments {
     // Integral of the radiance, W/m^2.
     glm::dvec3 power{0};
-    std::array<glm::dvec3, 3> along{glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)};  // times x, y, z
+    glm::dmat3 along{0};  // columns: times x, y, z
 };
 
 // Integrates quarters of texels, in which the image is bilinear, by Gauss quadrature with 3 x 3 points.
@@ -199,7 +200,7 @@ Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, gl
                                          (weights[i] * weights[j] * area * sine);
                 const glm::dvec3 direction = sky.direction(u, v);
                 sum.power += light;
-                for (int k = 0; k < 3; ++k) sum.along[static_cast<std::size_t>(k)] += light * direction[k];
+                for (int k = 0; k < 3; ++k) sum.along[k] += light * direction[k];
             }
     };
     std::unordered_set<std::size_t> touched;
@@ -223,15 +224,14 @@ std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, co
     }
     const Moments moments = momentsOf(sky, radiance);
     glm::dvec3 mean(0);
-    for (int k = 0; k < 3; ++k) mean[k] = luminance(moments.along[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k) mean[k] = luminance(moments.along[k]);
     const double facing = glm::length(mean);
     const double power = luminance(moments.power);
     if (!(facing >= sun_spot::leastFacing * power) || !(facing > 0) ||
         power - facing > sun_spot::mostLost * sky.all())
         return {};
     const glm::dvec3 centre = mean / facing;
-    const glm::dvec3 irradiance =
-        moments.along[0] * centre.x + moments.along[1] * centre.y + moments.along[2] * centre.z;
+    const glm::dvec3 irradiance = moments.along * centre;
     EnvironmentSun sun;
     sun.found = true;
     sun.light.name = "sun of the environment";
@@ -284,8 +284,7 @@ std::string inWords(const Light& sun, double share) {
     const glm::dvec3 to_light = glm::round(-1000.0 * sun.direction) / 1000.0 + 0.0;  // avoids -0
     return fmt::format(
         "of {:.3g} degrees towards ({:.3f}, {:.3f}, {:.3f}), {:.4g} lux ({:.4g}, {:.4g}, {:.4g}), {:.3g} % "
-        "of "
-        "the environment's light",
+        "of the environment's light",
         glm::degrees(double{sun.angle}), to_light.x, to_light.y, to_light.z, luminance(irradiance),
         irradiance.r, irradiance.g, irradiance.b, 100 * share);
 }

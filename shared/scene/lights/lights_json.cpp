@@ -28,9 +28,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::pair<LightKind, std::string_view> types[] = {
-    {LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"},
-    {LightKind::rect, "rect"},   {LightKind::disc, "disc"}, {LightKind::tube, "tube"}};
+#define DIPTYCH_TYPE(number, name, cost) {LightKind::name, #name},
+constexpr std::pair<LightKind, std::string_view> types[] = {{LightKind::point, "point"},
+                                                            {LightKind::spot, "spot"},
+                                                            {LightKind::directional, "directional"},
+                                                            AREA_KINDS(DIPTYCH_TYPE)};
+#undef DIPTYCH_TYPE
+constexpr std::pair<Importance, std::string_view> ranks[] = {{Importance::automatic, "auto"},
+                                                             {Importance::important, "important"},
+                                                             {Importance::not_important, "not_important"}};
 
 // Keys that only some light types have.
 struct OwnKey {
@@ -53,21 +59,23 @@ constexpr double any = std::numeric_limits<double>::max();
 constexpr double leastSize = 1 / maxCoordinate;  // m
 constexpr double rounding = 1e-6;                // tolerance for an angle of pi written with few digits
 
-std::string_view typeOf(LightKind kind) {
-    for (const auto& [candidate, name] : types)
-        if (candidate == kind) return name;
-    return "?";
+bool takes(LightKind kind, std::string_view own) {
+    return std::ranges::count(std::ranges::find(ownKeys, own, &OwnKey::key)->kinds, kind) > 0;
 }
 
-LightKind kindOf(const JsonFields& fields) {
-    const std::string type = fields.text("type", "");
-    for (const auto& [kind, name] : types)
-        if (type == name) return kind;
+// The value named by the key's text. If it must not be absent, `fallback` names no value.
+template <typename T, std::size_t N>
+T valueOf(const JsonFields& fields, std::string_view key, const std::string& fallback,
+          const std::pair<T, std::string_view> (&values)[N]) {
+    const std::string text = fields.text(key, fallback);
     std::vector<std::string_view> names;
-    for (const auto& [kind, name] : types) names.push_back(name);
+    for (const auto& [value, name] : values) {
+        if (text == name) return value;
+        names.push_back(name);
+    }
     const std::string all = fmt::format("{}", fmt::join(names, ", "));
-    fields.fail("type", type.empty() ? "is missing; use one of " + all
-                                     : fmt::format("\"{}\" is not one of {}", oneLine(type), all));
+    fields.fail(key, text == fallback ? "is missing; use one of " + all
+                                      : fmt::format("\"{}\" is not one of {}", oneLine(text), all));
 }
 
 // Unit of `intensity`.
@@ -81,19 +89,19 @@ void checkKeys(const JsonFields& fields, LightKind kind) {
                                         "intensity", "range", "importance", "unit"};
     for (const OwnKey& own : ownKeys) {
         known.push_back(own.key);
-        if (std::ranges::count(own.kinds, kind) > 0 || !fields.find(own.key)) continue;
+        if (takes(kind, own.key) || !fields.find(own.key)) continue;
         std::vector<std::string_view> owners;
-        for (const LightKind owner : own.kinds) owners.push_back(typeOf(owner));
+        for (const LightKind owner : own.kinds) owners.push_back(nameOf(owner));
         fields.fail(own.key, fmt::format("applies only to {} lights; this is a {} light",
-                                         fmt::join(owners, " and "), typeOf(kind)));
+                                         fmt::join(owners, " and "), nameOf(kind)));
     }
     fields.knownOnly(known, "a light");
 }
 
 void readCone(const JsonFields& fields, Light& light) {
     constexpr double right = glm::half_pi<double>();
-    const double inner = fields.number("innerConeAngle", static_cast<double>(light.inner_cone), 0, any);
-    const double outer = fields.number("outerConeAngle", static_cast<double>(light.outer_cone), 0, any);
+    const double inner = fields.number("innerConeAngle", double{light.inner_cone}, 0, any);
+    const double outer = fields.number("outerConeAngle", double{light.outer_cone}, 0, any);
     if (outer > right + rounding) fields.fail("outerConeAngle", fmt::format("{:g} is above pi / 2", outer));
     if (!(static_cast<float>(inner) < static_cast<float>(outer)))
         fields.fail("innerConeAngle", fmt::format("{:g} is not below outerConeAngle {:g}", inner, outer));
@@ -102,7 +110,7 @@ void readCone(const JsonFields& fields, Light& light) {
 }
 
 float sizeIn(const JsonFields& fields, std::string_view key, float fallback) {
-    return static_cast<float>(fields.number(key, static_cast<double>(fallback), leastSize, maxCoordinate));
+    return static_cast<float>(fields.number(key, double{fallback}, leastSize, maxCoordinate));
 }
 
 glm::dvec3 levelAxis(const glm::dvec3& direction) {
@@ -110,17 +118,17 @@ glm::dvec3 levelAxis(const glm::dvec3& direction) {
     return glm::length(right) > rounding ? glm::normalize(right) : glm::dvec3(1, 0, 0);
 }
 
-// Perpendicular to the direction, except that a tube's given axis is free.
+// Perpendicular to the direction, unless it is free and given.
 glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
     const glm::dvec3 axis = fields.unit("axis", levelAxis(light.direction));
-    if (light.kind == LightKind::tube && fields.find("axis")) return axis;
+    if (isClosed(light.kind) && fields.find("axis")) return axis;
     const glm::dvec3 across = axis - glm::dot(axis, light.direction) * light.direction;
     if (!(glm::length(across) > rounding)) fields.fail("axis", "is parallel to direction");
     return glm::normalize(across);
 }
 
 void readShape(const JsonFields& fields, Light& light) {
-    std::array size{static_cast<double>(light.width), static_cast<double>(light.height)};
+    std::array size{double{light.width}, double{light.height}};
     fields.numbers("size", size);
     for (const double side : size) fields.within("size", side, leastSize, maxCoordinate);
     light.width = static_cast<float>(size[0]);
@@ -143,15 +151,7 @@ std::vector<Light> readDocument(const Json& document) {
 }  // namespace
 
 Importance importanceOf(const JsonFields& fields) {
-    constexpr std::pair<Importance, std::string_view> words[] = {
-        {Importance::automatic, "auto"},
-        {Importance::important, "important"},
-        {Importance::not_important, "not_important"}};
-    const std::string word = fields.text("importance", "auto");
-    for (const auto& [importance, name] : words)
-        if (word == name) return importance;
-    fields.fail("importance",
-                fmt::format("\"{}\" is not one of auto, important, not_important", oneLine(word)));
+    return valueOf(fields, "importance", "auto", ranks);
 }
 
 float sunAngle(const JsonFields& fields) {
@@ -169,7 +169,7 @@ nlohmann::ordered_json jsonOf(const Light& light) {
                  {"unit", unitOf(light.kind)},
                  {"position", listOf(light.position)}};
     if (!light.name.empty()) json["name"] = light.name;
-    if (light.kind != LightKind::point) json["direction"] = listOf(light.direction);
+    if (light.kind != LightKind::point && !isClosed(light.kind)) json["direction"] = listOf(light.direction);
     if (std::isfinite(light.range)) json["range"] = light.range;
     if (light.kind == LightKind::directional) {
         if (light.angle > 0) json["angle"] = light.angle;
@@ -177,20 +177,19 @@ nlohmann::ordered_json jsonOf(const Light& light) {
     }
     if (light.kind == LightKind::spot)
         json["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
-    if (light.kind == LightKind::rect) json["size"] = {light.width, light.height};
-    if (light.kind == LightKind::disc || light.kind == LightKind::tube) json["radius"] = light.radius;
-    if (light.kind == LightKind::tube) json["length"] = light.length;
-    if (light.kind == LightKind::rect || light.kind == LightKind::tube) json["axis"] = listOf(light.axis);
-    if (light.kind == LightKind::rect || light.kind == LightKind::disc) json["twoSided"] = light.two_sided;
+    if (takes(light.kind, "size")) json["size"] = {light.width, light.height};
+    if (takes(light.kind, "radius")) json["radius"] = light.radius;
+    if (takes(light.kind, "length")) json["length"] = light.length;
+    if (takes(light.kind, "axis")) json["axis"] = listOf(light.axis);
+    if (takes(light.kind, "twoSided")) json["twoSided"] = light.two_sided;
     if (light.shadow) json["shadow"] = true;
-    if (light.kind == LightKind::tube) json.erase("direction");
     return json;
 }
 
 Light lightFromJson(const Json& object, const std::string& who) {
     const JsonFields fields(object, who);
     Light light;
-    light.kind = kindOf(fields);  // first, because it decides the allowed keys
+    light.kind = valueOf(fields, "type", "", types);  // first, because it decides the allowed keys
     checkKeys(fields, light.kind);
     light.name = fields.text("name", "");
     light.position = fields.vector("position", light.position);
@@ -202,7 +201,7 @@ Light lightFromJson(const Json& object, const std::string& who) {
     if (const std::string unit = fields.text("unit", std::string(unitOf(light.kind)));
         unit != unitOf(light.kind))
         fields.fail("unit", fmt::format("\"{}\": a {} light is given in {}", oneLine(unit),
-                                        typeOf(light.kind), unitOf(light.kind)));
+                                        nameOf(light.kind), unitOf(light.kind)));
     if (fields.find("range")) {
         const double range = fields.number("range", 0, 0, any);
         if (!(static_cast<float>(range) > 0)) fields.fail("range", "is not above 0");

@@ -123,23 +123,19 @@ glm::dvec3 downwards(double u, double v) {
 void spreadOut(Light& light, double range, double shape, const std::array<double, 3>& u) {
     light.axis = glm::normalize(
         glm::cross(light.direction, glm::dvec3(std::cos(TAU * u[0]), 0, std::sin(TAU * u[0]))));
-    double area = 0;
     if (shape < 1) {
         light.kind = LightKind::rect;
         light.width = static_cast<float>(range * (0.2 + 0.3 * u[1]));
         light.height = light.width * static_cast<float>(0.25 + 0.75 * u[2]);
-        area = double{light.width} * double{light.height};
     } else if (shape < 2) {
         light.kind = LightKind::disc;
         light.radius = static_cast<float>(range * (0.1 + 0.15 * u[1]));
-        area = TAU / 2 * double{light.radius} * double{light.radius};
     } else {
         light.kind = LightKind::tube;
         light.length = static_cast<float>(range * (0.3 + 0.4 * u[1]));
         light.radius = light.length * static_cast<float>(0.01 + 0.04 * u[2]);
-        area = 2 * double{light.radius} * double{light.length};
     }
-    light.intensity = static_cast<float>(double{light.intensity} / area);
+    light.intensity = static_cast<float>(double{light.intensity} / intensityFromAfar(light, 1));
 }
 
 Light makeLight(Stream stream, std::uint32_t key, std::uint32_t index, const Box& box, double range) {

@@ -3,6 +3,7 @@
 // lux, linear Rec.709.
 #pragma once
 
+#include "shared/contract/area_light.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/material.h"
 #include "shared/image/image.h"
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -174,14 +176,27 @@ struct Node {
     int copies = -1;     // into Scene::copies, the mesh's instances; -1: one, at the node
 };
 
-enum class LightKind { directional, point, spot, rect, disc, tube };
+// The kinds of KHR_lights_punctual, then the area lights.
+#define DIPTYCH_KIND(number, name, cost) name,
+enum class LightKind { directional, point, spot, AREA_KINDS(DIPTYCH_KIND) };
+#undef DIPTYCH_KIND
+#define DIPTYCH_KIND(number, name, cost) LightKind::name,
+inline constexpr std::array areaKinds{AREA_KINDS(DIPTYCH_KIND)};
+#undef DIPTYCH_KIND
+
+constexpr std::size_t indexOf(LightKind kind) {
+    return static_cast<std::size_t>(kind);
+}
+constexpr bool isArea(LightKind kind) {
+    return indexOf(kind) >= indexOf(areaKinds.front());
+}
+// Emits outwards, and its axis is free. Other area lights are flat and emit along their direction.
+constexpr bool isClosed(LightKind kind) {
+    return kind == LightKind::tube;
+}
 
 // Overrides the rank of a light in --assign per_object; other assignments ignore it.
 enum class Importance { automatic, important, not_important };
-
-constexpr bool isArea(LightKind kind) {
-    return kind == LightKind::rect || kind == LightKind::disc || kind == LightKind::tube;
-}
 
 // A light of KHR_lights_punctual or an area light: a rectangle or disc, one-sided or two-sided, or a tube
 // (a closed cylinder). All points of an area light emit the same radiance in all directions (Lambert).
@@ -209,6 +224,15 @@ struct Light {
     glm::dvec3 axis{1, 0, 0};        // unit; rect: perpendicular to the direction
     int source = -1;                 // index in KHR_lights_punctual, which animations use
 };
+
+// `intensity` of the light's kind as the one from afar in the direction of the maximum, W/sr.
+inline double intensityFromAfar(const Light& light, double intensity) {
+    const double radius = double{light.radius};
+    if (light.kind == LightKind::rect) return intensity * double{light.width} * double{light.height};
+    if (light.kind == LightKind::disc) return intensity * std::numbers::pi * radius * radius;
+    if (light.kind == LightKind::tube) return intensity * 2 * radius * double{light.length};
+    return intensity;
+}
 
 // Light from all directions, as a lat-long image. The centre of column x has the azimuth 2 pi (x + 0.5) /
 // width - pi, which is 0 at -Z and positive towards +X. The centre of row y lies at the angle pi (y + 0.5)

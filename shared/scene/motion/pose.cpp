@@ -66,9 +66,9 @@ Light inWorld(const Light& light, const std::vector<glm::dmat4>& world) {
     // only rounding error, and the default is used.
     const glm::dvec3 axis = unitOr(glm::dmat3(worldFromLight) * light.axis, {1, 0, 0});
     const glm::dvec3 across = axis - glm::dot(axis, result.direction) * result.direction;
-    result.axis = light.kind == LightKind::tube ? axis
-                  : glm::length(across) > 1e-6  ? glm::normalize(across)
-                                                : perpendicularTo(result.direction);
+    result.axis = isClosed(light.kind)         ? axis
+                  : glm::length(across) > 1e-6 ? glm::normalize(across)
+                                               : perpendicularTo(result.direction);
     result.node = -1;
     return result;
 }

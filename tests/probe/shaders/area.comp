@@ -6,7 +6,7 @@
 #include "shaders/lib/shading/multiscatter.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
-// kind (0 rect, 1 disc, 2 tube), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
+// kind (its number in AREA_KINDS), centre from the surface, x, radius, y, extent, direction, two_sided, 1 /
 // range^2; v (n = +Z), roughness, metallic, albedo, F0, F90; the table's cell: even, layer, magnitude,
 // Fresnel -> diffuse, specular radiance for a light of radiance 1
 const uint WIDTH = 35;
@@ -43,9 +43,8 @@ void main() {
 
     AreaLobes lobes;
     uint kind = uint(IN(WIDTH, 0));
-    if (kind == 0) lobes = fromRect(a, light, shape, vec3(0.0));
-    if (kind == 1) lobes = fromDisc(a, light, shape, vec3(0.0));
-    if (kind == 2) lobes = fromTube(a, light, shape, vec3(0.0));
+#define SHADE(number, name, cost) if (kind == number) lobes = name##Lobes(a, light, shape, vec3(0.0));
+    AREA_KINDS(SHADE)
     OUT(2, 0) = lobes.lobes.diffuse.r;
     OUT(2, 1) = lobes.lobes.specular.r;
 }

@@ -352,7 +352,7 @@ TEST_F(AcrossDevicesPair, AreaLightsGrantTheDarkMoreAndNothingElseDoes) {
         darken(relit, 1.009e-3f);
     }
     EXPECT_EQ(faults(), "lit lit_diffuse ");
-    needs_.rect_lights = 1;
+    needs_.light_counts.back() = 1;
     EXPECT_EQ(faults(), "");
     darken(across_.relit[Channel::lit_diffuse], 1.02e-3f);
     EXPECT_EQ(faults(), "lit_diffuse ");

@@ -191,7 +191,7 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     }
     if (i >= areas) {
         const gpu::AreaLight& area = all.area_lights[i - areas];
-        const double patch = i < areas + all.rect ? 0.3 * 0.2 : pi * 0.15 * 0.15;
+        const double patch = i < areas + all.areas[0] ? 0.3 * 0.2 : pi * 0.15 * 0.15;
         scale *= patch * std::max(0.0, -glm::dot(l, glm::dvec3(area.direction)));
     }
     return {l, glm::dvec3(light.intensity) * scale};

@@ -311,9 +311,9 @@ TEST(Requirements, LightsAreCountedByKind) {
         scene.lights.push_back(light);
     }
     const Requirements r = of(scene);
-    EXPECT_EQ(r.directional_lights, 1u);
-    EXPECT_EQ(r.point_lights, 1u);
-    EXPECT_EQ(r.spot_lights, 2u);
+    EXPECT_EQ(r.lights(LightKind::directional), 1u);
+    EXPECT_EQ(r.lights(LightKind::point), 1u);
+    EXPECT_EQ(r.lights(LightKind::spot), 2u);
     EXPECT_EQ(r.areaLights(), 0u);
     EXPECT_EQ(r.sun_discs, 0u);
     EXPECT_EQ(r.lights(), 4u);
@@ -333,9 +333,9 @@ TEST(Requirements, AreaLightsAndEnvironmentsAreModelledDiscsOfSunsLeftOut) {
     scene.lights.back().angle = 0.01f;
     scene.environment = Environment{"sky.exr", Image(2, 1, 3)};
     const Requirements r = of(scene);
-    EXPECT_EQ(r.rect_lights, 1u);
-    EXPECT_EQ(r.disc_lights, 1u);
-    EXPECT_EQ(r.tube_lights, 2u);
+    EXPECT_EQ(r.lights(LightKind::rect), 1u);
+    EXPECT_EQ(r.lights(LightKind::disc), 1u);
+    EXPECT_EQ(r.lights(LightKind::tube), 2u);
     EXPECT_EQ(r.sun_discs, 1u);
     EXPECT_EQ(r.lights(), 5u);
     EXPECT_EQ(r.areaLightsInWords(), "4 area lights (1 rect, 1 disc, 2 tube)");
@@ -351,7 +351,7 @@ TEST(Requirements, AreaLightsAndEnvironmentsAreModelledDiscsOfSunsLeftOut) {
 TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     Requirements needs;
     EXPECT_TRUE(leftOutLight(Path::deferred, needs).empty());
-    needs.rect_lights = needs.tube_lights = 1;
+    needs.light_counts.fill(1);
     needs.sun_discs = 1;
     needs.environment = "sky.exr";
     const std::vector<std::string> expected{"1 sun disc: not rendered by deferred yet; the reference has it"};
