@@ -3,9 +3,12 @@
 #ifndef CAPTURE_GLSL
 #define CAPTURE_GLSL
 
-#include "shaders/lib/surface/debug.glsl"
+#include "shaders/lib/lights/light_lists.glsl"
+#include "shaders/lib/shading/brdf.glsl"
+#include "shaders/lib/shading/radiance.glsl"
 #include "shaders/lib/shading/shade.glsl"
 #include "shaders/lib/shading/transmission.glsl"
+#include "shaders/lib/shadows/shadow.glsl"
 
 layout(location = 0) out vec4 out_0;
 layout(location = 1) out vec4 out_1;
@@ -32,7 +35,11 @@ void write(const uint image, const vec4 texel, inout uint free) {
     ++free;
 }
 
-// shaded: number of Surfaces shaded at the pixel under MSAA.
+vec4 captured(const float x) { return vec4(x); }
+vec4 captured(const vec2 v) { return vec4(v, 0.0, 1.0); }
+vec4 captured(const vec3 v) { return vec4(v, 1.0); }
+
+// s: the Surface; z: its reversed depth; shaded: number of Surfaces shaded at the pixel under MSAA.
 void capture(const Surface s, const float z, const uint shaded) {
     PixelLights lights = lightsAt(gl_FragCoord.xy, z, on(feature_transmission));
     Radiance radiance = noRadiance();
@@ -43,17 +50,16 @@ void capture(const Surface s, const float z, const uint shaded) {
     }
     vec4 images[CAPTURE_IMAGES];
     // The channel at component 0 fills its image; later channels take one component each.
-#define CAPTURE(name, image, component)                     \
-    if (isCaptured(image)) {                                \
-        vec4 value = VALUE_##name;                          \
-        if (component == 0) images[image] = value;          \
-        else images[image][component] = value.x;            \
+#define CAPTURE(name, image, component, value)                  \
+    if (isCaptured(image)) {                                    \
+        if (component == 0) images[image] = captured(value);    \
+        else images[image][component] = captured(value).x;      \
     }
     CAPTURES(CAPTURE)
 #undef CAPTURE
     // Unrolled, so that a specialized module stores only to the locations of the pass.
     uint free = 0u;
-#define WRITE(name, image, component) \
+#define WRITE(name, image, component, value) \
     if (component == 0) write(image, images[image], free);
     CAPTURES(WRITE)
 #undef WRITE
