@@ -10,28 +10,18 @@
 #include "shaders/lib/shading/transmission.glsl"
 #include "shaders/lib/shadows/shadow.glsl"
 
-layout(location = 0) out vec4 out_0;
-layout(location = 1) out vec4 out_1;
-layout(location = 2) out vec4 out_2;
-layout(location = 3) out vec4 out_3;
-layout(location = 4) out vec4 out_4;
-layout(location = 5) out vec4 out_5;
-layout(location = 6) out vec4 out_6;
-layout(location = 7) out vec4 out_7;
+#define LOCATIONS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
+#define OUTPUT(at) layout(location = at) out vec4 out_##at;
+LOCATIONS(OUTPUT)
 
 bool isCaptured(const uint image) { return (feature_captures >> image & 1u) != 0u; }
 
 // Writes an image of the pass to the next free location.
 void write(const uint image, const vec4 texel, inout uint free) {
     if (!isCaptured(image)) return;
-    if (free == 0u) out_0 = texel;
-    if (free == 1u) out_1 = texel;
-    if (free == 2u) out_2 = texel;
-    if (free == 3u) out_3 = texel;
-    if (free == 4u) out_4 = texel;
-    if (free == 5u) out_5 = texel;
-    if (free == 6u) out_6 = texel;
-    if (free == 7u) out_7 = texel;
+#define WRITE_TO(at) \
+    if (free == at) out_##at = texel;
+    LOCATIONS(WRITE_TO)
     ++free;
 }
 
