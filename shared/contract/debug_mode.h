@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
-// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material, 60.. layers,
-// 70.. transmission) and never renumbered.
-//
-// tests/architecture/README.md lists the files to change for a new channel.
+// Channels that a path can show or write. README.md says how new ones are numbered, and
+// tests/architecture/README.md which files to change.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
 #define DIPTYCH_CONTRACT_DEBUG_MODE_H
 
