@@ -62,14 +62,25 @@ uint layerWords() {
 }
 // Whether there is the attachment LAYERS + i.
 bool hasLayerAttachment(const uint i) { return layerWords() > 4u * i; }
+bool isOfLayers(const uint attachment) {
+    return attachment >= GBUFFER_LAYERS && attachment < GBUFFER_SHADED;
+}
+// Whether the frame has an attachment.
+bool hasAttachment(const uint attachment) {
+    return attachment == GBUFFER_EMISSION   ? on(feature_emission) || fullGBuffer()
+           : attachment == GBUFFER_SPECULAR ? on(feature_dielectric_specular)
+           : attachment == GBUFFER_IDS      ? on(feature_gbuffer_wide_material_id)
+           : attachment == GBUFFER_LIGHTMAP ? on(feature_lightmap)
+           : attachment == GBUFFER_SHADED   ? multisampled()
+           : isOfLayers(attachment)         ? hasLayerAttachment(attachment - GBUFFER_LAYERS)
+                                            : true;
+}
 // Number of layer attachments that the first pass has room for; a second pass draws the others.
 uint layersInFirstPass() {
-    uint others = 3u;  // albedo, normals, params
-    if (on(feature_emission) || fullGBuffer()) ++others;
-    if (on(feature_dielectric_specular)) ++others;
-    if (on(feature_gbuffer_wide_material_id)) ++others;
-    if (on(feature_lightmap)) ++others;
-    if (multisampled()) ++others;
+    uint others = 0u;
+#define COUNT_OTHER(number, name, kind, what) \
+    if (!isOfLayers(number) && hasAttachment(number)) ++others;
+    GBUFFER_BINDINGS(COUNT_OTHER)
     return MAX_COLOR_ATTACHMENTS - others;
 }
 
