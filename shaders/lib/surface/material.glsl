@@ -159,7 +159,7 @@ vec3 shadingNormal(vec3 n, const vec3 towards) {
     return negated ? -unit : unit;
 }
 
-vec3 shadingNormal(vec3 towards) {
+vec3 shadingNormal(const vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
     return shadingNormal(n, towards);
