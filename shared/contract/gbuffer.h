@@ -42,6 +42,8 @@
     X(10, LAYERS_4, fetched_image, "layers 4")       \
     X(11, LAYERS_5, fetched_image, "layers 5")       \
     X(12, SHADED,   fetched_image, "shaded sample locations")
+// Binding of SET_GBUFFER after the attachments.
+#define DEPTH_BINDING(X) X(13, DEPTH, fetched_image, "depth")
 // clang-format on
 
 // Words of the packed encodings, and the bits of their fields, from the lowest bit. The first field has n
@@ -117,8 +119,7 @@ CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 0 GBUFFER_BINDINGS(DIPTYCH_GBUFFER_ONE
 #undef DIPTYCH_GBUFFER_ONE
 // Most colour attachments of a pass, captures included; device_support.h requires as many.
 CONTRACT_CONST(uint, MAX_COLOR_ATTACHMENTS, 8);
-CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER: an image, after the
-                                                           // attachments
+DEPTH_BINDING(CONTRACT_BINDING)
 
 // FIELD_BITS, and FIELD_SHIFT, the lowest bit of fields after the first.
 #define DIPTYCH_ONE(word, n, a, a_bits)     \
