@@ -21,7 +21,7 @@ namespace diptych {
 
 namespace {
 
-#define DIPTYCH_CHANNEL_PLACE(number, name) gpu::SURFACE_CHANNEL_##name,
+#define DIPTYCH_CHANNEL_PLACE(number, name) gpu::uint{number},
 constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_PLACE)};
 #undef DIPTYCH_CHANNEL_PLACE
 constexpr std::size_t channelCount = channelBindings.size();

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Determines a pixel's sample groups and writes them as the depth of all its samples
-// (lib/sample_groups.glsl).
+// (shaders/lib/samples/sample_groups.glsl).
 #define FLAT_VIEW
 #include "shaders/lib/samples/sample_pairs.glsl"
 

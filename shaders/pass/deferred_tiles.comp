@@ -16,7 +16,7 @@ shared uint layered;
 void main() {
     if (gl_LocalInvocationIndex == 0u) layered = 0u;
     barrier();
-    ivec2 size = multisampled() ? textureSize(gbuffer_layers_samples) : textureSize(gbuffer_layers, 0);
+    ivec2 size = multisampled() ? textureSize(gbuffer_LAYERS_samples) : textureSize(gbuffer_LAYERS, 0);
     uint across = LIGHTING_TILE / LIGHTING_GROUP, i = 0u;
     uint bits = 0u;
     do {

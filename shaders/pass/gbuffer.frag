@@ -36,11 +36,11 @@ void main() {
     out_normals = t.attachments[GBUFFER_NORMALS];
     out_params = t.attachments[GBUFFER_PARAMS];
     uint free = 3;
-    write(on(feature_emission) || fullGBuffer(), t.attachments[GBUFFER_EMISSION], free);
-    write(on(feature_dielectric_specular), t.attachments[GBUFFER_SPECULAR], free);
-    write(on(feature_gbuffer_wide_material_id), t.attachments[GBUFFER_IDS], free);
-    write(on(feature_lightmap), t.attachments[GBUFFER_LIGHTMAP], free);
+    write(hasAttachment(GBUFFER_EMISSION), t.attachments[GBUFFER_EMISSION], free);
+    write(hasAttachment(GBUFFER_SPECULAR), t.attachments[GBUFFER_SPECULAR], free);
+    write(hasAttachment(GBUFFER_IDS), t.attachments[GBUFFER_IDS], free);
+    write(hasAttachment(GBUFFER_LIGHTMAP), t.attachments[GBUFFER_LIGHTMAP], free);
     for (uint i = 0; i < LAYER_WORDS / 4; ++i)
         write(hasLayerAttachment(i) && i < layersInFirstPass(), t.attachments[GBUFFER_LAYERS + i], free);
-    write(multisampled(), t.attachments[GBUFFER_SHADED], free);
+    write(hasAttachment(GBUFFER_SHADED), t.attachments[GBUFFER_SHADED], free);
 }

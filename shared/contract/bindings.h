@@ -4,6 +4,10 @@
 #ifndef DIPTYCH_CONTRACT_BINDINGS_H
 #define DIPTYCH_CONTRACT_BINDINGS_H
 
+#include "gbuffer.h"
+#include "samples.h"
+#include "surface_channels.h"
+#include "transparency.h"
 #include "types.h"
 
 CONTRACT_BEGIN
@@ -11,7 +15,7 @@ CONTRACT_BEGIN
 CONTRACT_CONST(uint, SET_FRAME, 0);         // read by every pass of a frame
 CONTRACT_CONST(uint, SET_MATERIAL, 1);      // one material: textures at SLOT_*, then its factors
 CONTRACT_CONST(uint, SET_LISTS, 1);         // compute shaders that build light lists: light_list.h
-CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: the attachments GBUFFER_*, then depth
+CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: the attachments GBUFFER_*, depth and others
 CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // sums of the preceding light batches
 
 CONTRACT_END
@@ -43,6 +47,10 @@ CONTRACT_END
     X(19, SKY,              image,      "the environment, lat-long, RGBA32F, W/(sr m^2)") \
     X(20, HAZE,             texel_buffer, "Haze, five texels, then HazeMarch, three: haze.h")
 
+#define GBUFFER_SET_BINDINGS(X)                                                               \
+    GBUFFER_BINDINGS(X) DEPTH_BINDING(X) TRANSPARENCY_BINDINGS(X) SAMPLE_BINDINGS(X)          \
+    CHANNEL_BINDINGS(X) BACKDROP_BINDINGS(X)
+
 #define PARTIAL_SUM_BINDINGS(X)                                                               \
     X(0, PARTIAL_DIFFUSE,   fetched_image, "RGBA32F, W/(sr m^2)")                             \
     X(1, PARTIAL_SPECULAR,  fetched_image, "RGBA32F, W/(sr m^2)")                             \
@@ -52,10 +60,8 @@ CONTRACT_END
 // clang-format on
 
 CONTRACT_BEGIN
-#define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
-FRAME_BINDINGS(DIPTYCH_BINDING_NUMBER)
-PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_NUMBER)
-#undef DIPTYCH_BINDING_NUMBER
+FRAME_BINDINGS(CONTRACT_BINDING)
+PARTIAL_SUM_BINDINGS(CONTRACT_BINDING)
 CONTRACT_END
 
 #endif

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Channels that a path can show or write. Numbers 0-9 are fixed. New channels are appended in blocks of
-// ten (10.. geometry, 20.. lights, 30.. shadow, 40.. lighting terms, 50.. material, 60.. layers,
-// 70.. transmission) and never renumbered.
-//
-// tests/architecture/README.md lists the files to change for a new channel.
+// Channels that a path can show or write. README.md says how new ones are numbered, and
+// tests/architecture/README.md which files to change.
 #ifndef DIPTYCH_CONTRACT_DEBUG_MODE_H
 #define DIPTYCH_CONTRACT_DEBUG_MODE_H
 
@@ -219,67 +216,70 @@
     X(diffuse_transmission_color, diffuse_transmission_color, rgb)
 // clang-format on
 
-// name  image  component: where captures store a channel. Captures render images of four components;
-// component is the channel's first. Images below FIRST_LIT_IMAGE do not depend on lights, so no light is
-// evaluated for them. The channel at component 0 of an image is listed first.
+// name  image  component  value: where captures store a channel, and which value, without a colour map.
+// Captures render images of four components; component is the channel's first. Images below FIRST_LIT_IMAGE
+// do not depend on lights, so no light is evaluated for them. The channel at component 0 of an image is
+// listed first.
+// value is an expression of capture() in shaders/lib/surface/capture.glsl, a float or a vector of the
+// channel's width.
 // lit has an image of its own because it is blended into. lit_transmission follows it, to be drawn in the
 // same pass: light through a surface is that of opaque surfaces' lit. So has shaded_samples, which takes the
 // largest sample instead of the first.
 // clang-format off
-#define CAPTURES(X)            \
-    X(albedo,             0, 0) \
-    X(metallic,           0, 3) \
-    X(normals,            1, 0) \
-    X(roughness,          1, 3) \
-    X(emission,           2, 0) \
-    X(occlusion,          2, 3) \
-    X(specular,           3, 0) \
-    X(material_id,        3, 3) \
-    X(position,           4, 0) \
-    X(depth,              4, 3) \
-    X(geometric_normal,   5, 0) \
-    X(dielectric_f90,     5, 3) \
-    X(lightmap,           6, 0) \
-    X(light_count,        6, 3) \
-    X(dielectric_f0,      7, 0) \
-    X(list_overflow,      7, 3) \
-    X(texcoords,          8, 0) \
-    X(cascade,            8, 2) \
-    X(page_residency,     8, 3) \
-    X(tangent,            9, 0) \
-    X(handedness,         9, 3) \
-    X(tangent_normal,    10, 0) \
-    X(lightmapped,       10, 3) \
-    X(clearcoat_normal,  11, 0) \
-    X(clearcoat,         11, 3) \
-    X(anisotropy_direction, 12, 0) \
-    X(anisotropy,        12, 3) \
-    X(sheen_color,       13, 0) \
-    X(sheen_roughness,   13, 3) \
-    X(clearcoat_roughness, 14, 0) \
-    X(iridescence,       14, 1) \
-    X(iridescence_ior,   14, 2) \
-    X(iridescence_thickness, 14, 3) \
-    X(attenuation_color, 15, 0) \
-    X(attenuation_distance, 15, 3) \
-    X(transmission,      16, 0) \
-    X(transmission_thickness, 16, 1) \
-    X(dispersion,        16, 2) \
-    X(diffuse_transmission_color, 17, 0) \
-    X(diffuse_transmission, 17, 3) \
-    X(shaded_samples,    18, 0) \
-    X(lit,               19, 0) \
-    X(lit_transmission,  20, 0) \
-    X(lit_diffuse,       21, 0) \
-    X(shadow_visibility, 21, 3) \
-    X(lit_specular,      22, 0) \
-    X(local_visibility,  22, 3) \
-    X(lit_ambient,       23, 0) \
-    X(lit_haze,          24, 0) \
-    X(transmittance,     25, 0) \
-    X(lit_environment,   26, 0) \
-    X(lit_clearcoat,     27, 0) \
-    X(lit_sheen,         28, 0)
+#define CAPTURES(X)                                                     \
+    X(albedo,                      0, 0, s.albedo)                      \
+    X(metallic,                    0, 3, s.metallic)                    \
+    X(normals,                     1, 0, s.normal)                      \
+    X(roughness,                   1, 3, s.roughness)                   \
+    X(emission,                    2, 0, s.emission)                    \
+    X(occlusion,                   2, 3, s.occlusion)                   \
+    X(specular,                    3, 0, specularF0(s))                 \
+    X(material_id,                 3, 3, float(s.material_id))          \
+    X(position,                    4, 0, s.position)                    \
+    X(depth,                       4, 3, viewDepth(z))                  \
+    X(geometric_normal,            5, 0, s.triangle_normal)             \
+    X(dielectric_f90,              5, 3, s.dielectric_f90)              \
+    X(lightmap,                    6, 0, s.lightmap)                    \
+    X(light_count,                 6, 3, float(lightCount(lights)))     \
+    X(dielectric_f0,               7, 0, s.dielectric_f0)               \
+    X(list_overflow,               7, 3, float(listOverflowed(lights))) \
+    X(texcoords,                   8, 0, s.texcoord)                    \
+    X(cascade,                     8, 2, servingCascade(s.position))    \
+    X(page_residency,              8, 3, pageResidency(s.position))     \
+    X(tangent,                     9, 0, s.tangent)                     \
+    X(handedness,                  9, 3, s.handedness)                  \
+    X(tangent_normal,             10, 0, s.tangent_normal)              \
+    X(lightmapped,                10, 3, float(s.lightmapped))          \
+    X(clearcoat_normal,           11, 0, s.clearcoat_normal)            \
+    X(clearcoat,                  11, 3, s.clearcoat)                   \
+    X(anisotropy_direction,       12, 0, anisotropyDirection(s))        \
+    X(anisotropy,                 12, 3, s.anisotropy)                  \
+    X(sheen_color,                13, 0, s.sheen_color)                 \
+    X(sheen_roughness,            13, 3, s.sheen_roughness)             \
+    X(clearcoat_roughness,        14, 0, s.clearcoat_roughness)         \
+    X(iridescence,                14, 1, s.iridescence)                 \
+    X(iridescence_ior,            14, 2, s.iridescence_ior)             \
+    X(iridescence_thickness,      14, 3, s.iridescence_thickness)       \
+    X(attenuation_color,          15, 0, s.attenuation_color)           \
+    X(attenuation_distance,       15, 3, s.attenuation_distance)        \
+    X(transmission,               16, 0, s.transmission)                \
+    X(transmission_thickness,     16, 1, s.thickness)                   \
+    X(dispersion,                 16, 2, s.dispersion)                  \
+    X(diffuse_transmission_color, 17, 0, s.diffuse_transmission_color)  \
+    X(diffuse_transmission,       17, 3, s.diffuse_transmission)        \
+    X(shaded_samples,             18, 0, float(shaded))                 \
+    X(lit,                        19, 0, lit(radiance))                 \
+    X(lit_transmission,           20, 0, radiance.transmission)         \
+    X(lit_diffuse,                21, 0, radiance.diffuse)              \
+    X(shadow_visibility,          21, 3, radiance.sun_visibility)       \
+    X(lit_specular,               22, 0, radiance.specular)             \
+    X(local_visibility,           22, 3, localVisibility(radiance))     \
+    X(lit_ambient,                23, 0, radiance.ambient)              \
+    X(lit_haze,                   24, 0, radiance.haze)                 \
+    X(transmittance,              25, 0, radiance.transmittance)        \
+    X(lit_environment,            26, 0, radiance.environment)          \
+    X(lit_clearcoat,              27, 0, radiance.clearcoat)            \
+    X(lit_sheen,                  28, 0, radiance.sheen)
 // clang-format on
 
 CONTRACT_BEGIN

@@ -8,7 +8,7 @@
 //   albedo    albedo, occlusion                 specular  dielectric F0, F90
 //   normals   normal, roughness                 emission  emission, id
 //   params    geometric normal, metallic        lightmap  lightmap, 1
-//   layers    as the packed fields, in the order of LAYER_*; the direction of anisotropy has two words
+//   layers    the values of STORED_LAYERS
 //
 // emission exists if the scene emits light; full always has it, because it stores the id. Radiance beyond
 // the range of its word is RGBA32 float. lightmap exists if a material has one, in the same formats. It is
@@ -43,6 +43,8 @@
     X(10, LAYERS_4, fetched_image, "layers 4")       \
     X(11, LAYERS_5, fetched_image, "layers 5")       \
     X(12, SHADED,   fetched_image, "shaded sample locations")
+// Binding of SET_GBUFFER after the attachments.
+#define DEPTH_BINDING(X) X(13, DEPTH, fetched_image, "depth")
 // clang-format on
 
 // Words of the packed encodings, and the bits of their fields, from the lowest bit. The first field has n
@@ -73,13 +75,35 @@
     THREE(iridescence, 1, IRIDESCENCE, 8, IRIDESCENCE_IOR, 9, IRIDESCENCE_THICKNESS, 15)                 \
     TWO(diffuse_transmission, 3, DIFFUSE_TRANSMISSION_COLOR, 8, DIFFUSE_TRANSMISSION, 8)
 
-// Words of each layer, packed and float32; they follow each other in this order, that of LAYER_*.
-#define STORED_LAYERS(X)  \
-    X(CLEARCOAT, 2, 5)    \
-    X(ANISOTROPY, 1, 3)   \
-    X(SHEEN, 1, 4)        \
-    X(IRIDESCENCE, 1, 3)  \
-    X(DIFFUSE_TRANSMISSION, 1, 4)
+// Values of each layer in a Surface (shaders/lib/surface/surface.glsl), 0 without the layer. Each is also a
+// channel, but anisotropy_turn: that of anisotropy_direction.
+// type  name
+#define CLEARCOAT_VALUES(X)                                                                           \
+    X(vec3, clearcoat_normal)             /* unit, shading */                                         \
+    X(float, clearcoat)                   /* weight */                                                \
+    X(float, clearcoat_roughness)         /* perceptual */
+#define ANISOTROPY_VALUES(X)                                                                          \
+    X(float, anisotropy)                  /* strength */                                              \
+    X(vec2, anisotropy_turn)              /* of highlights from axesAcross(normal): cosine, sine */
+#define SHEEN_VALUES(X)                                                                               \
+    X(vec3, sheen_color)                  /* linear Rec.709 */                                        \
+    X(float, sheen_roughness)             /* perceptual */
+#define IRIDESCENCE_VALUES(X)                                                                         \
+    X(float, iridescence)                 /* weight of the film */                                    \
+    X(float, iridescence_ior)                                                                         \
+    X(float, iridescence_thickness)       /* nm */
+#define DIFFUSE_TRANSMISSION_VALUES(X)                                                                \
+    X(vec3, diffuse_transmission_color)   /* linear Rec.709 */                                        \
+    X(float, diffuse_transmission)        /* weight */
+
+// Layers in the order of their words, that of LAYER_*: words in packed encodings; values. A float32 G-buffer
+// stores the values' components.
+#define STORED_LAYERS(X)                   \
+    X(CLEARCOAT, 2, CLEARCOAT_VALUES)      \
+    X(ANISOTROPY, 1, ANISOTROPY_VALUES)    \
+    X(SHEEN, 1, SHEEN_VALUES)              \
+    X(IRIDESCENCE, 1, IRIDESCENCE_VALUES)  \
+    X(DIFFUSE_TRANSMISSION, 1, DIFFUSE_TRANSMISSION_VALUES)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -96,8 +120,7 @@ CONTRACT_CONST(uint, GBUFFER_ATTACHMENTS, 0 GBUFFER_BINDINGS(DIPTYCH_GBUFFER_ONE
 #undef DIPTYCH_GBUFFER_ONE
 // Most colour attachments of a pass, captures included; device_support.h requires as many.
 CONTRACT_CONST(uint, MAX_COLOR_ATTACHMENTS, 8);
-CONTRACT_CONST(uint, BINDING_DEPTH, GBUFFER_ATTACHMENTS);  // of SET_GBUFFER: an image, after the
-                                                           // attachments
+DEPTH_BINDING(CONTRACT_BINDING)
 
 // FIELD_BITS, and FIELD_SHIFT, the lowest bit of fields after the first.
 #define DIPTYCH_ONE(word, n, a, a_bits)     \
@@ -119,11 +142,16 @@ GBUFFER_WORDS(DIPTYCH_ONE, DIPTYCH_TWO, DIPTYCH_THREE)
 #undef DIPTYCH_THREE
 #undef DIPTYCH_NEXT
 
-#define DIPTYCH_LAYER(layer, packed, full)       \
+CONTRACT_CONST(uint, WORDS_float, 1);
+CONTRACT_CONST(uint, WORDS_vec2, 2);
+CONTRACT_CONST(uint, WORDS_vec3, 3);
+#define DIPTYCH_WORDS(type, name) +WORDS_##type
+#define DIPTYCH_LAYER(layer, packed, values)     \
     CONTRACT_CONST(uint, layer##_WORDS, packed); \
-    CONTRACT_CONST(uint, layer##_FULL_WORDS, full);
+    CONTRACT_CONST(uint, layer##_FULL_WORDS, 0 values(DIPTYCH_WORDS));
 STORED_LAYERS(DIPTYCH_LAYER)
 #undef DIPTYCH_LAYER
+#undef DIPTYCH_WORDS
 CONTRACT_CONST(uint, LAYER_WORDS, 4 * (GBUFFER_SHADED - GBUFFER_LAYERS));
 
 // An exponent's code 0 stands for 2^-EMISSION_BIAS.

@@ -5,8 +5,6 @@
 #ifndef DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 #define DIPTYCH_CONTRACT_SURFACE_CHANNELS_H
 
-#include "types.h"
-
 // Binding of SET_GBUFFER, which another table may use for its own image; name of the debug mode. Fourth
 // components: of lightmap the channel lightmapped; of geometric_normal the bits per coordinate that lighting
 // quantizes it to, 0: none.
@@ -47,13 +45,5 @@
     X(29, CHANNEL_7, fetched_image, "a channel of a surface")    \
     X(30, CHANNEL_8, fetched_image, "a channel of a surface")
 // clang-format on
-
-CONTRACT_BEGIN
-
-#define DIPTYCH_SURFACE_CHANNEL_BINDING(number, name) CONTRACT_CONST(uint, SURFACE_CHANNEL_##name, number);
-SURFACE_CHANNELS(DIPTYCH_SURFACE_CHANNEL_BINDING)
-#undef DIPTYCH_SURFACE_CHANNEL_BINDING
-
-CONTRACT_END
 
 #endif

@@ -24,10 +24,8 @@
 // clang-format on
 
 CONTRACT_BEGIN
-#define DIPTYCH_BINDING_NUMBER(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
-TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_NUMBER)
-BACKDROP_BINDINGS(DIPTYCH_BINDING_NUMBER)
-#undef DIPTYCH_BINDING_NUMBER
+TRANSPARENCY_BINDINGS(CONTRACT_BINDING)
+BACKDROP_BINDINGS(CONTRACT_BINDING)
 
 // Push constants of blended passes and of backdrop.frag, the last members of DrawConstants.
 struct BlendedConstants {

@@ -54,4 +54,8 @@ constexpr bool beginsAt(std::size_t offset, std::size_t texel, std::size_t lane)
 #define CONTRACT_WORD(word, bits)
 
 #endif
+
+// BINDING_<name> of a row of a table of descriptors (bindings.h).
+#define CONTRACT_BINDING(number, name, kind, what) CONTRACT_CONST(uint, BINDING_##name, number);
+
 #endif

@@ -20,7 +20,7 @@ struct Placed {
     PlaceInCaptures place;
 };
 constexpr std::array capture_places{
-#define DIPTYCH_CAPTURE(name, image, component) Placed{Channel::name, {image, component}},
+#define DIPTYCH_CAPTURE(name, image, component, value) Placed{Channel::name, {image, component}},
     CAPTURES(DIPTYCH_CAPTURE)
 #undef DIPTYCH_CAPTURE
 };

@@ -3,11 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/contract/culling.h"
-#include "shared/contract/gbuffer.h"
 #include "shared/contract/geometry.h"
-#include "shared/contract/samples.h"
-#include "shared/contract/surface_channels.h"
-#include "shared/contract/transparency.h"
 
 #include <array>
 #include <cstddef>
@@ -19,11 +15,7 @@ namespace {
 
 constexpr auto frameTypes = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
 constexpr auto partialSumTypes = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-constexpr auto gbufferTypes =
-    bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
-                      BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::fetched_image},
-                  TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)
-                      CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW) BACKDROP_BINDINGS(DIPTYCH_BINDING_ROW)});
+constexpr auto gbufferTypes = bindingTypes({GBUFFER_SET_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 }  // namespace
 

@@ -34,7 +34,7 @@ namespace {
 struct Words {
     gpu::uint layer, packed, full;
 };
-#define DIPTYCH_WORDS(layer, packed, full) Words{gpu::LAYER_##layer, packed, full},
+#define DIPTYCH_WORDS(layer, packed, values) Words{gpu::LAYER_##layer, packed, gpu::layer##_FULL_WORDS},
 constexpr std::array layer_words{STORED_LAYERS(DIPTYCH_WORDS)};
 #undef DIPTYCH_WORDS
 

@@ -6,9 +6,6 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
-#include "shared/contract/samples.h"
-#include "shared/contract/surface_channels.h"
-#include "shared/contract/transparency.h"
 #include "shared/vulkan/binding_table.h"
 #include "shared/vulkan/check.h"
 #include "shared/vulkan/driver_files.h"
@@ -51,11 +48,7 @@ std::string mebibytes(std::uint64_t bytes) {
 constexpr std::uint32_t descriptors(std::initializer_list<VkDescriptorType> kinds) {
     constexpr auto frame = bindingTypes({FRAME_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto sums = bindingTypes({PARTIAL_SUM_BINDINGS(DIPTYCH_BINDING_ROW)});
-    constexpr auto gbuffer =
-        bindingTypes({GBUFFER_BINDINGS(DIPTYCH_BINDING_ROW)
-                          BindingRow{gpu::BINDING_DEPTH, "DEPTH", binding_kind::fetched_image},
-                      TRANSPARENCY_BINDINGS(DIPTYCH_BINDING_ROW) SAMPLE_BINDINGS(DIPTYCH_BINDING_ROW)
-                          CHANNEL_BINDINGS(DIPTYCH_BINDING_ROW) BACKDROP_BINDINGS(DIPTYCH_BINDING_ROW)});
+    constexpr auto gbuffer = bindingTypes({GBUFFER_SET_BINDINGS(DIPTYCH_BINDING_ROW)});
     constexpr auto lists = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
     const auto count = [&](std::span<const VkDescriptorType> types) {
         std::uint32_t found = 0;

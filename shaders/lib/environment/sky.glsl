@@ -20,7 +20,7 @@ vec3 environmentFromWorld(const vec3 d) {
 float environmentFactor() { return environmentTurn().z; }
 
 // Columns wrap around. Rows beyond a pole are mirrored and shifted by half a turn.
-vec3 skyTexel(ivec2 p, ivec2 size) {
+vec3 skyTexel(ivec2 p, const ivec2 size) {
     if (p.y < 0 || p.y >= size.y) {
         p.y = clamp(p.y < 0 ? -1 - p.y : 2 * size.y - 1 - p.y, 0, size.y - 1);
         p.x += size.x / 2;

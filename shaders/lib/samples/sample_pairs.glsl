@@ -27,17 +27,10 @@ uint differingPairs(const utexture2DMS attachment, const ivec2 p) {
 
 // Pairs whose bits differ in any attachment of the frame.
 uint differingPairs(const ivec2 p) {
-    uint differ = differingPairs(gbuffer_albedo_samples, p) | differingPairs(gbuffer_normals_samples, p) |
-                  differingPairs(gbuffer_params_samples, p) | differingPairs(gbuffer_shaded_samples, p);
-    if (on(feature_emission) || fullGBuffer()) differ |= differingPairs(gbuffer_emission_samples, p);
-    if (on(feature_dielectric_specular)) differ |= differingPairs(gbuffer_specular_samples, p);
-    if (on(feature_gbuffer_wide_material_id)) differ |= differingPairs(gbuffer_ids_samples, p);
-    if (on(feature_lightmap)) differ |= differingPairs(gbuffer_lightmap_samples, p);
-    if (hasLayerAttachment(0)) differ |= differingPairs(gbuffer_layers_samples, p);
-    if (hasLayerAttachment(1)) differ |= differingPairs(gbuffer_layers_2_samples, p);
-    if (hasLayerAttachment(2)) differ |= differingPairs(gbuffer_layers_3_samples, p);
-    if (hasLayerAttachment(3)) differ |= differingPairs(gbuffer_layers_4_samples, p);
-    if (hasLayerAttachment(4)) differ |= differingPairs(gbuffer_layers_5_samples, p);
+    uint differ = 0u;
+#define ADD_DIFFERING(number, name, kind, what) \
+    if (hasAttachment(number)) differ |= differingPairs(gbuffer_##name##_samples, p);
+    GBUFFER_BINDINGS(ADD_DIFFERING)
     return differ;
 }
 
@@ -57,7 +50,7 @@ bool covered(const ivec2 p) {
     bool whole = true;
     uint i = 0u;
     do {
-        uint left = leftOfShaded(texelFetch(gbuffer_shaded_samples, p, int(i)).xy);
+        uint left = leftOfShaded(texelFetch(gbuffer_SHADED_samples, p, int(i)).xy);
         whole = whole && left == (1u << feature_samples) - 1u;
     } while (++i < feature_samples);
     return whole;

@@ -52,28 +52,35 @@ bool storesLayer(const uint layer) { return (feature_gbuffer_layers & layer) != 
 // Shaders that shade no layers do not read them: they are 0.
 bool decodesLayers() { return on(feature_gbuffer_layers & feature_layers); }
 
-uint wordsOf(const uint layer, const uint packed_words, const uint full_words) {
-    return !storesLayer(layer) ? 0u : fullGBuffer() ? full_words : packed_words;
+// Words of all layers in LAYERS to LAYERS_5.
+uint layerWords() {
+    uint words = 0u;
+#define ADD_WORDS(layer, packed, values) \
+    if (storesLayer(LAYER_##layer)) words += fullGBuffer() ? layer##_FULL_WORDS : layer##_WORDS;
+    STORED_LAYERS(ADD_WORDS)
+    return words;
 }
-
-#define WORDS_OF(layer) wordsOf(LAYER_##layer, layer##_WORDS, layer##_FULL_WORDS)
-
-// First word of a layer in LAYERS to LAYERS_5.
-uint anisotropyWord() { return WORDS_OF(CLEARCOAT); }
-uint sheenWord() { return anisotropyWord() + WORDS_OF(ANISOTROPY); }
-uint iridescenceWord() { return sheenWord() + WORDS_OF(SHEEN); }
-uint diffuseTransmissionWord() { return iridescenceWord() + WORDS_OF(IRIDESCENCE); }
-uint layerWords() { return diffuseTransmissionWord() + WORDS_OF(DIFFUSE_TRANSMISSION); }
 // Whether there is the attachment LAYERS + i.
 bool hasLayerAttachment(const uint i) { return layerWords() > 4u * i; }
+bool isOfLayers(const uint attachment) {
+    return attachment >= GBUFFER_LAYERS && attachment < GBUFFER_SHADED;
+}
+// Whether the frame has an attachment.
+bool hasAttachment(const uint attachment) {
+    return attachment == GBUFFER_EMISSION   ? on(feature_emission) || fullGBuffer()
+           : attachment == GBUFFER_SPECULAR ? on(feature_dielectric_specular)
+           : attachment == GBUFFER_IDS      ? on(feature_gbuffer_wide_material_id)
+           : attachment == GBUFFER_LIGHTMAP ? on(feature_lightmap)
+           : attachment == GBUFFER_SHADED   ? multisampled()
+           : isOfLayers(attachment)         ? hasLayerAttachment(attachment - GBUFFER_LAYERS)
+                                            : true;
+}
 // Number of layer attachments that the first pass has room for; a second pass draws the others.
 uint layersInFirstPass() {
-    uint others = 3u;  // albedo, normals, params
-    if (on(feature_emission) || fullGBuffer()) ++others;
-    if (on(feature_dielectric_specular)) ++others;
-    if (on(feature_gbuffer_wide_material_id)) ++others;
-    if (on(feature_lightmap)) ++others;
-    if (multisampled()) ++others;
+    uint others = 0u;
+#define COUNT_OTHER(number, name, kind, what) \
+    if (!isOfLayers(number) && hasAttachment(number)) ++others;
+    GBUFFER_BINDINGS(COUNT_OTHER)
     return MAX_COLOR_ATTACHMENTS - others;
 }
 
@@ -174,84 +181,55 @@ struct LayerWords {
     uint words[LAYER_WORDS];
 };
 
+// Next words of `w`, from the word `at`.
+#define STORE_float(x) w.words[at++] = floatBitsToUint(x);
+#define STORE_vec2(v) STORE_float(v.x) STORE_float(v.y)
+#define STORE_vec3(v) STORE_float(v.x) STORE_float(v.y) STORE_float(v.z)
+#define LOAD_float(x) x = uintBitsToFloat(w.words[at++]);
+#define LOAD_vec2(v) LOAD_float(v.x) LOAD_float(v.y)
+#define LOAD_vec3(v) LOAD_float(v.x) LOAD_float(v.y) LOAD_float(v.z)
+
 // `decoded_normal`: of the packed encodings.
 LayerWords encodeLayers(const Surface s, const vec3 decoded_normal) {
     LayerWords w;
     for (uint i = 0; i < LAYER_WORDS; ++i) w.words[i] = 0u;
-    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
-         diffuse = diffuseTransmissionWord();
+    uint at = 0u;
     if (fullGBuffer()) {
-        if (storesLayer(LAYER_CLEARCOAT)) {
-            for (int i = 0; i < 3; ++i) w.words[i] = floatBitsToUint(s.clearcoat_normal[i]);
-            w.words[3] = floatBitsToUint(s.clearcoat);
-            w.words[4] = floatBitsToUint(s.clearcoat_roughness);
-        }
-        if (storesLayer(LAYER_ANISOTROPY)) {
-            w.words[anisotropy] = floatBitsToUint(s.anisotropy);
-            for (int i = 0; i < 2; ++i) w.words[anisotropy + 1 + i] = floatBitsToUint(s.anisotropy_turn[i]);
-        }
-        if (storesLayer(LAYER_SHEEN)) {
-            for (int i = 0; i < 3; ++i) w.words[sheen + i] = floatBitsToUint(s.sheen_color[i]);
-            w.words[sheen + 3] = floatBitsToUint(s.sheen_roughness);
-        }
-        if (storesLayer(LAYER_IRIDESCENCE)) {
-            w.words[film] = floatBitsToUint(s.iridescence);
-            w.words[film + 1] = floatBitsToUint(s.iridescence_ior);
-            w.words[film + 2] = floatBitsToUint(s.iridescence_thickness);
-        }
-        if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) {
-            for (int i = 0; i < 3; ++i)
-                w.words[diffuse + i] = floatBitsToUint(s.diffuse_transmission_color[i]);
-            w.words[diffuse + 3] = floatBitsToUint(s.diffuse_transmission);
-        }
+#define STORE(type, name) STORE_##type(s.name)
+#define STORE_LAYER(layer, packed, values) \
+        if (storesLayer(LAYER_##layer)) { values(STORE) }
+        STORED_LAYERS(STORE_LAYER)
         return w;
     }
     if (storesLayer(LAYER_CLEARCOAT)) {
         uvec2 coat = encodeClearcoat(s);
-        w.words[0] = coat.x;
-        w.words[1] = coat.y;
+        w.words[at++] = coat.x;
+        w.words[at++] = coat.y;
     }
-    if (storesLayer(LAYER_ANISOTROPY)) w.words[anisotropy] = encodeAnisotropy(s, decoded_normal);
-    if (storesLayer(LAYER_SHEEN)) w.words[sheen] = encodeSheen(s);
-    if (storesLayer(LAYER_IRIDESCENCE)) w.words[film] = encodeIridescence(s);
-    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) w.words[diffuse] = encodeDiffuseTransmission(s);
+    if (storesLayer(LAYER_ANISOTROPY)) w.words[at++] = encodeAnisotropy(s, decoded_normal);
+    if (storesLayer(LAYER_SHEEN)) w.words[at++] = encodeSheen(s);
+    if (storesLayer(LAYER_IRIDESCENCE)) w.words[at++] = encodeIridescence(s);
+    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) w.words[at++] = encodeDiffuseTransmission(s);
     return w;
 }
 
 void decodeLayers(const LayerWords w, inout Surface s) {
-    uint anisotropy = anisotropyWord(), sheen = sheenWord(), film = iridescenceWord(),
-         diffuse = diffuseTransmissionWord();
+    uint at = 0u;
     if (fullGBuffer()) {
-        if (storesLayer(LAYER_CLEARCOAT)) {
-            for (int i = 0; i < 3; ++i) s.clearcoat_normal[i] = uintBitsToFloat(w.words[i]);
-            s.clearcoat = uintBitsToFloat(w.words[3]);
-            s.clearcoat_roughness = uintBitsToFloat(w.words[4]);
-        }
-        if (storesLayer(LAYER_ANISOTROPY)) {
-            s.anisotropy = uintBitsToFloat(w.words[anisotropy]);
-            for (int i = 0; i < 2; ++i) s.anisotropy_turn[i] = uintBitsToFloat(w.words[anisotropy + 1 + i]);
-        }
-        if (storesLayer(LAYER_SHEEN)) {
-            for (int i = 0; i < 3; ++i) s.sheen_color[i] = uintBitsToFloat(w.words[sheen + i]);
-            s.sheen_roughness = uintBitsToFloat(w.words[sheen + 3]);
-        }
-        if (storesLayer(LAYER_IRIDESCENCE)) {
-            s.iridescence = uintBitsToFloat(w.words[film]);
-            s.iridescence_ior = uintBitsToFloat(w.words[film + 1]);
-            s.iridescence_thickness = uintBitsToFloat(w.words[film + 2]);
-        }
-        if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) {
-            for (int i = 0; i < 3; ++i)
-                s.diffuse_transmission_color[i] = uintBitsToFloat(w.words[diffuse + i]);
-            s.diffuse_transmission = uintBitsToFloat(w.words[diffuse + 3]);
-        }
+#define LOAD(type, name) LOAD_##type(s.name)
+#define LOAD_LAYER(layer, packed, values) \
+        if (storesLayer(LAYER_##layer)) { values(LOAD) }
+        STORED_LAYERS(LOAD_LAYER)
         return;
     }
-    if (storesLayer(LAYER_CLEARCOAT)) decodeClearcoat(uvec2(w.words[0], w.words[1]), s);
-    if (storesLayer(LAYER_ANISOTROPY)) decodeAnisotropy(w.words[anisotropy], s);
-    if (storesLayer(LAYER_SHEEN)) decodeSheen(w.words[sheen], s);
-    if (storesLayer(LAYER_IRIDESCENCE)) decodeIridescence(w.words[film], s);
-    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) decodeDiffuseTransmission(w.words[diffuse], s);
+    if (storesLayer(LAYER_CLEARCOAT)) {
+        decodeClearcoat(uvec2(w.words[0], w.words[1]), s);
+        at = CLEARCOAT_WORDS;
+    }
+    if (storesLayer(LAYER_ANISOTROPY)) decodeAnisotropy(w.words[at++], s);
+    if (storesLayer(LAYER_SHEEN)) decodeSheen(w.words[at++], s);
+    if (storesLayer(LAYER_IRIDESCENCE)) decodeIridescence(w.words[at++], s);
+    if (storesLayer(LAYER_DIFFUSE_TRANSMISSION)) decodeDiffuseTransmission(w.words[at++], s);
 }
 
 void writeLayers(const LayerWords w, inout GBufferTexel t) {
@@ -355,18 +333,7 @@ void decodePacked(const GBufferTexel t, inout Surface s) {
 
 // Decodes all fields except the position, which comes from depth, and fields that only forward+ has.
 Surface decodeGBuffer(const GBufferTexel t, const vec3 position) {
-    Surface s;
-    s.position = position;
-    s.texcoord = vec2(0.0);
-    s.tangent = s.tangent_normal = vec3(0.0);
-    s.handedness = 0.0;
-    s.emission = vec3(0.0);
-    s.lightmap = vec3(0.0);
-    s.lightmapped = false;
-    s.object_irradiance = vec3(0.0);  // not stored
-    removeLayers(s);
-    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
-    s.dielectric_f90 = 1.0;
+    Surface s = bareSurface(position);
     if (fullGBuffer())
         decodeFull(t, s);
     else

@@ -52,48 +52,21 @@ vec4 sampledTexel(const sampler2D map, const uint slot) {
 vec4 slotTexel(const sampler2D map, const uint slot, const uint texel) {
     return texel == TEXEL_CONSTANT ? material.texels[slot] : sampledTexel(map, slot);
 }
-// Slots that share a texel repeat the same sample, which compilers merge.
-vec4 baseColorTexel() { return slotTexel(base_color_texture, SLOT_base_color, feature_base_color_texture); }
-vec4 normalTexel() { return slotTexel(normal_texture, SLOT_normal, feature_normal_texture); }
+#define TEXEL(name) slotTexel(name##_texture, SLOT_##name, feature_##name##_texture)
+// `other`: the slot whose sample it may share. Both repeat the sample, which compilers merge.
+#define TEXEL_OR(name, other)                                                                        \
+    (feature_##name##_texture == TEXEL_SHARED ? sampledTexel(other##_texture, SLOT_##other) : TEXEL(name))
+
 // Roughness in green, metallic in blue.
 vec4 metallicRoughnessTexel() {
     if (feature_metallic_roughness_texture == TEXEL_ALPHAS)
-        return vec4(1.0, normalTexel().a, baseColorTexel().a, 1.0);
-    return slotTexel(metallic_roughness_texture, SLOT_metallic_roughness, feature_metallic_roughness_texture);
-}
-vec4 occlusionTexel() {
-    if (feature_occlusion_texture == TEXEL_SHARED) return metallicRoughnessTexel();
-    return slotTexel(occlusion_texture, SLOT_occlusion, feature_occlusion_texture);
-}
-vec4 specularColorTexel() {
-    return slotTexel(specular_color_texture, SLOT_specular_color, feature_specular_color_texture);
-}
-vec4 emissiveTexel() {
-    if (feature_emissive_texture == TEXEL_SHARED) return baseColorTexel();
-    return slotTexel(emissive_texture, SLOT_emissive, feature_emissive_texture);
-}
-
-vec4 sheenColorTexel() {
-    return slotTexel(sheen_color_texture, SLOT_sheen_color, feature_sheen_color_texture);
-}
-vec4 sheenRoughnessTexel() {
-    if (feature_sheen_roughness_texture == TEXEL_SHARED) return sheenColorTexel();
-    return slotTexel(sheen_roughness_texture, SLOT_sheen_roughness, feature_sheen_roughness_texture);
-}
-
-vec4 diffuseTransmissionColorTexel() {
-    return slotTexel(diffuse_transmission_color_texture, SLOT_diffuse_transmission_color,
-                     feature_diffuse_transmission_color_texture);
-}
-vec4 diffuseTransmissionTexel() {
-    if (feature_diffuse_transmission_texture == TEXEL_SHARED) return diffuseTransmissionColorTexel();
-    return slotTexel(diffuse_transmission_texture, SLOT_diffuse_transmission,
-                     feature_diffuse_transmission_texture);
+        return vec4(1.0, TEXEL(normal).a, TEXEL(base_color).a, 1.0);
+    return TEXEL(metallic_roughness);
 }
 
 vec4 baseColor() {
     vec4 color = material.base_color;
-    if (on(feature_base_color_texture)) color *= baseColorTexel();
+    if (on(feature_base_color_texture)) color *= TEXEL(base_color);
     if (on(feature_vertex_color)) color *= shaded_color;
     return color;
 }
@@ -153,9 +126,7 @@ vec3 mappedNormal(const vec4 texel, const float scale) {
     t.xy *= scale;
     return t;
 }
-vec3 mappedNormal() {
-    return mappedNormal(normalTexel(), material.normal_scale);
-}
+vec3 mappedNormal() { return mappedNormal(TEXEL(normal), material.normal_scale); }
 
 // Unit vector along `v`; 0 for the zero vector.
 vec3 directionOf(const vec3 v) {
@@ -188,7 +159,7 @@ vec3 shadingNormal(vec3 n, const vec3 towards) {
     return negated ? -unit : unit;
 }
 
-vec3 shadingNormal(vec3 towards) {
+vec3 shadingNormal(const vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_normal_texture)) n = fromTangentSpace(mappedNormal(), n, shaded_tangent);
     return shadingNormal(n, towards);
@@ -198,9 +169,7 @@ vec3 shadingNormal(vec3 towards) {
 vec3 clearcoatNormal(const vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_clearcoat_normal_texture)) {
-        vec4 texel = slotTexel(clearcoat_normal_texture, SLOT_clearcoat_normal,
-                               feature_clearcoat_normal_texture);
-        vec3 t = mappedNormal(texel, material.clearcoat_normal_scale);
+        vec3 t = mappedNormal(TEXEL(clearcoat_normal), material.clearcoat_normal_scale);
         t = turnedFrom(t, LAYER_CLEARCOAT, shaded_turn);
         n = fromTangentSpace(t, n, shaded_tangent);
     }
@@ -258,11 +227,8 @@ float filteredClearcoatRoughness(const float roughness) {
 
 void addClearcoat(const Material m, const vec3 towards, inout Surface s) {
     float weight = m.clearcoat, roughness = m.clearcoat_roughness;
-    if (on(feature_clearcoat_texture))
-        weight *= slotTexel(clearcoat_texture, SLOT_clearcoat, feature_clearcoat_texture).r;
-    if (on(feature_clearcoat_roughness_texture))
-        roughness *= slotTexel(clearcoat_roughness_texture, SLOT_clearcoat_roughness,
-                               feature_clearcoat_roughness_texture).g;
+    if (on(feature_clearcoat_texture)) weight *= TEXEL(clearcoat).r;
+    if (on(feature_clearcoat_roughness_texture)) roughness *= TEXEL(clearcoat_roughness).g;
     if (on(feature_specular_aa)) roughness = filteredClearcoatRoughness(roughness);
     vec3 n = clearcoatNormal(towards);
     bool there = weight > 0.0;
@@ -276,7 +242,7 @@ void addAnisotropy(const Material m, inout Surface s) {
     float strength = m.anisotropy;
     vec2 direction = vec2(1.0, 0.0);
     if (on(feature_anisotropy_texture)) {
-        vec4 texel = slotTexel(anisotropy_texture, SLOT_anisotropy, feature_anisotropy_texture);
+        vec4 texel = TEXEL(anisotropy);
         direction = texel.rg * 2.0 - 1.0;
         strength *= texel.b;
     }
@@ -291,21 +257,19 @@ void addAnisotropy(const Material m, inout Surface s) {
 
 void addSheen(const Material m, inout Surface s) {
     s.sheen_color = m.sheen_color;
-    if (on(feature_sheen_color_texture)) s.sheen_color *= sheenColorTexel().rgb;
+    if (on(feature_sheen_color_texture)) s.sheen_color *= TEXEL(sheen_color).rgb;
     float roughness = m.sheen_roughness;
-    if (on(feature_sheen_roughness_texture)) roughness *= sheenRoughnessTexel().a;
+    if (on(feature_sheen_roughness_texture)) roughness *= TEXEL_OR(sheen_roughness, sheen_color).a;
     s.sheen_roughness = s.sheen_color != vec3(0.0) ? roughness : 0.0;
 }
 
 void addFilm(const Material m, inout Surface s) {
     s.iridescence = m.iridescence;
-    if (on(feature_iridescence_texture))
-        s.iridescence *= slotTexel(iridescence_texture, SLOT_iridescence, feature_iridescence_texture).r;
+    if (on(feature_iridescence_texture)) s.iridescence *= TEXEL(iridescence).r;
     float thickness = m.iridescence_thickness_most;
     if (on(feature_iridescence_thickness_texture))
         thickness = blend(m.iridescence_thickness_least, m.iridescence_thickness_most,
-                          slotTexel(iridescence_thickness_texture, SLOT_iridescence_thickness,
-                                    feature_iridescence_thickness_texture).g);
+                          TEXEL(iridescence_thickness).g);
     bool there = s.iridescence > 0.0;
     s.iridescence_ior = there ? m.iridescence_ior : 0.0;
     s.iridescence_thickness = there ? thickness : 0.0;
@@ -313,8 +277,7 @@ void addFilm(const Material m, inout Surface s) {
 
 float slabThickness(const Material m) {
     float thickness = m.thickness * constants.scale;
-    if (on(feature_thickness_texture))
-        thickness *= slotTexel(thickness_texture, SLOT_thickness, feature_thickness_texture).g;
+    if (on(feature_thickness_texture)) thickness *= TEXEL(thickness).g;
     return thickness;
 }
 
@@ -322,8 +285,9 @@ float slabThickness(const Material m) {
 void addDiffuseTransmission(const Material m, inout Surface s) {
     float weight = m.diffuse_transmission;
     vec3 color = m.diffuse_transmission_color;
-    if (on(feature_diffuse_transmission_texture)) weight *= diffuseTransmissionTexel().a;
-    if (on(feature_diffuse_transmission_color_texture)) color *= diffuseTransmissionColorTexel().rgb;
+    if (on(feature_diffuse_transmission_texture))
+        weight *= TEXEL_OR(diffuse_transmission, diffuse_transmission_color).a;
+    if (on(feature_diffuse_transmission_color_texture)) color *= TEXEL(diffuse_transmission_color).rgb;
     if (on(feature_absorbing))
         color *= crossing(m.attenuation_color, m.attenuation_distance, slabThickness(m));
     s.diffuse_transmission = weight;
@@ -333,8 +297,7 @@ void addDiffuseTransmission(const Material m, inout Surface s) {
 void addTransmission(const Material m, const float alpha, inout Surface s) {
     s.coverage = feature_transmission == TRANSMISSION_COVERED ? clamp(alpha, 0.0, 1.0) : 1.0;
     s.transmission = m.transmission;
-    if (on(feature_transmission_texture))
-        s.transmission *= slotTexel(transmission_texture, SLOT_transmission, feature_transmission_texture).r;
+    if (on(feature_transmission_texture)) s.transmission *= TEXEL(transmission).r;
     float thickness = slabThickness(m);
     bool there = s.transmission > 0.0;
     s.ior = there ? m.ior : 0.0;
@@ -344,26 +307,20 @@ void addTransmission(const Material m, const float alpha, inout Surface s) {
     s.dispersion = there ? m.dispersion : 0.0;
 }
 
-// Fields that unlit materials have too; the lightmap and the layers have no effect yet.
+// Fields that unlit materials have too.
 Surface surfaceAt(const vec3 towards) {
-    Surface s;
-    s.position = positionFromDepth(shadedPixel(), fragmentDepth());
+    Surface s = bareSurface(positionFromDepth(shadedPixel(), fragmentDepth()));
     s.geometric_normal = needsGeometricNormal() ? triangleNormal(towards) : vec3(0.0);
     s.triangle_normal = s.geometric_normal;
     s.normal = shadingNormal(towards);
     s.material_id = constants.material;
     s.texcoord = shaded_texcoord;
-    s.tangent = s.tangent_normal = vec3(0.0);
-    s.handedness = 0.0;
     if (on(feature_captured) && on(feature_normal_texture)) {
         s.tangent = directionOf(shaded_tangent.xyz);
         s.handedness = shaded_tangent.w < 0.0 ? -1.0 : 1.0;  // undoes the rounding of interpolation
         s.tangent_normal = directionOf(mappedNormal());
     }
-    s.lightmap = vec3(0.0);
     s.lightmapped = on(feature_lightmap_texture);
-    s.object_irradiance = vec3(0.0);
-    removeLayers(s);
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0)
         s.object_irradiance +=
             on(feature_double_sided) && !gl_FrontFacing ? shaded_irradiance_behind : shaded_irradiance;
@@ -376,7 +333,6 @@ void makeUnlit(const vec3 base_color, inout Surface s) {
     s.albedo = vec3(0.0);
     s.metallic = 0.0;
     s.roughness = 1.0;
-    s.occlusion = 1.0;
     s.emission = base_color;
     s.dielectric_f0 = vec3(0.0);
     s.dielectric_f90 = 0.0;
@@ -392,33 +348,25 @@ void addBase(const Material m, const vec3 base_color, inout Surface s) {
         s.metallic *= texel.b;
     }
     if (on(feature_specular_glossiness) && on(feature_specular_color_texture))
-        s.roughness = 1.0 - (1.0 - s.roughness) * specularColorTexel().a;
+        s.roughness = 1.0 - (1.0 - s.roughness) * TEXEL(specular_color).a;
     if (on(feature_specular_aa)) s.roughness = filteredRoughness(s.roughness);
-    s.occlusion = 1.0;
     if (on(feature_occlusion_texture)) {
-        float texel = occlusionTexel().r;
+        float texel = TEXEL_OR(occlusion, metallic_roughness).r;
         s.occlusion = 1.0 + m.occlusion_strength * (texel - 1.0);
     }
-    s.emission = vec3(0.0);
     if (on(feature_emission)) {
         s.emission = m.emission;
-        if (on(feature_emissive_texture)) s.emission *= emissiveTexel().rgb;
+        if (on(feature_emissive_texture)) s.emission *= TEXEL_OR(emissive, base_color).rgb;
     }
-    if (on(feature_lightmap_texture)) {
-        vec4 texel = slotTexel(lightmap_texture, SLOT_lightmap, feature_lightmap_texture);
-        s.lightmap = m.lightmap_intensity * texel.rgb;
-    }
+    if (on(feature_lightmap_texture)) s.lightmap = m.lightmap_intensity * TEXEL(lightmap).rgb;
 }
 
 void addSpecular(const Material m, inout Surface s) {
-    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
-    s.dielectric_f90 = 1.0;
     if (on(feature_dielectric_specular)) {
         s.dielectric_f0 = m.dielectric_f0;
         s.dielectric_f90 = m.specular;
-        if (on(feature_specular_color_texture)) s.dielectric_f0 *= specularColorTexel().rgb;
-        if (on(feature_specular_texture))
-            s.dielectric_f90 *= slotTexel(specular_texture, SLOT_specular, feature_specular_texture).a;
+        if (on(feature_specular_color_texture)) s.dielectric_f0 *= TEXEL(specular_color).rgb;
+        if (on(feature_specular_texture)) s.dielectric_f90 *= TEXEL(specular).a;
         s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0)) * s.dielectric_f90;
     }
     if (on(feature_specular_glossiness)) s.albedo *= 1.0 - largestOf(s.dielectric_f0);

@@ -20,18 +20,10 @@ struct Surface {
     bool lightmapped;       // whether the material has a lightmap, which may be black here
     vec3 dielectric_f0;     // KHR_materials_ior, _specular
     float dielectric_f90;
-    float clearcoat;        // KHR_materials_clearcoat: weight of the layer; 0: none, and so are its values
-    float clearcoat_roughness;  // perceptual
-    vec3 clearcoat_normal;      // unit, shading
-    float anisotropy;       // KHR_materials_anisotropy: strength; 0: isotropic, without a direction
-    vec2 anisotropy_turn;   // where highlights stretch: cosine and sine about `normal`, from axesAcross()
-    vec3 sheen_color;       // KHR_materials_sheen, linear Rec.709; 0: none, and so is its roughness
-    float sheen_roughness;  // perceptual
-    float iridescence;      // KHR_materials_iridescence: weight of the film; 0: none, and so are its values
-    float iridescence_ior;
-    float iridescence_thickness;  // nm
-    float diffuse_transmission;  // KHR_materials_diffuse_transmission: weight; 0: none, and so is its colour
-    vec3 diffuse_transmission_color;  // linear Rec.709
+    // Layers: shared/contract/gbuffer.h.
+#define MEMBER(type, name) type name;
+#define MEMBERS(layer, packed, values) values(MEMBER)
+    STORED_LAYERS(MEMBERS)
     float transmission;     // KHR_materials_transmission: weight; 0: none, and so are its values. Only draws
                             // after opaque surfaces.
     float ior;              // 0: infinite
@@ -58,16 +50,27 @@ bool needsGeometricNormal() {
 
 bool hasLayer(const uint layer) { return (feature_layers & layer) != 0u; }
 
-void removeLayers(inout Surface s) {
-    s.clearcoat = s.clearcoat_roughness = s.anisotropy = 0.0;
-    s.clearcoat_normal = vec3(0.0);
-    s.anisotropy_turn = vec2(0.0);
-    s.sheen_color = vec3(0.0);
-    s.sheen_roughness = s.iridescence = s.iridescence_ior = s.iridescence_thickness = 0.0;
+// A surface without layers, emission and lightmap. Of the base, normals, albedo, metallic and roughness are
+// undefined.
+Surface bareSurface(const vec3 position) {
+    Surface s;
+    s.position = position;
+    s.occlusion = 1.0;
+    s.emission = s.lightmap = vec3(0.0);
+    s.lightmapped = false;
+    s.dielectric_f0 = vec3(DEFAULT_DIELECTRIC_F0);
+    s.dielectric_f90 = 1.0;
+#define REMOVE(type, name) s.name = type(0.0);
+#define REMOVE_LAYER(layer, packed, values) values(REMOVE)
+    STORED_LAYERS(REMOVE_LAYER)
     s.transmission = s.ior = s.thickness = s.attenuation_distance = s.dispersion = 0.0;
-    s.attenuation_color = s.diffuse_transmission_color = vec3(0.0);
-    s.diffuse_transmission = 0.0;
+    s.attenuation_color = vec3(0.0);
     s.coverage = 1.0;
+    s.material_id = 0u;
+    s.texcoord = vec2(0.0);
+    s.tangent = s.tangent_normal = s.object_irradiance = vec3(0.0);
+    s.handedness = 0.0;
+    return s;
 }
 
 // Two unit vectors perpendicular to the unit vector `n`, right-handed with it (Duff et al. 2017, "Building

@@ -15,7 +15,7 @@ layout(set = SET_MATERIAL, binding = 0, scalar) uniform UniformLights { Light ke
 layout(set = SET_MATERIAL, binding = 1, scalar) readonly buffer StorageLights { Light kernel_lights[]; };
 #endif
 #if defined(LIGHTS_UNIFORM) || defined(LIGHTS_STORAGE)
-Light kernelLightAt(uint i) { return kernel_lights[i]; }
+Light kernelLightAt(const uint i) { return kernel_lights[i]; }
 #define lightAt kernelLightAt
 #endif
 

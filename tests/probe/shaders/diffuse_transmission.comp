@@ -12,8 +12,7 @@ const uint WIDTH = 15;
 
 void main() {
     if (PROBE_ROW >= probe_rows) return;
-    Surface s;
-    removeLayers(s);
+    Surface s = bareSurface(vec3(0.0));
     vec3 v = IN3(WIDTH, 0), l = IN3(WIDTH, 3);
     s.normal = IN3(WIDTH, 6);
     s.diffuse_transmission = IN(WIDTH, 9);

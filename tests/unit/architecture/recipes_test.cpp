@@ -32,10 +32,10 @@ struct Example {
     std::vector<std::string> words;
 };
 const std::vector<Example> examples = {
-    {"a channel", {"X(6,  occlusion", "Channel::occlusion", "VALUE_occlusion"}},
-    {"a channel that bounds another", {"X(4,  roughness", "Channel::roughness", "VALUE_roughness"}},
-    {"a channel of light", {"X(47, lit_sheen", "Channel::lit_sheen", "VALUE_lit_sheen"}},
-    {"a term of `lit`", {"X(42, lit_ambient", "Channel::lit_ambient", "VALUE_lit_ambient"}},
+    {"a channel", {"X(6,  occlusion", "Channel::occlusion"}},
+    {"a channel that bounds another", {"X(4,  roughness", "Channel::roughness"}},
+    {"a channel of light", {"X(47, lit_sheen", "Channel::lit_sheen"}},
+    {"a term of `lit`", {"X(42, lit_ambient", "Channel::lit_ambient"}},
     {"an input from vertex to fragment shader", {"v_color", "vertex_color", "FEATURE_vertex_color"}},
     {"a kind of area light",
      {"X(2, tube", "LightKind::tube", "\"tube\"", "light.length", "tubeLobes", "tubePoint", "tubeFactor"}},
@@ -201,7 +201,7 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     EXPECT_EQ(planted("compare/planted.cpp", "// Channel::occlusion\n/* mae */ int Channel::occlusion2;"),
               Faults{})
         << "a comment, and a longer word";
-    EXPECT_EQ(planted("shaders/lib/surface/debug.glsl", "// VALUE_occlusion").size(), 4u)
+    EXPECT_EQ(planted("compare/reference/channels.cpp", "// Channel::occlusion").size(), 4u)
         << "and the other examples of channels";
 
     const auto edited = [&](const std::string& from, const std::string& to) {
@@ -217,12 +217,11 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
     EXPECT_EQ(recipeFaults("no table", named).size(), examples.size());
 }
 
-// The design promises three: a row of the table, a line of the shader, a line of the reference.
-TEST(Recipes, AChannelTakesThreeFiles) {
+// Rows of the tables, a line of the reference.
+TEST(Recipes, AChannelTakesTwoFiles) {
     for (const char* channel : {"a channel", "a channel of light"})
         EXPECT_EQ(recipesOf(tablePage()).at(channel).names,
-                  (std::set<std::string>{"shared/contract/debug_mode.h", "shaders/lib/surface/debug.glsl",
-                                         "compare/reference/channels.cpp"}));
+                  (std::set<std::string>{"shared/contract/debug_mode.h", "compare/reference/channels.cpp"}));
 }
 
 }  // namespace

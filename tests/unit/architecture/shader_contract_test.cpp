@@ -6,9 +6,6 @@
 #include "shared/contract/light.h"
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
-#include "shared/contract/samples.h"
-#include "shared/contract/surface_channels.h"
-#include "shared/contract/transparency.h"
 #include "shared/draw/packed_view.h"
 #include "shared/vulkan/shader_interface.h"
 #include "shared/vulkan/spirv.h"
@@ -231,12 +228,7 @@ std::vector<Declared> bindingTables() {
     }
     {
         const auto table = add(gpu::SET_GBUFFER, false);
-        GBUFFER_BINDINGS(ROW)
-        table("DEPTH", gpu::BINDING_DEPTH, Kind::fetched_image);
-        TRANSPARENCY_BINDINGS(ROW)
-        SAMPLE_BINDINGS(ROW)
-        CHANNEL_BINDINGS(ROW)
-        BACKDROP_BINDINGS(ROW)
+        GBUFFER_SET_BINDINGS(ROW)
     }
     {
         const auto table = add(gpu::SET_LISTS, true);

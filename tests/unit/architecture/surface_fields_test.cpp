@@ -2,6 +2,7 @@
 // A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
 // needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
 #include "compare/verdict/encoding_bits.h"
+#include "shared/contract/gbuffer.h"
 #include "shared/frame/debug_modes.h"
 #include "tests/support/sources.h"
 
@@ -23,6 +24,11 @@ std::set<std::string> fieldsOf(const std::string& source) {
     const std::string body = source.substr(begin, end - begin);
     for (std::sregex_iterator i(body.begin(), body.end(), declared), none; i != none; ++i)
         fields.insert((*i)[1]);
+#define FIELD(type, name) fields.insert(#name);
+#define FIELDS(layer, packed, values) values(FIELD)
+    STORED_LAYERS(FIELDS)
+#undef FIELDS
+#undef FIELD
     return fields;
 }
 
