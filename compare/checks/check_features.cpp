@@ -20,27 +20,6 @@
 namespace diptych {
 namespace {
 
-constexpr const char* slotNames[gpu::SLOT_COUNT] = {"base colour",
-                                                    "metallic-roughness",
-                                                    "normal",
-                                                    "occlusion",
-                                                    "emission",
-                                                    "specular",
-                                                    "specular colour",
-                                                    "lightmap",
-                                                    "clear coat",
-                                                    "clear coat roughness",
-                                                    "clear coat normal",
-                                                    "anisotropy",
-                                                    "sheen colour",
-                                                    "sheen roughness",
-                                                    "iridescence",
-                                                    "film thickness",
-                                                    "transmission",
-                                                    "thickness",
-                                                    "diffuse transmission",
-                                                    "colour of diffuse transmission"};
-
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
 }
@@ -71,9 +50,9 @@ std::string bySlot(const Material& material, const TextOf& textOf) {
         if (text.empty()) return;
         const auto same = std::ranges::find(groups, text, &std::pair<std::string, std::string>::first);
         if (same == groups.end())
-            groups.emplace_back(text, slotNames[s]);
+            groups.emplace_back(text, materialSlots[s].words);
         else
-            same->second += fmt::format(" and {}", slotNames[s]);
+            same->second += fmt::format(" and {}", materialSlots[s].words);
     });
     std::string out;
     for (const auto& [text, slots] : groups)

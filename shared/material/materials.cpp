@@ -24,7 +24,7 @@ namespace diptych {
 
 namespace {
 
-#define DIPTYCH_SLOT_ROW(number, name) BindingRow{number, #name, binding_kind::image},
+#define DIPTYCH_SLOT_ROW(number, name, ...) BindingRow{number, #name, binding_kind::image},
 constexpr auto setTypes = bindingTypes({MATERIAL_SLOTS(DIPTYCH_SLOT_ROW) BindingRow{
     gpu::BINDING_MATERIAL, "MATERIAL", binding_kind::uniform_buffer}});
 #undef DIPTYCH_SLOT_ROW
@@ -57,35 +57,12 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
 
 gpu::Material gpuMaterial(const Material& m) {
     gpu::Material g{};
-    g.base_color = m.base_color;
+#define DIPTYCH_COPY(type, name, ...) g.name = m.name;
+    MATERIAL_FACTORS(DIPTYCH_COPY)
+#undef DIPTYCH_COPY
     g.emission = m.emissive;
-    g.metallic = m.metallic;
     const float r = (1 - m.ior) / (1 + m.ior);  // KHR_materials_ior
     g.dielectric_f0 = r * r * m.specular_color;
-    g.roughness = m.roughness;
-    g.specular = m.specular;
-    g.normal_scale = m.normal_scale;
-    g.occlusion_strength = m.occlusion_strength;
-    g.alpha_cutoff = m.alpha_cutoff;
-    g.lightmap_intensity = m.lightmap_intensity;
-    g.ior = m.ior;
-    g.transmission = m.transmission;
-    g.thickness = m.thickness;
-    g.attenuation_color = m.attenuation_color;
-    g.attenuation_distance = m.attenuation_distance;
-    g.dispersion = m.dispersion;
-    g.diffuse_transmission = m.diffuse_transmission;
-    g.diffuse_transmission_color = m.diffuse_transmission_color;
-    g.clearcoat = m.clearcoat;
-    g.clearcoat_roughness = m.clearcoat_roughness;
-    g.clearcoat_normal_scale = m.clearcoat_normal_scale;
-    g.sheen_color = m.sheen_color;
-    g.sheen_roughness = m.sheen_roughness;
-    g.iridescence = m.iridescence;
-    g.iridescence_ior = m.iridescence_ior;
-    g.iridescence_thickness_least = m.iridescence_thickness_least;
-    g.iridescence_thickness_most = m.iridescence_thickness_most;
-    g.anisotropy = m.anisotropy;
     g.anisotropy_rotation = {std::cos(m.anisotropy_rotation), std::sin(m.anisotropy_rotation)};
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
         const TextureSlot& texture = m.*materialSlots[slot].texture;

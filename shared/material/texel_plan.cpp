@@ -9,33 +9,6 @@ namespace diptych {
 
 namespace {
 
-// Bit c: component c.
-constexpr std::array<unsigned, gpu::SLOT_COUNT> componentsRead = [] {
-    constexpr unsigned red = 1, green = 2, blue = 4, alpha = 8, color = red | green | blue;
-    std::array<unsigned, gpu::SLOT_COUNT> read{};
-    read[gpu::SLOT_base_color] = color | alpha;
-    read[gpu::SLOT_metallic_roughness] = green | blue;
-    read[gpu::SLOT_normal] = color;
-    read[gpu::SLOT_occlusion] = red;
-    read[gpu::SLOT_emissive] = color;
-    read[gpu::SLOT_specular] = alpha;
-    read[gpu::SLOT_specular_color] = color;
-    read[gpu::SLOT_lightmap] = color;
-    read[gpu::SLOT_clearcoat] = red;
-    read[gpu::SLOT_clearcoat_roughness] = green;
-    read[gpu::SLOT_clearcoat_normal] = color;
-    read[gpu::SLOT_anisotropy] = color;
-    read[gpu::SLOT_sheen_color] = color;
-    read[gpu::SLOT_sheen_roughness] = alpha;
-    read[gpu::SLOT_iridescence] = red;
-    read[gpu::SLOT_iridescence_thickness] = green;
-    read[gpu::SLOT_transmission] = red;
-    read[gpu::SLOT_thickness] = green;
-    read[gpu::SLOT_diffuse_transmission] = alpha;
-    read[gpu::SLOT_diffuse_transmission_color] = color;
-    return read;
-}();
-
 const TextureSlot& textureOf(const Material& material, gpu::uint slot) {
     return material.*materialSlots[slot].texture;
 }
@@ -56,7 +29,7 @@ int halvings(const TextureImage& large, const TextureImage& small) {
 bool hasOneColor(const TextureImage& image, std::size_t slot) {
     if (image.rgba.empty()) return false;
     for (std::size_t c = 0; c < 4; ++c) {
-        if ((componentsRead[slot] >> c & 1u) == 0) continue;
+        if ((materialSlots[slot].components >> c & 1u) == 0) continue;
         for (std::size_t i = c; i < image.rgba.size(); i += 4)
             if (image.rgba[i] != image.rgba[c]) return false;
     }

@@ -35,6 +35,7 @@ struct PartFacts {
 };
 
 constexpr PartFacts factsOf(AnimatedPart part) {
+    using glm::vec3, glm::vec4;
     constexpr double any = std::numeric_limits<float>::max();
     // rad or m: the least extent of a camera or light that float32 can divide by
     constexpr double thin = 1e-6;
@@ -69,46 +70,19 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, thin, glm::pi<double>() - thin};
         case AnimatedPart::camera_near:  // an orthographic camera may have 0
             return {1, 0, any};
-        case AnimatedPart::base_color:
-            return {4, 0, 1};
-        case AnimatedPart::specular_f0:
-        case AnimatedPart::sheen_color:
-        case AnimatedPart::attenuation_color:
-        case AnimatedPart::diffuse_transmission_color:
-            return {3, 0, 1};
+#define DIPTYCH_FACTS(type, name, initially, least, most) \
+    case AnimatedPart::name:                              \
+        return {sizeof(type) / sizeof(float), least, most};
+            MATERIAL_FACTORS(DIPTYCH_FACTS)
+#undef DIPTYCH_FACTS
         case AnimatedPart::emissive:
             return {3, 0, any};
         case AnimatedPart::specular_color:
             return {3, 0, maxFactor};
-        case AnimatedPart::metallic:
-        case AnimatedPart::roughness:
-        case AnimatedPart::occlusion_strength:
-        case AnimatedPart::specular:
-        case AnimatedPart::transmission:
+        case AnimatedPart::specular_f0:
+            return {3, 0, 1};
         case AnimatedPart::glossiness:
-        case AnimatedPart::clearcoat:
-        case AnimatedPart::clearcoat_roughness:
-        case AnimatedPart::anisotropy:
-        case AnimatedPart::sheen_roughness:
-        case AnimatedPart::iridescence:
-        case AnimatedPart::diffuse_transmission:
             return {1, 0, 1};
-        case AnimatedPart::iridescence_ior:
-            return {1, 1, maxFactor};
-        case AnimatedPart::iridescence_thickness_least:
-        case AnimatedPart::iridescence_thickness_most:
-            return {1, 0, maxFilmThickness};
-        case AnimatedPart::normal_scale:
-        case AnimatedPart::clearcoat_normal_scale:
-            return {1, -maxFactor, maxFactor};
-        case AnimatedPart::alpha_cutoff:
-        case AnimatedPart::thickness:
-        case AnimatedPart::dispersion:
-            return {1, 0, maxFactor};
-        case AnimatedPart::attenuation_distance:
-            return {1, minAttenuationDistance, maxFactor};
-        case AnimatedPart::ior:  // valid: 0, or at least 1
-            return {1, 0, maxFactor};
         case AnimatedPart::texture_offset:
         case AnimatedPart::texture_scale:
             return {2, -maxFactor, maxFactor};

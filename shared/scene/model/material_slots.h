@@ -12,33 +12,24 @@
 
 namespace diptych {
 
+// Words of MATERIAL_SLOTS for a texel: bit c of a sum is component c.
+namespace texel {
+inline constexpr bool linear = false, srgb = true;
+inline constexpr unsigned r = 1, g = 2, b = 4, a = 8, rg = r | g, gb = g | b, rgb = rg | b, rgba = rgb | a;
+}  // namespace texel
+
 struct MaterialSlot {
     TextureSlot Material::*texture;
-    bool srgb;  // colour components are sRGB-encoded; alpha is always linear
+    bool srgb;            // colour components are sRGB-encoded; alpha is always linear
+    unsigned components;  // that have an effect
+    std::uint32_t layer;  // LAYER_* without which none has
+    const char* words;    // its name in messages
 };
 
-constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
-    {&Material::base_color_texture, true},
-    {&Material::metallic_roughness_texture, false},
-    {&Material::normal_texture, false},
-    {&Material::occlusion_texture, false},
-    {&Material::emissive_texture, true},
-    {&Material::specular_texture, false},
-    {&Material::specular_color_texture, true},
-    {&Material::lightmap_texture, true},
-    {&Material::clearcoat_texture, false},
-    {&Material::clearcoat_roughness_texture, false},
-    {&Material::clearcoat_normal_texture, false},
-    {&Material::anisotropy_texture, false},
-    {&Material::sheen_color_texture, true},
-    {&Material::sheen_roughness_texture, true},  // alpha, often of the colour's image
-    {&Material::iridescence_texture, false},
-    {&Material::iridescence_thickness_texture, false},
-    {&Material::transmission_texture, false},
-    {&Material::thickness_texture, false},
-    {&Material::diffuse_transmission_texture, true},  // alpha, often of the colour's image
-    {&Material::diffuse_transmission_color_texture, true},
-}};
+#define DIPTYCH_SLOT(number, name, colors, reads, layer, factor, words) \
+    MaterialSlot{&Material::name##_texture, texel::colors, texel::reads, gpu::LAYER_##layer, words},
+constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIAL_SLOTS(DIPTYCH_SLOT)};
+#undef DIPTYCH_SLOT
 
 // Whether what KHR_materials_volume absorbs colours diffuse transmission.
 inline bool diffusesThroughVolume(const Material& m) {
@@ -51,6 +42,8 @@ inline bool diffusesThroughVolume(const Material& m) {
 inline bool readsSlot(const Material& material, std::size_t slot) {
     if ((material.*materialSlots[slot].texture).texture < 0) return false;
     if (material.unlit) return slot == gpu::SLOT_base_color;
+    const std::uint32_t layer = materialSlots[slot].layer;
+    if (layer != gpu::LAYER_BASE && (layersOf(material) & layer) == 0) return false;
     switch (slot) {
         case gpu::SLOT_normal:
             return material.normal_scale != 0;
@@ -60,26 +53,10 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
             return material.emissive != glm::vec3(0);
         case gpu::SLOT_lightmap:
             return material.lightmap_intensity != 0;
-        case gpu::SLOT_clearcoat:
-        case gpu::SLOT_clearcoat_roughness:
-            return material.clearcoat != 0;
         case gpu::SLOT_clearcoat_normal:
-            return material.clearcoat != 0 && material.clearcoat_normal_scale != 0;
-        case gpu::SLOT_anisotropy:
-            return material.anisotropy != 0;
-        case gpu::SLOT_sheen_color:
-        case gpu::SLOT_sheen_roughness:
-            return material.sheen_color != glm::vec3(0);
-        case gpu::SLOT_iridescence:
-        case gpu::SLOT_iridescence_thickness:
-            return material.iridescence != 0;
-        case gpu::SLOT_transmission:
-            return material.transmission != 0;
+            return material.clearcoat_normal_scale != 0;
         case gpu::SLOT_thickness:
             return (material.transmission != 0 && material.thickness != 0) || diffusesThroughVolume(material);
-        case gpu::SLOT_diffuse_transmission:
-        case gpu::SLOT_diffuse_transmission_color:
-            return material.diffuse_transmission != 0;
         default:
             return true;
     }
