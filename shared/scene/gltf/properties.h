@@ -179,7 +179,8 @@ constexpr Property coatNormalInfo[] = {required(index("index", "textures")), who
                                        animated("scale", Part::clearcoat_normal_scale),
                                        extensions(infoExtensions)};
 
-// Materials are read in the order of these tables (material.cpp).
+// Materials are read in the order of these tables (material.cpp). The first factor of an extension that a
+// material may lack is its weight.
 constexpr Property metallicRoughness[] = {
     animated("baseColorFactor", Part::base_color), animated("metallicFactor", Part::metallic),
     animated("roughnessFactor", Part::roughness), map("baseColorTexture", gpu::SLOT_base_color),
@@ -223,11 +224,11 @@ constexpr Property diffuseTransmission[] = {
     animated("diffuseTransmissionColorFactor", Part::diffuse_transmission_color),
     map("diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission),
     map("diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color)};
-constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrength),
-                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
-                                           object("KHR_materials_unlit", {}),
-                                           object("KHR_materials_ior", ior),
+constexpr Property materialExtensions[] = {object("KHR_materials_ior", ior),
                                            object("KHR_materials_specular", specular),
+                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
+                                           object("KHR_materials_emissive_strength", emissiveStrength),
+                                           object("KHR_materials_unlit", {}),
                                            object("KHR_materials_transmission", transmission),
                                            object("KHR_materials_clearcoat", clearcoat),
                                            object("KHR_materials_anisotropy", anisotropy),

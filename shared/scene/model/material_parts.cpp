@@ -19,6 +19,14 @@ void set(glm::vec<N, float>& member, std::span<const double> v) {
     for (int c = 0; c < N; ++c) member[c] = static_cast<float>(v[static_cast<std::size_t>(c)]);
 }
 
+std::vector<double> valuesOf(float member) {
+    return {double{member}};
+}
+template <int N>
+std::vector<double> valuesOf(const glm::vec<N, float>& member) {
+    return {&member.x, &member.x + N};
+}
+
 }  // namespace
 
 void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t slot,
@@ -70,6 +78,27 @@ void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t s
             break;
     }
     if (part == AnimatedPart::ior && m.ior != 0) m.ior = std::max(m.ior, 1.0f);
+}
+
+std::vector<double> partOf(const Material& m, AnimatedPart part) {
+    switch (part) {
+#define DIPTYCH_GET(type, name, ...) \
+    case AnimatedPart::name:         \
+        return valuesOf(m.name);
+        MATERIAL_FACTORS(DIPTYCH_GET)
+#undef DIPTYCH_GET
+        case AnimatedPart::emissive:
+            return valuesOf(m.emissive);
+        case AnimatedPart::specular_color:
+        case AnimatedPart::specular_f0:
+            return valuesOf(m.specular_color);
+        case AnimatedPart::anisotropy_rotation:
+            return valuesOf(m.anisotropy_rotation);
+        case AnimatedPart::glossiness:
+            return {1 - double{m.roughness}};
+        default:
+            return {1};
+    }
 }
 
 }  // namespace diptych
