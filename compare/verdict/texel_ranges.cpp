@@ -52,20 +52,12 @@ double sizeOf(float factor) {
 double sizeOf(const auto& color) {
     return largestComponent(color);
 }
-Factors bumps(float scale) {
-    const double size = std::max(1.0, std::abs(double{scale}));
-    return {size, size, size, 0};
-}
 
 // The material's factor of each component of a slot's texels.
 Factors factorsOf(const Material& m, std::size_t slot) {
     switch (slot) {
         case gpu::SLOT_metallic_roughness:
             return {0, m.roughness, m.metallic, 0};
-        case gpu::SLOT_normal:
-            return bumps(m.normal_scale);
-        case gpu::SLOT_clearcoat_normal:
-            return bumps(m.clearcoat_normal_scale);
         case gpu::SLOT_anisotropy:
             return {1, 1, m.anisotropy, 0};
         case gpu::SLOT_iridescence_thickness:
@@ -76,9 +68,11 @@ Factors factorsOf(const Material& m, std::size_t slot) {
 #define DIPTYCH_SIZE(number, name, colors, reads, layer, factor, words) sizeOf(m.factor),
     const std::array<double, gpu::SLOT_COUNT> sizes{MATERIAL_SLOTS(DIPTYCH_SIZE)};
 #undef DIPTYCH_SIZE
+    const bool bumps = slot == gpu::SLOT_normal || slot == gpu::SLOT_clearcoat_normal;
     Factors factors{};
     for (std::size_t c = 0; c < 4; ++c)
-        if ((materialSlots[slot].components >> c & 1u) != 0) factors.at(c) = sizes.at(slot);
+        if ((materialSlots[slot].components >> c & 1u) != 0)
+            factors.at(c) = bumps ? std::max(1.0, std::abs(sizes.at(slot))) : sizes.at(slot);
     return factors;
 }
 

@@ -20,15 +20,17 @@ inline constexpr unsigned r = 1, g = 2, b = 4, a = 8, rg = r | g, gb = g | b, rg
 
 struct MaterialSlot {
     TextureSlot Material::*texture;
-    bool srgb;            // colour components are sRGB-encoded; alpha is always linear
-    unsigned components;  // that have an effect
-    std::uint32_t layer;  // LAYER_* without which none has
-    const char* words;    // its name in messages
+    bool srgb;                           // colour components are sRGB-encoded; alpha is always linear
+    unsigned components;                 // that have an effect
+    std::uint32_t layer;                 // LAYER_* without which none has
+    bool (*hasFactor)(const Material&);  // whether it is not 0
+    const char* words;                   // its name in messages
 };
 
-#define DIPTYCH_SLOT(number, name, colors, reads, layer, factor, words) \
-    MaterialSlot{&Material::name##_texture, texel::colors, texel::reads, gpu::LAYER_##layer, words},
-constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIAL_SLOTS(DIPTYCH_SLOT)};
+#define DIPTYCH_SLOT(number, name, colors, reads, layer, factor, words)                         \
+    MaterialSlot{&Material::name##_texture,    texel::colors, texel::reads, gpu::LAYER_##layer, \
+                 hasFactor<&Material::factor>, words},
+inline constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIAL_SLOTS(DIPTYCH_SLOT)};
 #undef DIPTYCH_SLOT
 
 // Whether what KHR_materials_volume absorbs colours diffuse transmission.
@@ -46,15 +48,11 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
     if (layer != gpu::LAYER_BASE && (layersOf(material) & layer) == 0) return false;
     switch (slot) {
         case gpu::SLOT_normal:
-            return material.normal_scale != 0;
         case gpu::SLOT_occlusion:
-            return material.occlusion_strength != 0;
         case gpu::SLOT_emissive:
-            return material.emissive != glm::vec3(0);
         case gpu::SLOT_lightmap:
-            return material.lightmap_intensity != 0;
         case gpu::SLOT_clearcoat_normal:
-            return material.clearcoat_normal_scale != 0;
+            return materialSlots[slot].hasFactor(material);
         case gpu::SLOT_thickness:
             return (material.transmission != 0 && material.thickness != 0) || diffusesThroughVolume(material);
         default:

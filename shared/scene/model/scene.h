@@ -20,6 +20,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace diptych {
@@ -111,11 +112,17 @@ inline bool blends(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || transmits(m);
 }
 
+// Whether a factor is not 0.
+template <auto factor>
+bool hasFactor(const Material& m) {
+    return m.*factor != std::remove_cvref_t<decltype(m.*factor)>(0);
+}
+
 // A sum of LAYER_* of contract/material.h.
 inline std::uint32_t layersOf(const Material& m) {
     std::uint32_t layers = gpu::LAYER_BASE;
 #define DIPTYCH_LAYER(name, bit, factor) \
-    if (!m.unlit && m.factor != decltype(m.factor)(0)) layers |= gpu::LAYER_##name;
+    if (!m.unlit && hasFactor<&Material::factor>(m)) layers |= gpu::LAYER_##name;
     MATERIAL_LAYERS(DIPTYCH_LAYER)
 #undef DIPTYCH_LAYER
     return layers;

@@ -36,6 +36,7 @@ const std::vector<Example> examples = {
     {"a channel that bounds another", {"X(4,  roughness", "Channel::roughness", "VALUE_roughness"}},
     {"a channel of light", {"X(47, lit_sheen", "Channel::lit_sheen", "VALUE_lit_sheen"}},
     {"a term of `lit`", {"X(42, lit_ambient", "Channel::lit_ambient", "VALUE_lit_ambient"}},
+    {"a factor of a layer", {"clearcoat_normal_scale"}},
     {"an input from vertex to fragment shader", {"v_color", "vertex_color", "FEATURE_vertex_color"}},
     {"a light kind",
      {"LightKind::tube", "rect, disc, tube", "disc = 0, tube", "lights.tube", "result.tube", "\"tube\"",
