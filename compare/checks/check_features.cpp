@@ -23,15 +23,6 @@ namespace {
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
 }
-const TextureSlot& slotOf(const Material& material, std::size_t slot) {
-    return material.*materialSlots[slot].texture;
-}
-const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
-    return scene.textures[static_cast<std::size_t>(slot.texture)];
-}
-const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
-    return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
-}
 
 // Calls use(slot index, slot) for each slot that the material reads.
 template <class Use>

@@ -297,9 +297,9 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
         for (std::size_t s = 0; s < materialSlots.size() && !pixels[id].empty(); ++s) {
             const Material& material = scene.materials[id];
             if (!readsSlot(material, s)) continue;
-            const TextureSlot& slot = material.*materialSlots[s].texture;
-            const Texture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
-            const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
+            const TextureSlot& slot = slotOf(material, s);
+            const Texture& texture = textureOf(scene, slot);
+            const TextureImage& image = imageOf(scene, slot);
             const Levels levels(image, materialSlots[s].srgb, texture.sampler);
             const std::vector<Use> uses = usesOf(material, s);
             for (const Use& use : uses) ranges.try_emplace(use.mode, ids->width, ids->height, 1);

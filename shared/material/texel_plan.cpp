@@ -9,10 +9,6 @@ namespace diptych {
 
 namespace {
 
-const TextureSlot& textureOf(const Material& material, gpu::uint slot) {
-    return material.*materialSlots[slot].texture;
-}
-
 bool sameCoordinates(const TextureSlot& a, const TextureSlot& b) {
     return a.texcoord == b.texcoord && a.u == b.u && a.v == b.v;
 }
@@ -40,11 +36,11 @@ SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
     SlotTexels texels{};
     for (gpu::uint slot = 0; slot < gpu::SLOT_COUNT; ++slot)
         if (readsSlot(material, slot))
-            texels[slot] = ask.one_color(textureOf(material, slot).texture, readLike(material, slot))
+            texels[slot] = ask.one_color(slotOf(material, slot).texture, readLike(material, slot))
                                ? gpu::TEXEL_CONSTANT
                                : gpu::TEXEL_OWN;
     const auto share = [&](gpu::uint slot, gpu::uint sampled) {
-        const TextureSlot &a = textureOf(material, slot), &b = textureOf(material, sampled);
+        const TextureSlot &a = slotOf(material, slot), &b = slotOf(material, sampled);
         if (texels[slot] == gpu::TEXEL_OWN && texels[sampled] == gpu::TEXEL_OWN && sameCoordinates(a, b) &&
             ask.same_image(a.texture, b.texture))
             texels[slot] = gpu::TEXEL_SHARED;
@@ -67,15 +63,11 @@ bool isPacked(const Material& material, const Scene& scene) {
         std::min({base.texture, normal.texture, read.texture}) < 0 || !sameCoordinates(base, read) ||
         !sameCoordinates(normal, read))
         return false;
-    const auto textureAt = [&](const TextureSlot& slot) -> const Texture& {
-        return scene.textures[static_cast<std::size_t>(slot.texture)];
-    };
-    const auto imageAt = [&](const TextureSlot& slot) -> const TextureImage& {
-        return scene.images[static_cast<std::size_t>(textureAt(slot).image)];
-    };
+    const TextureImage& small = imageOf(scene, read);
     return std::ranges::all_of(std::array{&base, &normal}, [&](const TextureSlot* slot) {
-        return textureAt(*slot).sampler == textureAt(read).sampler && !imageAt(*slot).deep() &&
-               !imageAt(read).deep() && halvings(imageAt(*slot), imageAt(read)) >= 0;
+        const TextureImage& image = imageOf(scene, *slot);
+        return textureOf(scene, *slot).sampler == textureOf(scene, read).sampler && !image.deep() &&
+               !small.deep() && halvings(image, small) >= 0;
     });
 }
 

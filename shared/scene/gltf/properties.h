@@ -7,6 +7,7 @@
 #include "shared/contract/material.h"
 #include "shared/scene/model/animated.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -170,14 +171,12 @@ constexpr Property map(std::string_view key, std::size_t slot,
     property.slot = slot;
     return property;
 }
-constexpr Property normalInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                   animated("scale", Part::normal_scale), extensions(infoExtensions)};
-constexpr Property occlusionInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                      animated("strength", Part::occlusion_strength),
-                                      extensions(infoExtensions)};
-constexpr Property coatNormalInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                       animated("scale", Part::clearcoat_normal_scale),
-                                       extensions(infoExtensions)};
+constexpr std::array<Property, 4> scaledInfo(std::string_view key, Part part) {
+    return {textureInfo[0], textureInfo[1], animated(key, part), textureInfo[2]};
+}
+constexpr auto normalInfo = scaledInfo("scale", Part::normal_scale),
+               occlusionInfo = scaledInfo("strength", Part::occlusion_strength),
+               coatNormalInfo = scaledInfo("scale", Part::clearcoat_normal_scale);
 
 // Materials are read in the order of these tables (material.cpp). The first factor of an extension that a
 // material may lack is its weight.

@@ -113,24 +113,38 @@ inline void setTransform(TextureSlot& slot, const TextureTransform& t) {
     slot.v = {-s * t.scale.x, c * t.scale.y, t.offset.y};
 }
 
-// Materials that any animation of the scene changes, whether it plays or not.
-inline std::set<int> materialsThatMove(const Scene& scene) {
-    std::set<int> moving;
+// Calls `use` with each channel that changes a material, of all animations, whether they play or not.
+template <class Use>
+void forMaterialChannels(const Scene& scene, const Use& use) {
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
-            if (isMaterialPart(channel.part)) moving.insert(channel.object);
+            if (isMaterialPart(channel.part)) use(channel);
+}
+
+// Materials that any animation changes.
+inline std::set<int> materialsThatMove(const Scene& scene) {
+    std::set<int> moving;
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) { moving.insert(channel.object); });
     return moving;
 }
 
-// For each material, whether it is ever anisotropic, and so needs tangents without any map.
+// For each material, whether `is` is true of it at rest, or an animation changes `part`.
+template <class Is>
+std::vector<bool> materialsThatEver(const Scene& scene, AnimatedPart part, const Is& is) {
+    std::vector<bool> ever;
+    for (const Material& material : scene.materials) ever.push_back(is(material));
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) {
+        if (channel.part == part) ever[static_cast<std::size_t>(channel.object)] = true;
+    });
+    return ever;
+}
+// Whether it is ever anisotropic, and so needs tangents without any map.
 inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
-    std::vector<bool> anisotropic;
-    for (const Material& material : scene.materials) anisotropic.push_back(material.anisotropy > 0);
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.part == AnimatedPart::anisotropy)
-                anisotropic[static_cast<std::size_t>(channel.object)] = true;
-    return anisotropic;
+    return materialsThatEver(scene, AnimatedPart::anisotropy, hasFactor<&Material::anisotropy>);
+}
+// Whether it ever blends; an animation may make it transmit light.
+inline std::vector<bool> materialsThatBlend(const Scene& scene) {
+    return materialsThatEver(scene, AnimatedPart::transmission, blends);
 }
 
 // For each material, whether an animation rotates, scales or mirrors a map for which `counts(material,
@@ -138,13 +152,12 @@ inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
 template <class Counts>
 std::vector<bool> mapsThatTurn(const Scene& scene, const Counts& counts) {
     std::vector<bool> turns(scene.materials.size(), false);
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if ((channel.part == AnimatedPart::texture_rotation ||
-                 channel.part == AnimatedPart::texture_scale) &&
-                counts(scene.materials[static_cast<std::size_t>(channel.object)],
-                       static_cast<std::size_t>(channel.element)))
-                turns[static_cast<std::size_t>(channel.object)] = true;
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) {
+        const auto object = static_cast<std::size_t>(channel.object);
+        if ((channel.part == AnimatedPart::texture_rotation || channel.part == AnimatedPart::texture_scale) &&
+            counts(scene.materials[object], static_cast<std::size_t>(channel.element)))
+            turns[object] = true;
+    });
     return turns;
 }
 // Its tangentMap().
@@ -158,22 +171,10 @@ inline std::vector<bool> layerMapsThatTurn(const Scene& scene) {
     });
 }
 
-// For each material, whether it ever blends; an animation may make it transmit light.
-inline std::vector<bool> materialsThatBlend(const Scene& scene) {
-    std::vector<bool> blended;
-    for (const Material& material : scene.materials) blended.push_back(blends(material));
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.part == AnimatedPart::transmission)
-                blended[static_cast<std::size_t>(channel.object)] = true;
-    return blended;
-}
-
 // readsSlot() at any time of an animation, if the material `moves`.
 inline bool mayReadSlot(const Material& material, std::size_t slot, bool moves) {
     if (!moves) return readsSlot(material, slot);
-    return (material.*materialSlots[slot].texture).texture >= 0 &&
-           (!material.unlit || slot == gpu::SLOT_base_color);
+    return slotOf(material, slot).texture >= 0 && (!material.unlit || slot == gpu::SLOT_base_color);
 }
 
 }  // namespace diptych

@@ -33,6 +33,17 @@ struct MaterialSlot {
 inline constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIAL_SLOTS(DIPTYCH_SLOT)};
 #undef DIPTYCH_SLOT
 
+inline const TextureSlot& slotOf(const Material& material, std::size_t slot) {
+    return material.*materialSlots[slot].texture;
+}
+// Of a slot that has one.
+inline const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.textures[static_cast<std::size_t>(slot.texture)];
+}
+inline const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
+}
+
 // Whether what KHR_materials_volume absorbs colours diffuse transmission.
 inline bool diffusesThroughVolume(const Material& m) {
     return !m.unlit && m.diffuse_transmission > 0 && m.thickness > 0 && m.attenuation_distance > 0 &&
@@ -42,7 +53,7 @@ inline bool diffusesThroughVolume(const Material& m) {
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
 // this is the base colour.
 inline bool readsSlot(const Material& material, std::size_t slot) {
-    if ((material.*materialSlots[slot].texture).texture < 0) return false;
+    if (slotOf(material, slot).texture < 0) return false;
     if (material.unlit) return slot == gpu::SLOT_base_color;
     const std::uint32_t layer = materialSlots[slot].layer;
     if (layer != gpu::LAYER_BASE && (layersOf(material) & layer) == 0) return false;
@@ -64,12 +75,12 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
 // as it is. Animation never changes it.
 inline std::size_t tangentSlot(const Material& material) {
     for (const std::size_t slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
-        if ((material.*materialSlots[slot].texture).texture >= 0) return slot;
+        if (slotOf(material, slot).texture >= 0) return slot;
     return gpu::SLOT_COUNT;
 }
 inline TextureSlot tangentMap(const Material& material) {
     const std::size_t slot = tangentSlot(material);
-    return slot == gpu::SLOT_COUNT ? TextureSlot{} : material.*materialSlots[slot].texture;
+    return slot == gpu::SLOT_COUNT ? TextureSlot{} : slotOf(material, slot);
 }
 
 // Whether tangents of both maps agree on every surface: the transforms differ by an offset or by positive
