@@ -20,38 +20,8 @@
 namespace diptych {
 namespace {
 
-constexpr const char* slotNames[gpu::SLOT_COUNT] = {"base colour",
-                                                    "metallic-roughness",
-                                                    "normal",
-                                                    "occlusion",
-                                                    "emission",
-                                                    "specular",
-                                                    "specular colour",
-                                                    "lightmap",
-                                                    "clear coat",
-                                                    "clear coat roughness",
-                                                    "clear coat normal",
-                                                    "anisotropy",
-                                                    "sheen colour",
-                                                    "sheen roughness",
-                                                    "iridescence",
-                                                    "film thickness",
-                                                    "transmission",
-                                                    "thickness",
-                                                    "diffuse transmission",
-                                                    "colour of diffuse transmission"};
-
 const Material& materialOf(const std::vector<Material>& materials, const Primitive& primitive) {
     return materials[static_cast<std::size_t>(primitive.material)];
-}
-const TextureSlot& slotOf(const Material& material, std::size_t slot) {
-    return material.*materialSlots[slot].texture;
-}
-const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
-    return scene.textures[static_cast<std::size_t>(slot.texture)];
-}
-const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
-    return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
 }
 
 // Calls use(slot index, slot) for each slot that the material reads.
@@ -71,9 +41,9 @@ std::string bySlot(const Material& material, const TextOf& textOf) {
         if (text.empty()) return;
         const auto same = std::ranges::find(groups, text, &std::pair<std::string, std::string>::first);
         if (same == groups.end())
-            groups.emplace_back(text, slotNames[s]);
+            groups.emplace_back(text, materialSlots[s].words);
         else
-            same->second += fmt::format(" and {}", slotNames[s]);
+            same->second += fmt::format(" and {}", materialSlots[s].words);
     });
     std::string out;
     for (const auto& [text, slots] : groups)

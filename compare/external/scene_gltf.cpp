@@ -3,6 +3,7 @@
 
 #include "compare/files/gltf_file.h"
 #include "shared/image/png.h"
+#include "shared/scene/gltf/properties.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/material_slots.h"
@@ -23,6 +24,7 @@ namespace diptych::external {
 namespace {
 
 using Json = nlohmann::ordered_json;
+namespace schema = gltf::schema;
 
 constexpr int float_component = 5126, index_component = 5125;
 
@@ -192,65 +194,30 @@ private:
 
     void addMaterial(const Scene& scene, const Material& material) {
         Json written = gltfMaterial(material);
-        const auto put = [&](Json& where, const char* key, std::size_t slot) {
-            if (!readsSlot(material, slot)) return;
-            if (std::optional<Json> reference = textureOf(scene, material.*materialSlots[slot].texture))
-                where[key] = std::move(*reference);
-        };
-        put(written, "normalTexture", gpu::SLOT_normal);
-        if (written.contains("normalTexture")) written["normalTexture"]["scale"] = material.normal_scale;
-        put(written, "occlusionTexture", gpu::SLOT_occlusion);
-        if (written.contains("occlusionTexture"))
-            written["occlusionTexture"]["strength"] = material.occlusion_strength;
-        put(written, "emissiveTexture", gpu::SLOT_emissive);
-        if (material.specular_glossiness) {
-            Json& model = written["extensions"][specularGlossiness];
-            put(model, "diffuseTexture", gpu::SLOT_base_color);
-            put(model, "specularGlossinessTexture", gpu::SLOT_specular_color);
-        } else {
-            put(written["pbrMetallicRoughness"], "baseColorTexture", gpu::SLOT_base_color);
-            put(written["pbrMetallicRoughness"], "metallicRoughnessTexture", gpu::SLOT_metallic_roughness);
-            put(written["extensions"]["KHR_materials_specular"], "specularTexture", gpu::SLOT_specular);
-            put(written["extensions"]["KHR_materials_specular"], "specularColorTexture",
-                gpu::SLOT_specular_color);
+        for (const schema::Property& p : schema::material) putTexture(written, p, scene, material);
+        // The rest in the order of slots.
+        for (std::size_t slot = 0; slot < gpu::SLOT_COUNT; ++slot) {
+            const auto put = [&](Json& objects, const schema::Property& object) {
+                for (const schema::Property& p : object.properties)
+                    if (p.slot == slot && objects.contains(object.key))
+                        putTexture(objects[std::string(object.key)], p, scene, material);
+            };
+            for (const schema::Property& object : schema::material) put(written, object);
+            for (const schema::Property& extension : schema::materialExtensions)
+                put(written["extensions"], extension);
         }
-        putLayers(written["extensions"], material, put);
         if (readsSlot(material, gpu::SLOT_lightmap)) left_out_.add("lightmap", ": glTF has no lightmaps");
         file_.json["materials"].push_back(std::move(written));
     }
 
-    // Textures of the layers that gltfMaterial() has written.
-    template <class Put>
-    static void putLayers(Json& extensions, const Material& material, const Put& put) {
-        if (extensions.contains("KHR_materials_clearcoat")) {
-            Json& coat = extensions["KHR_materials_clearcoat"];
-            put(coat, "clearcoatTexture", gpu::SLOT_clearcoat);
-            put(coat, "clearcoatRoughnessTexture", gpu::SLOT_clearcoat_roughness);
-            put(coat, "clearcoatNormalTexture", gpu::SLOT_clearcoat_normal);
-            if (coat.contains("clearcoatNormalTexture"))
-                coat["clearcoatNormalTexture"]["scale"] = material.clearcoat_normal_scale;
-        }
-        if (extensions.contains("KHR_materials_anisotropy"))
-            put(extensions["KHR_materials_anisotropy"], "anisotropyTexture", gpu::SLOT_anisotropy);
-        if (extensions.contains("KHR_materials_sheen")) {
-            Json& sheen = extensions["KHR_materials_sheen"];
-            put(sheen, "sheenColorTexture", gpu::SLOT_sheen_color);
-            put(sheen, "sheenRoughnessTexture", gpu::SLOT_sheen_roughness);
-        }
-        if (extensions.contains("KHR_materials_iridescence")) {
-            Json& film = extensions["KHR_materials_iridescence"];
-            put(film, "iridescenceTexture", gpu::SLOT_iridescence);
-            put(film, "iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness);
-        }
-        if (extensions.contains("KHR_materials_transmission"))
-            put(extensions["KHR_materials_transmission"], "transmissionTexture", gpu::SLOT_transmission);
-        if (extensions.contains("KHR_materials_volume"))
-            put(extensions["KHR_materials_volume"], "thicknessTexture", gpu::SLOT_thickness);
-        if (extensions.contains("KHR_materials_diffuse_transmission")) {
-            Json& diffuse = extensions["KHR_materials_diffuse_transmission"];
-            put(diffuse, "diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission);
-            put(diffuse, "diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color);
-        }
+    // Adds the texture of a property, if it has one and the material reads it, with its scale or strength.
+    void putTexture(Json& where, const schema::Property& p, const Scene& scene, const Material& material) {
+        if (p.slot == gpu::SLOT_COUNT || !readsSlot(material, p.slot)) return;
+        std::optional<Json> reference = textureOf(scene, material.*materialSlots[p.slot].texture);
+        if (!reference) return;
+        for (const schema::Property& own : p.properties)
+            if (own.part) (*reference)[std::string(own.key)] = gltfFactor(material, *own.part);
+        where[std::string(p.key)] = std::move(*reference);
     }
 
     // Empty if the image cannot be written.

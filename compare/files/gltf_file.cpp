@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/gltf_file.h"
+
+#include "shared/scene/gltf/properties.h"
+#include "shared/scene/model/material_parts.h"
 #include "shared/text/json_text.h"
 
 #include <glm/common.hpp>
@@ -7,11 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace diptych {
 
 using Json = nlohmann::ordered_json;
+namespace schema = gltf::schema;
 
 namespace {
 
@@ -97,45 +102,44 @@ std::string GltfFile::binary() const {
 
 namespace {
 
-// Base colour, metal or F0, and roughness, in the core model or in the extension that replaces it.
-void addReflection(const Material& material, Json& written, Json& extensions) {
-    const glm::vec4& color = material.base_color;
-    const Json base{color.r, color.g, color.b, color.a},
-        specular = listOf(glm::dvec3(material.specular_color));
-    if (material.specular_glossiness) {
-        extensions[specularGlossiness] = {{"diffuseFactor", base},
-                                          {"specularFactor", specular},
-                                          {"glossinessFactor", 1 - double{material.roughness}}};
-        return;
-    }
-    written["pbrMetallicRoughness"] = {{"baseColorFactor", base},
-                                       {"metallicFactor", material.metallic},
-                                       {"roughnessFactor", material.roughness}};
-    extensions["KHR_materials_ior"] = {{"ior", material.ior}};
-    extensions["KHR_materials_specular"] = {{"specularFactor", material.specular},
-                                            {"specularColorFactor", specular}};
+// The factors of an object of the schema. An infinite attenuation distance is the default.
+Json factorsOf(const Material& material, std::span<const schema::Property> properties) {
+    Json written = Json::object();
+    for (const schema::Property& p : properties)
+        if (p.part && (*p.part != AnimatedPart::attenuation_distance || material.attenuation_distance > 0))
+            written[std::string(p.key)] = gltfFactor(material, *p.part);
+    return written;
 }
 
-void addVolume(const Material& material, Json& extensions) {
-    if (material.thickness > 0) {
-        Json& volume = extensions["KHR_materials_volume"];
-        volume = {{"thicknessFactor", material.thickness},
-                  {"attenuationColor", listOf(glm::dvec3(material.attenuation_color))}};
-        if (material.attenuation_distance > 0) volume["attenuationDistance"] = material.attenuation_distance;
-    }
-    if (material.dispersion > 0)
-        extensions["KHR_materials_dispersion"] = {{"dispersion", material.dispersion}};
-    if (material.diffuse_transmission > 0)
-        extensions["KHR_materials_diffuse_transmission"] = {
-            {"diffuseTransmissionFactor", material.diffuse_transmission},
-            {"diffuseTransmissionColorFactor", listOf(glm::dvec3(material.diffuse_transmission_color))}};
+// Adds the extensions whose first factor is a weight, 0 by default, and not 0; in the order of the factors.
+void addWeighted(const Material& material, Json& extensions) {
+    const auto weighs = [](const Material& m, AnimatedPart part) {
+        return std::ranges::any_of(partOf(m, part), [](double value) { return value != 0; });
+    };
+    std::map<AnimatedPart, const schema::Property*> by_weight;
+    for (const schema::Property& extension : schema::materialExtensions)
+        if (!extension.properties.empty()) by_weight[*extension.properties.front().part] = &extension;
+    for (const auto& [weight, extension] : by_weight)
+        if (!weighs({}, weight) && weighs(material, weight))
+            extensions[std::string(extension->key)] = factorsOf(material, extension->properties);
 }
 
 }  // namespace
 
+Json gltfFactor(const Material& material, AnimatedPart part) {
+    const std::vector<double> values = partOf(material, part);
+    return values.size() == 1 ? Json(values[0]) : Json(values);
+}
+
 Json gltfMaterial(const Material& material) {
     Json written{{"name", material.name}}, extensions = Json::object();
-    addReflection(material, written, extensions);
+    if (material.specular_glossiness) {
+        extensions[specularGlossiness] = factorsOf(material, schema::specularGlossiness);
+    } else {
+        written["pbrMetallicRoughness"] = factorsOf(material, schema::metallicRoughness);
+        extensions["KHR_materials_ior"] = factorsOf(material, schema::ior);
+        extensions["KHR_materials_specular"] = factorsOf(material, schema::specular);
+    }
     written["doubleSided"] = material.double_sided;
     written["alphaMode"] = material.alpha_mode == AlphaMode::opaque ? "OPAQUE"
                            : material.alpha_mode == AlphaMode::mask ? "MASK"
@@ -147,42 +151,15 @@ Json gltfMaterial(const Material& material) {
         extensions["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
     }
     if (material.unlit) extensions["KHR_materials_unlit"] = Json::object();
-    if (material.transmission > 0)
-        extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
-    addVolume(material, extensions);
-    if (material.clearcoat > 0)
-        extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", material.clearcoat},
-                                                 {"clearcoatRoughnessFactor", material.clearcoat_roughness}};
-    if (material.anisotropy > 0)
-        extensions["KHR_materials_anisotropy"] = {{"anisotropyStrength", material.anisotropy},
-                                                  {"anisotropyRotation", material.anisotropy_rotation}};
-    if (material.sheen_color != glm::vec3(0))
-        extensions["KHR_materials_sheen"] = {{"sheenColorFactor", listOf(glm::dvec3(material.sheen_color))},
-                                             {"sheenRoughnessFactor", material.sheen_roughness}};
-    if (material.iridescence > 0)
-        extensions["KHR_materials_iridescence"] = {
-            {"iridescenceFactor", material.iridescence},
-            {"iridescenceIor", material.iridescence_ior},
-            {"iridescenceThicknessMinimum", material.iridescence_thickness_least},
-            {"iridescenceThicknessMaximum", material.iridescence_thickness_most}};
+    addWeighted(material, extensions);
     written["extensions"] = std::move(extensions);
     return written;
 }
 
 std::vector<std::string> gltfMaterialExtensions() {
-    return {"KHR_materials_ior",
-            "KHR_materials_specular",
-            specularGlossiness,
-            "KHR_materials_emissive_strength",
-            "KHR_materials_unlit",
-            "KHR_materials_transmission",
-            "KHR_materials_clearcoat",
-            "KHR_materials_anisotropy",
-            "KHR_materials_sheen",
-            "KHR_materials_iridescence",
-            "KHR_materials_volume",
-            "KHR_materials_dispersion",
-            "KHR_materials_diffuse_transmission"};
+    std::vector<std::string> names;
+    for (const schema::Property& extension : schema::materialExtensions) names.emplace_back(extension.key);
+    return names;
 }
 
 Json gltfCamera(const Camera& camera, double aspect) {

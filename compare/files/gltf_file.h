@@ -45,6 +45,8 @@ private:
 
 inline constexpr const char* specularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
+// A factor of a material: a number or an array.
+nlohmann::ordered_json gltfFactor(const Material& material, AnimatedPart part);
 // A material's factors in glTF terms, without textures.
 nlohmann::ordered_json gltfMaterial(const Material& material);
 // Extensions that gltfMaterial() may use.

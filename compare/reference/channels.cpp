@@ -12,6 +12,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace diptych::reference {
 namespace {
@@ -35,8 +36,29 @@ glm::dvec3 ofPane(const Pixel& p) {
 struct ChannelRow {
     Channel mode;
     glm::dvec3 (*value)(const Pixel&);
-    glm::vec4 rounding{0};  // weights of Picture::rounding
+    glm::vec4 rounding{0};                                // weights of Picture::rounding
+    void (*read)(Surface&, const glm::dvec3&) = nullptr;  // from a captured value; null: not needed
 };
+
+template <auto member>
+void readNumber(Surface& s, const glm::dvec3& value) {
+    if constexpr (std::is_same_v<decltype(s.*member), double&>)
+        s.*member = value.x;
+    else
+        s.*member = value;
+}
+// A float32 unit vector is off by up to 1e-7, which would affect 1 - (n.h)^2 at a highlight.
+template <auto member>
+void readDirection(Surface& s, const glm::dvec3& value) {
+    s.*member = unitOr(value, s.to_viewer);
+}
+
+// A member of the surface that shading needs; of a layer it keeps its default if that is not captured.
+template <auto member>
+constexpr ChannelRow ofShading(Channel mode, void (*read)(Surface&, const glm::dvec3&) = readNumber<member>) {
+    return {mode, ofSurface<member>, {}, read};
+}
+
 constexpr ChannelRow channelRows[] = {
     // Light is the mean over the pixel's area, even if the centre shows background.
     {Channel::lit, [](const Pixel& p) { return p.lit; }, {1, 1, 0, 0}},
@@ -65,33 +87,35 @@ constexpr ChannelRow channelRows[] = {
     {Channel::material_id, [](const Pixel& p) { return glm::dvec3(p.surface ? p.surface->material : -1); }},
     {Channel::texcoords,
      [](const Pixel& p) { return p.surface ? glm::dvec3(p.surface->texcoord, 0) : glm::dvec3(0); }},
-    {Channel::albedo, ofSurface<&Surface::albedo>},
-    {Channel::normals, ofSurface<&Surface::normal>},
-    {Channel::metallic, ofSurface<&Surface::metallic>},
-    {Channel::roughness, ofSurface<&Surface::roughness>},
-    {Channel::emission, ofSurface<&Surface::emission>},
-    {Channel::occlusion, ofSurface<&Surface::occlusion>},
+    ofShading<&Surface::albedo>(Channel::albedo),
+    ofShading<&Surface::normal>(Channel::normals, readDirection<&Surface::normal>),
+    ofShading<&Surface::metallic>(Channel::metallic),
+    ofShading<&Surface::roughness>(Channel::roughness),
+    ofShading<&Surface::emission>(Channel::emission),
+    ofShading<&Surface::occlusion>(Channel::occlusion),
     {Channel::position, ofSurface<&Surface::position>},
-    {Channel::geometric_normal, ofSurface<&Surface::geometric_normal>},
-    {Channel::dielectric_f0, ofSurface<&Surface::dielectric_f0>},
-    {Channel::dielectric_f90, ofSurface<&Surface::dielectric_f90>},
-    {Channel::lightmap, ofSurface<&Surface::lightmap>},
+    ofShading<&Surface::geometric_normal>(Channel::geometric_normal,
+                                          readDirection<&Surface::geometric_normal>),
+    ofShading<&Surface::dielectric_f0>(Channel::dielectric_f0),
+    ofShading<&Surface::dielectric_f90>(Channel::dielectric_f90),
+    ofShading<&Surface::lightmap>(Channel::lightmap),
     {Channel::lightmapped, ofSurface<&Surface::lightmapped>},
     {Channel::tangent, ofSurface<&Surface::tangent>},
     {Channel::handedness, ofSurface<&Surface::handedness>},
     {Channel::tangent_normal, ofSurface<&Surface::tangent_normal>},
-    {Channel::clearcoat, ofSurface<&Surface::clearcoat>},
-    {Channel::clearcoat_roughness, ofSurface<&Surface::clearcoat_roughness>},
-    {Channel::clearcoat_normal, ofSurface<&Surface::clearcoat_normal>},
+    ofShading<&Surface::clearcoat>(Channel::clearcoat),
+    ofShading<&Surface::clearcoat_roughness>(Channel::clearcoat_roughness),
+    ofShading<&Surface::clearcoat_normal>(Channel::clearcoat_normal,
+                                          readDirection<&Surface::clearcoat_normal>),
     {Channel::anisotropy, ofSurface<&Surface::anisotropy>},
     {Channel::anisotropy_direction, ofSurface<&Surface::anisotropy_direction>},
-    {Channel::sheen_color, ofSurface<&Surface::sheen_color>},
-    {Channel::sheen_roughness, ofSurface<&Surface::sheen_roughness>},
-    {Channel::iridescence, ofSurface<&Surface::iridescence>},
-    {Channel::iridescence_ior, ofSurface<&Surface::iridescence_ior>},
-    {Channel::iridescence_thickness, ofSurface<&Surface::iridescence_thickness>},
-    {Channel::diffuse_transmission, ofSurface<&Surface::diffuse_transmission>},
-    {Channel::diffuse_transmission_color, ofSurface<&Surface::diffuse_transmission_color>},
+    ofShading<&Surface::sheen_color>(Channel::sheen_color),
+    ofShading<&Surface::sheen_roughness>(Channel::sheen_roughness),
+    ofShading<&Surface::iridescence>(Channel::iridescence),
+    ofShading<&Surface::iridescence_ior>(Channel::iridescence_ior),
+    ofShading<&Surface::iridescence_thickness>(Channel::iridescence_thickness),
+    ofShading<&Surface::diffuse_transmission>(Channel::diffuse_transmission),
+    ofShading<&Surface::diffuse_transmission_color>(Channel::diffuse_transmission_color),
 };
 
 }  // namespace
@@ -113,40 +137,13 @@ Surface Captured::surface(std::size_t pixel, const PixelRays& rays, int material
     Surface s;
     s.position = value(Channel::position, pixel);
     s.to_viewer = rays.toViewer(s.position);
-    // A float32 unit vector is off by up to 1e-7, which would affect 1 - (n.h)^2 at a highlight.
-    s.normal = unitOr(value(Channel::normals, pixel), s.to_viewer);
-    s.geometric_normal = unitOr(value(Channel::geometric_normal, pixel), s.to_viewer);
-    s.albedo = value(Channel::albedo, pixel);
-    s.metallic = value(Channel::metallic, pixel).x;
-    s.roughness = value(Channel::roughness, pixel).x;
-    s.occlusion = value(Channel::occlusion, pixel).x;
-    s.emission = value(Channel::emission, pixel);
-    s.lightmap = value(Channel::lightmap, pixel);
-    s.dielectric_f90 = value(Channel::dielectric_f90, pixel).x;
     s.material = material;
     s.lightmapped = hasLightmap(materials_.at(static_cast<std::size_t>(s.material)));
-    s.dielectric_f0 = value(Channel::dielectric_f0, pixel);
-    if (isCaptured(Channel::clearcoat)) {
-        s.clearcoat = value(Channel::clearcoat, pixel).x;
-        s.clearcoat_roughness = value(Channel::clearcoat_roughness, pixel).x;
-        if (s.clearcoat > 0)
-            s.clearcoat_normal = unitOr(value(Channel::clearcoat_normal, pixel), s.to_viewer);
-    }
+    for (const ChannelRow& row : channelRows)
+        if (row.read && (layerOf(row.mode) == 0 || isCaptured(row.mode))) row.read(s, value(row.mode, pixel));
+    if (!(s.clearcoat > 0)) s.clearcoat_normal = glm::dvec3(0);
     if (isCaptured(Channel::anisotropy))
         s.stretch(value(Channel::anisotropy, pixel).x, value(Channel::anisotropy_direction, pixel));
-    if (isCaptured(Channel::sheen_color)) {
-        s.sheen_color = value(Channel::sheen_color, pixel);
-        s.sheen_roughness = value(Channel::sheen_roughness, pixel).x;
-    }
-    if (isCaptured(Channel::iridescence)) {
-        s.iridescence = value(Channel::iridescence, pixel).x;
-        s.iridescence_ior = value(Channel::iridescence_ior, pixel).x;
-        s.iridescence_thickness = value(Channel::iridescence_thickness, pixel).x;
-    }
-    if (isCaptured(Channel::diffuse_transmission)) {
-        s.diffuse_transmission = value(Channel::diffuse_transmission, pixel).x;
-        s.diffuse_transmission_color = value(Channel::diffuse_transmission_color, pixel);
-    }
     return s;
 }
 

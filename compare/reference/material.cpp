@@ -73,7 +73,10 @@ Footprint Materials::footprint(const Hit& hit, const TextureSlot& slot, const Pi
     return result;
 }
 
-glm::dvec4 Materials::lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const {
+template <TextureSlot Material::*texture>
+glm::dvec4 Materials::lookUp(const Material& m, const Hit& hit, const PixelRay* ray) const {
+    constexpr bool srgb = std::ranges::find(materialSlots, texture, &MaterialSlot::texture)->srgb;
+    const TextureSlot& slot = m.*texture;
     if (slot.texture < 0) return glm::dvec4(1);
     return textures_(scene_.textures[static_cast<std::size_t>(slot.texture)], srgb,
                      footprint(hit, slot, ray));
@@ -81,7 +84,7 @@ glm::dvec4 Materials::lookUp(const Hit& hit, const TextureSlot& slot, bool srgb,
 
 glm::dvec4 Materials::baseColor(const Hit& hit, const PixelRay* ray) const {
     const Material& m = material(hit);
-    glm::dvec4 color = glm::dvec4(m.base_color) * lookUp(hit, m.base_color_texture, true, ray);
+    glm::dvec4 color = glm::dvec4(m.base_color) * lookUp<&Material::base_color_texture>(m, hit, ray);
     if (const auto colors = geometry_.colors(hit.id)) color *= mixed(*colors, hit.barycentric);
     return color;
 }
@@ -167,9 +170,9 @@ glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, bool (Turne
     return (turned.*of)() ? frame.turnedWorld(t) : frame.world(t);
 }
 
-glm::dvec3 Materials::mapped(const Hit& hit, const TextureSlot& slot, float scale,
-                             const PixelRay& ray) const {
-    const glm::dvec3 t = glm::dvec3(lookUp(hit, slot, false, &ray)) * 2.0 - 1.0;
+template <TextureSlot Material::*texture>
+glm::dvec3 Materials::mapped(const Material& m, const Hit& hit, float scale, const PixelRay& ray) const {
+    const glm::dvec3 t = glm::dvec3(lookUp<texture>(m, hit, &ray)) * 2.0 - 1.0;
     return t * glm::dvec3(double{scale}, double{scale}, 1);
 }
 
@@ -178,7 +181,7 @@ void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& fr
     const Material& m = material(hit);
     glm::dvec3 n = frame.normal;
     if (!m.unlit && m.normal_texture.texture >= 0) {
-        const glm::dvec3 t = mapped(hit, m.normal_texture, m.normal_scale, ray);
+        const glm::dvec3 t = mapped<&Material::normal_texture>(m, hit, m.normal_scale, ray);
         n = frame.world(t);
         if (m.normal_scale != 0) {  // a scale of 0 disables the map: the paths do not read it
             s.tangent = unitOrZero(frame.tangent);
@@ -192,15 +195,15 @@ void Materials::shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& fr
 // KHR_materials_clearcoat: strength from red, roughness from green; the base's normal map does not apply.
 void Materials::coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const {
     const Material& m = material(hit);
-    s.clearcoat = double{m.clearcoat} * lookUp(hit, m.clearcoat_texture, false, &ray).r;
+    s.clearcoat = double{m.clearcoat} * lookUp<&Material::clearcoat_texture>(m, hit, &ray).r;
     if (!(s.clearcoat > 0)) return;
     s.clearcoat_roughness =
-        double{m.clearcoat_roughness} * lookUp(hit, m.clearcoat_roughness_texture, false, &ray).g;
+        double{m.clearcoat_roughness} * lookUp<&Material::clearcoat_roughness_texture>(m, hit, &ray).g;
     const bool has_map = m.clearcoat_normal_texture.texture >= 0 && m.clearcoat_normal_scale != 0;
-    const glm::dvec3 n = has_map
-                             ? worldOf(m, frame, &TurnedMaps::ofCoat,
-                                       mapped(hit, m.clearcoat_normal_texture, m.clearcoat_normal_scale, ray))
-                             : frame.normal;
+    const glm::dvec3 n =
+        has_map ? worldOf(m, frame, &TurnedMaps::ofCoat,
+                          mapped<&Material::clearcoat_normal_texture>(m, hit, m.clearcoat_normal_scale, ray))
+                : frame.normal;
     s.clearcoat_normal = facing(hit, n, s);
 }
 
@@ -210,7 +213,7 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
     glm::dvec2 direction(1, 0);
     double strength = double{m.anisotropy};
     if (m.anisotropy_texture.texture >= 0) {
-        const glm::dvec3 texel(lookUp(hit, m.anisotropy_texture, false, &ray));
+        const glm::dvec3 texel(lookUp<&Material::anisotropy_texture>(m, hit, &ray));
         direction = glm::dvec2(texel) * 2.0 - 1.0;
         strength *= texel.b;
     }
@@ -224,20 +227,22 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
 // KHR_materials_sheen: colour from RGB, roughness from alpha.
 void Materials::sheen(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
-    s.sheen_color = glm::dvec3(m.sheen_color) * glm::dvec3(lookUp(hit, m.sheen_color_texture, true, &ray));
+    s.sheen_color =
+        glm::dvec3(m.sheen_color) * glm::dvec3(lookUp<&Material::sheen_color_texture>(m, hit, &ray));
     if (!hasSheen(s)) return;
-    s.sheen_roughness = double{m.sheen_roughness} * lookUp(hit, m.sheen_roughness_texture, true, &ray).a;
+    s.sheen_roughness =
+        double{m.sheen_roughness} * lookUp<&Material::sheen_roughness_texture>(m, hit, &ray).a;
 }
 
 // KHR_materials_iridescence: weight from red, thickness from green.
 void Materials::film(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
-    s.iridescence = double{m.iridescence} * lookUp(hit, m.iridescence_texture, false, &ray).r;
+    s.iridescence = double{m.iridescence} * lookUp<&Material::iridescence_texture>(m, hit, &ray).r;
     if (!(s.iridescence > 0)) return;
     s.iridescence_ior = double{m.iridescence_ior};
     s.iridescence_thickness =
         glm::mix(double{m.iridescence_thickness_least}, double{m.iridescence_thickness_most},
-                 lookUp(hit, m.iridescence_thickness_texture, false, &ray).g);
+                 lookUp<&Material::iridescence_thickness_texture>(m, hit, &ray).g);
 }
 
 // KHR_materials_volume: thickness from green, in the mesh's space; its node scales it, except that a skin
@@ -248,13 +253,13 @@ double Materials::thicknessAt(const Hit& hit, const PixelRay& ray) const {
     const double scale = instance.skin >= 0
                              ? 1
                              : std::cbrt(std::abs(glm::determinant(glm::dmat3(instance.world_from_object))));
-    return double{m.thickness} * lookUp(hit, m.thickness_texture, false, &ray).g * scale;
+    return double{m.thickness} * lookUp<&Material::thickness_texture>(m, hit, &ray).g * scale;
 }
 
 // KHR_materials_transmission: share from red.
 void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
-    s.transmission = double{m.transmission} * lookUp(hit, m.transmission_texture, false, &ray).r;
+    s.transmission = double{m.transmission} * lookUp<&Material::transmission_texture>(m, hit, &ray).r;
     s.ior = double{m.ior};
     s.thickness = thicknessAt(hit, ray);
     s.attenuation_color = glm::dvec3(m.attenuation_color);
@@ -267,14 +272,15 @@ void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const 
 void Materials::transmitDiffusely(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
     s.diffuse_transmission =
-        double{m.diffuse_transmission} * lookUp(hit, m.diffuse_transmission_texture, true, &ray).a;
+        double{m.diffuse_transmission} * lookUp<&Material::diffuse_transmission_texture>(m, hit, &ray).a;
     if (!(s.diffuse_transmission > 0)) return;
     Surface volume;
     volume.attenuation_color = glm::dvec3(m.attenuation_color);
     volume.attenuation_distance = double{m.attenuation_distance};
-    s.diffuse_transmission_color = glm::dvec3(m.diffuse_transmission_color) *
-                                   glm::dvec3(lookUp(hit, m.diffuse_transmission_color_texture, true, &ray)) *
-                                   attenuationOf(volume, thicknessAt(hit, ray));
+    s.diffuse_transmission_color =
+        glm::dvec3(m.diffuse_transmission_color) *
+        glm::dvec3(lookUp<&Material::diffuse_transmission_color_texture>(m, hit, &ray)) *
+        attenuationOf(volume, thicknessAt(hit, ray));
 }
 
 Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
@@ -294,15 +300,17 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
         return s;
     }
     s.albedo = color;
-    const glm::dvec4 metallic_roughness = lookUp(hit, m.metallic_roughness_texture, false, &ray);
+    const glm::dvec4 metallic_roughness = lookUp<&Material::metallic_roughness_texture>(m, hit, &ray);
     s.roughness = double{m.roughness} * metallic_roughness.g;
     s.metallic = double{m.metallic} * metallic_roughness.b;
-    s.occlusion = 1 + double{m.occlusion_strength} * (lookUp(hit, m.occlusion_texture, false, &ray).r - 1);
-    s.emission = glm::dvec3(m.emissive) * glm::dvec3(lookUp(hit, m.emissive_texture, true, &ray));
+    s.occlusion =
+        1 + double{m.occlusion_strength} * (lookUp<&Material::occlusion_texture>(m, hit, &ray).r - 1);
+    s.emission = glm::dvec3(m.emissive) * glm::dvec3(lookUp<&Material::emissive_texture>(m, hit, &ray));
     // Irradiance over pi.
     s.lightmapped = hasLightmap(m);
     if (s.lightmapped)
-        s.lightmap = glm::dvec3(lookUp(hit, m.lightmap_texture, true, &ray)) * double{m.lightmap_intensity};
+        s.lightmap =
+            glm::dvec3(lookUp<&Material::lightmap_texture>(m, hit, &ray)) * double{m.lightmap_intensity};
     reflect(hit, ray, s);
     if (letsThrough(m)) transmit(hit, ray, s);
     if (m.diffuse_transmission > 0) transmitDiffusely(hit, ray, s);
@@ -319,9 +327,9 @@ Surface Materials::surface(const Hit& hit, const PixelRay& ray) const {
 void Materials::reflect(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
     const double ior = m.ior, r = (1 - ior) / (1 + ior);
-    const glm::dvec4 colored = lookUp(hit, m.specular_color_texture, true, &ray);
+    const glm::dvec4 colored = lookUp<&Material::specular_color_texture>(m, hit, &ray);
     const glm::dvec3 tint = glm::dvec3(m.specular_color) * glm::dvec3(colored);
-    s.dielectric_f90 = double{m.specular} * lookUp(hit, m.specular_texture, false, &ray).a;
+    s.dielectric_f90 = double{m.specular} * lookUp<&Material::specular_texture>(m, hit, &ray).a;
     s.dielectric_f0 = glm::min(r * r * tint, glm::dvec3(1)) * s.dielectric_f90;
     if (!m.specular_glossiness) return;
     s.roughness = 1 - (1 - double{m.roughness}) * colored.a;

@@ -64,7 +64,9 @@ public:
 private:
     const Material& material(const Hit& hit) const;
     Footprint footprint(const Hit& hit, const TextureSlot& slot, const PixelRay* ray) const;
-    glm::dvec4 lookUp(const Hit& hit, const TextureSlot& slot, bool srgb, const PixelRay* ray) const;
+    // A texel of a slot, by its member; white without a texture.
+    template <TextureSlot Material::*texture>
+    glm::dvec4 lookUp(const Material& m, const Hit& hit, const PixelRay* ray) const;
     glm::dvec4 baseColor(const Hit& hit, const PixelRay* ray) const;
     // The frame of normal maps, world space, interpolated without normalisation.
     struct Frame {
@@ -87,7 +89,8 @@ private:
     static glm::dvec3 worldOf(const Material& m, const Frame& frame, bool (TurnedMaps::*of)() const,
                               const glm::dvec3& t);
     // A normal map's value, tangent space, not normalised.
-    glm::dvec3 mapped(const Hit& hit, const TextureSlot& slot, float scale, const PixelRay& ray) const;
+    template <TextureSlot Material::*texture>
+    glm::dvec3 mapped(const Material& m, const Hit& hit, float scale, const PixelRay& ray) const;
     // Fills the normal, and the tangent frame and tangent-space normal of a normal map.
     void shadeNormal(const Hit& hit, const PixelRay& ray, const Frame& frame, Surface& s) const;
     // Fills the dielectric layer, and the base colour and roughness of specular-glossiness.

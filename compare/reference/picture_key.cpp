@@ -42,22 +42,13 @@ void addPrimitive(Key& key, const Primitive& p) {
 }
 
 void addMaterial(Key& key, const Material& m) {
-    key.add(m.base_color);
-    key.add(glm::vec4(m.metallic, m.roughness, m.normal_scale, m.occlusion_strength));
-    key.add(glm::vec4(m.emissive, m.ior));
-    key.add(glm::vec4(m.specular_color, m.specular));
+#define DIPTYCH_ADD(type, name, ...) key.add(m.name);
+    MATERIAL_FACTORS(DIPTYCH_ADD)
+#undef DIPTYCH_ADD
+    key.add(m.emissive);
+    key.add(m.specular_color);
+    key.add(m.anisotropy_rotation);
     key.add(glm::ivec4(static_cast<int>(m.alpha_mode), m.double_sided, m.unlit, m.specular_glossiness));
-    key.add(m.alpha_cutoff);
-    key.add(m.transmission);
-    key.add(m.lightmap_intensity);
-    key.add(glm::vec3(m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale));
-    key.add(glm::vec2(m.anisotropy, m.anisotropy_rotation));
-    key.add(glm::vec4(m.sheen_color, m.sheen_roughness));
-    key.add(glm::vec4(m.iridescence, m.iridescence_ior, m.iridescence_thickness_least,
-                      m.iridescence_thickness_most));
-    key.add(glm::vec4(m.attenuation_color, m.attenuation_distance));
-    key.add(glm::vec2(m.thickness, m.dispersion));
-    key.add(glm::vec4(m.diffuse_transmission_color, m.diffuse_transmission));
     for (const MaterialSlot& slot : materialSlots) {
         const TextureSlot& s = m.*slot.texture;
         key.add(s.texture);
@@ -120,7 +111,7 @@ void addAir(Key& key, const Air& air) {
 
 // Increase the version number whenever the reference itself renders differently.
 std::uint64_t keyOf(const Request& request) {
-    constexpr int version = 18;
+    constexpr int version = 19;
     Key key;
     key.add(version);
     key.add(std::as_bytes(std::span(request.program)));

@@ -46,46 +46,35 @@ struct Use {
 double largestComponent(const auto& v) {
     return double{std::max({v.x, v.y, v.z})};
 }
-Factors rgba(double r, double g = 0, double b = 0, double a = 0) {
-    return {r, g, b, a};
+double sizeOf(float factor) {
+    return double{factor};
 }
-Factors rgb(double f) {
-    return {f, f, f, 0};
-}
-Factors rgbOf(const auto& color) {
-    return rgb(largestComponent(color));
-}
-Factors bumps(float scale) {
-    return rgb(std::max(1.0, std::abs(double{scale})));
+double sizeOf(const auto& color) {
+    return largestComponent(color);
 }
 
 // The material's factor of each component of a slot's texels.
-constexpr std::pair<std::size_t, Factors (*)(const Material&)> slotFactors[] = {
-    {gpu::SLOT_base_color, [](const Material& m) { return rgbOf(m.base_color); }},
-    {gpu::SLOT_metallic_roughness, [](const Material& m) { return rgba(0, m.roughness, m.metallic); }},
-    {gpu::SLOT_normal, [](const Material& m) { return bumps(m.normal_scale); }},
-    {gpu::SLOT_occlusion, [](const Material& m) { return rgba(m.occlusion_strength); }},
-    {gpu::SLOT_emissive, [](const Material& m) { return rgbOf(m.emissive); }},
-    {gpu::SLOT_specular, [](const Material& m) { return rgba(0, 0, 0, m.specular); }},
-    {gpu::SLOT_specular_color, [](const Material& m) { return rgbOf(m.specular_color); }},
-    {gpu::SLOT_lightmap, [](const Material& m) { return rgb(m.lightmap_intensity); }},
-    {gpu::SLOT_clearcoat, [](const Material& m) { return rgba(m.clearcoat); }},
-    {gpu::SLOT_clearcoat_roughness, [](const Material& m) { return rgba(0, m.clearcoat_roughness); }},
-    {gpu::SLOT_clearcoat_normal, [](const Material& m) { return bumps(m.clearcoat_normal_scale); }},
-    {gpu::SLOT_anisotropy, [](const Material& m) { return rgba(1, 1, m.anisotropy); }},
-    {gpu::SLOT_sheen_color, [](const Material& m) { return rgbOf(m.sheen_color); }},
-    {gpu::SLOT_sheen_roughness, [](const Material& m) { return rgba(0, 0, 0, m.sheen_roughness); }},
-    {gpu::SLOT_iridescence, [](const Material& m) { return rgba(m.iridescence); }},
-    {gpu::SLOT_iridescence_thickness,
-     [](const Material& m) {
-         return rgba(0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least));
-     }},
-    {gpu::SLOT_transmission, [](const Material& m) { return rgba(m.transmission); }},
-    {gpu::SLOT_thickness, [](const Material& m) { return rgba(0, m.thickness); }},
-    {gpu::SLOT_diffuse_transmission, [](const Material& m) { return rgba(0, 0, 0, m.diffuse_transmission); }},
-    {gpu::SLOT_diffuse_transmission_color,
-     [](const Material& m) { return rgbOf(m.diffuse_transmission_color); }},
-};
+Factors factorsOf(const Material& m, std::size_t slot) {
+    switch (slot) {
+        case gpu::SLOT_metallic_roughness:
+            return {0, m.roughness, m.metallic, 0};
+        case gpu::SLOT_anisotropy:
+            return {1, 1, m.anisotropy, 0};
+        case gpu::SLOT_iridescence_thickness:
+            return {0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least), 0, 0};
+        default:
+            break;
+    }
+#define DIPTYCH_SIZE(number, name, colors, reads, layer, factor, words) sizeOf(m.factor),
+    const std::array<double, gpu::SLOT_COUNT> sizes{MATERIAL_SLOTS(DIPTYCH_SIZE)};
+#undef DIPTYCH_SIZE
+    const bool bumps = slot == gpu::SLOT_normal || slot == gpu::SLOT_clearcoat_normal;
+    Factors factors{};
+    for (std::size_t c = 0; c < 4; ++c)
+        if ((materialSlots[slot].components >> c & 1u) != 0)
+            factors.at(c) = bumps ? std::max(1.0, std::abs(sizes.at(slot))) : sizes.at(slot);
+    return factors;
+}
 
 // Units of the channel per unit of the components 2 t - 1 of a direction; 1 for other texels.
 double unitsPer(Channel mode) {
@@ -96,25 +85,21 @@ double unitsPer(Channel mode) {
     return isAngle(of.metric) ? three : three / degreesPerRadian;
 }
 
-// Components of a row of CHANNEL_TEXELS.
-enum class Components : unsigned { r = 1, g = 2, b = 4, a = 8, rg = r | g, rgb = r | g | b };
-
 struct Reading {
     Channel mode;
     std::size_t slot;
-    Components components;
+    unsigned components;
 };
 constexpr Reading readings[] = {
-#define DIPTYCH_READING(channel, slot, components) \
-    {Channel::channel, gpu::SLOT_##slot, Components::components},
+#define DIPTYCH_READING(channel, slot, components) {Channel::channel, gpu::SLOT_##slot, texel::components},
     CHANNEL_TEXELS(DIPTYCH_READING)
 #undef DIPTYCH_READING
 };
 
-Use scaledUse(Channel mode, Components components, const Factors& factors, double times = 1) {
+Use scaledUse(Channel mode, unsigned components, const Factors& factors, double times = 1) {
     Use use{mode, {}};
     for (std::size_t c = 0; c < 4; ++c)
-        if ((static_cast<unsigned>(components) >> c & 1u) != 0) use.factor.at(c) = times * factors.at(c);
+        if ((components >> c & 1u) != 0) use.factor.at(c) = times * factors.at(c);
     return use;
 }
 
@@ -123,11 +108,11 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
     // The direction stays perpendicular to the normal.
     if (slot == gpu::SLOT_normal && m.anisotropy != 0)
         uses.push_back(
-            scaledUse(Channel::anisotropy_direction, Components::rgb, factors, unitsPer(Channel::normals)));
+            scaledUse(Channel::anisotropy_direction, texel::rgb, factors, unitsPer(Channel::normals)));
     if (slot == gpu::SLOT_specular_color && m.specular_glossiness) {
         // F0 darkens the base, alpha is glossiness.
-        uses.push_back(scaledUse(Channel::albedo, Components::rgb, factors, largestComponent(m.base_color)));
-        uses.push_back(scaledUse(Channel::roughness, Components::a, {0, 0, 0, 1 - double{m.roughness}}));
+        uses.push_back(scaledUse(Channel::albedo, texel::rgb, factors, largestComponent(m.base_color)));
+        uses.push_back(scaledUse(Channel::roughness, texel::a, {0, 0, 0, 1 - double{m.roughness}}));
     }
     if (slot == gpu::SLOT_sheen_color) {
         const double rough = m.sheen_roughness;
@@ -154,10 +139,8 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
 }
 
 std::vector<Use> usesOf(const Material& m, std::size_t slot) {
-    const auto row = std::ranges::find(slotFactors, slot, [](const auto& r) { return r.first; });
-    const Factors factors = row == std::end(slotFactors) ? Factors{} : row->second(m);
-    if (m.unlit && slot == gpu::SLOT_base_color)
-        return {scaledUse(Channel::emission, Components::rgb, factors)};
+    const Factors factors = factorsOf(m, slot);
+    if (m.unlit && slot == gpu::SLOT_base_color) return {scaledUse(Channel::emission, texel::rgb, factors)};
     std::vector<Use> uses;
     for (const Reading& reading : readings)
         if (reading.slot == slot)
@@ -314,9 +297,9 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
         for (std::size_t s = 0; s < materialSlots.size() && !pixels[id].empty(); ++s) {
             const Material& material = scene.materials[id];
             if (!readsSlot(material, s)) continue;
-            const TextureSlot& slot = material.*materialSlots[s].texture;
-            const Texture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
-            const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
+            const TextureSlot& slot = slotOf(material, s);
+            const Texture& texture = textureOf(scene, slot);
+            const TextureImage& image = imageOf(scene, slot);
             const Levels levels(image, materialSlots[s].srgb, texture.sampler);
             const std::vector<Use> uses = usesOf(material, s);
             for (const Use& use : uses) ranges.try_emplace(use.mode, ids->width, ids->height, 1);

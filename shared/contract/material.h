@@ -6,36 +6,91 @@
 
 // Texture slots of a material, at these bindings of SET_MATERIAL. FEATURE_<name>_texture says whether it
 // has one, and how to read it: TEXEL_*.
+// number  name  colours  reads  layer  factor  words
+//   colours  srgb: red, green and blue are sRGB-encoded, alpha is linear; linear: all are
+//   reads    the components that have an effect; with specular_glossiness also the alpha of specular_color
+//   layer    LAYER_* without which none has; BASE: always
+//   factor   of the components, in the CPU's Material; of metallic_roughness, that of green
+//   words    its name in messages
 // clang-format off
-#define MATERIAL_SLOTS(X)            \
-    X(0, base_color)                 \
-    X(1, metallic_roughness)         \
-    X(2, normal)                     \
-    X(3, occlusion)                  \
-    X(4, emissive)                   \
-    X(5, specular)                   \
-    X(6, specular_color)             \
-    X(7, lightmap)                   \
-    X(8, clearcoat)                  \
-    X(9, clearcoat_roughness)        \
-    X(10, clearcoat_normal)          \
-    X(11, anisotropy)                \
-    X(12, sheen_color)               \
-    X(13, sheen_roughness)           \
-    X(14, iridescence)               \
-    X(15, iridescence_thickness)     \
-    X(16, transmission)              \
-    X(17, thickness)                 \
-    X(18, diffuse_transmission)      \
-    X(19, diffuse_transmission_color)
+#define MATERIAL_SLOTS(X) \
+    X(0,  base_color,            srgb,   rgba, BASE,         base_color,          "base colour")          \
+    X(1,  metallic_roughness,    linear, gb,   BASE,         roughness,           "metallic-roughness")   \
+    X(2,  normal,                linear, rgb,  BASE,         normal_scale,        "normal")               \
+    X(3,  occlusion,             linear, r,    BASE,         occlusion_strength,  "occlusion")            \
+    X(4,  emissive,              srgb,   rgb,  BASE,         emissive,            "emission")             \
+    X(5,  specular,              linear, a,    BASE,         specular,            "specular")             \
+    X(6,  specular_color,        srgb,   rgb,  BASE,         specular_color,      "specular colour")      \
+    X(7,  lightmap,              srgb,   rgb,  BASE,         lightmap_intensity,  "lightmap")             \
+    X(8,  clearcoat,             linear, r,    CLEARCOAT,    clearcoat,           "clear coat")           \
+    X(9,  clearcoat_roughness,   linear, g,    CLEARCOAT,    clearcoat_roughness, "clear coat roughness") \
+    X(10, clearcoat_normal,      linear, rgb,  CLEARCOAT,    clearcoat_normal_scale, "clear coat normal") \
+    X(11, anisotropy,            linear, rgb,  ANISOTROPY,   anisotropy,          "anisotropy")           \
+    X(12, sheen_color,           srgb,   rgb,  SHEEN,        sheen_color,         "sheen colour")         \
+    /* often the alpha of the colour's image, and so is diffuse_transmission */                           \
+    X(13, sheen_roughness,       srgb,   a,    SHEEN,        sheen_roughness,     "sheen roughness")      \
+    X(14, iridescence,           linear, r,    IRIDESCENCE,  iridescence,         "iridescence")          \
+    X(15, iridescence_thickness, linear, g,    IRIDESCENCE,  iridescence_thickness_most, "film thickness") \
+    X(16, transmission,          linear, r,    TRANSMISSION, transmission,        "transmission")         \
+    /* of both transmissions, if they have a volume: readsSlot() */                                       \
+    X(17, thickness,             linear, g,    BASE,         thickness,           "thickness")            \
+    X(18, diffuse_transmission,  srgb,   a,    DIFFUSE_TRANSMISSION, diffuse_transmission,                \
+          "diffuse transmission")                                                                         \
+    X(19, diffuse_transmission_color, srgb, rgb, DIFFUSE_TRANSMISSION, diffuse_transmission_color,        \
+          "colour of diffuse transmission")
+
+// Layers, with the factor without which a material does not have it. FEATURE_layers is a sum of the layers of
+// a draw's material, or of a scene's materials.
+#define MATERIAL_LAYERS(X) \
+    X(CLEARCOAT,            1,  clearcoat)            /* KHR_materials_clearcoat */            \
+    X(ANISOTROPY,           2,  anisotropy)           /* KHR_materials_anisotropy */           \
+    X(SHEEN,                4,  sheen_color)          /* KHR_materials_sheen */                \
+    X(IRIDESCENCE,          8,  iridescence)          /* KHR_materials_iridescence */          \
+    X(DIFFUSE_TRANSMISSION, 16, diffuse_transmission) /* KHR_materials_diffuse_transmission */ \
+    /* KHR_materials_transmission, for a scene's materials alone: no draw has it as a layer */ \
+    /* and the G-buffer does not store it, because its surfaces are drawn after either path */ \
+    X(TRANSMISSION,         32, transmission)
+
+// Factors that mean the same in the CPU's Material (shared/scene/model/scene.h) and in the shaders'. Others
+// are members of either.
+// type  name  default  least  most: their range (limits: animated.h)
+#define MATERIAL_FACTORS(X) \
+    X(vec4,  base_color,                  1,    0, 1)    /* linear Rec.709, alpha */            \
+    X(float, metallic,                    1,    0, 1)                                           \
+    X(float, roughness,                   1,    0, 1)    /* perceptual */                       \
+    X(float, normal_scale,                1,    -maxFactor, maxFactor)                          \
+    X(float, occlusion_strength,          1,    0, 1)                                           \
+    X(float, alpha_cutoff,                0.5f, 0, maxFactor)                                   \
+    X(float, lightmap_intensity,          1,    0, maxFactor)                                   \
+    X(float, ior,                         1.5f, 0, maxFactor)  /* at least 1, or 0: infinite */ \
+    X(float, specular,                    1,    0, 1)    /* the dielectric F90 */               \
+    X(float, transmission,                0,    0, 1)                                           \
+    X(float, thickness,                   0,    0, maxFactor)  /* m in the mesh's space; 0: thin wall */ \
+    /* m; 0: infinite, nothing is absorbed */                                                   \
+    X(float, attenuation_distance,        0,    minAttenuationDistance, maxFactor)              \
+    X(vec3,  attenuation_color,           1,    0, 1)                                           \
+    X(float, dispersion,                  0,    0, maxFactor)  /* 20 / Abbe number */           \
+    X(float, diffuse_transmission,        0,    0, 1)    /* the layer's weight */               \
+    X(vec3,  diffuse_transmission_color,  1,    0, 1)                                           \
+    X(float, clearcoat,                   0,    0, 1)    /* the layer's weight */               \
+    X(float, clearcoat_roughness,         0,    0, 1)    /* perceptual */                       \
+    X(float, clearcoat_normal_scale,      1,    -maxFactor, maxFactor)                          \
+    X(float, anisotropy,                  0,    0, 1)                                           \
+    X(vec3,  sheen_color,                 0,    0, 1)                                           \
+    X(float, sheen_roughness,             0,    0, 1)    /* perceptual */                       \
+    X(float, iridescence,                 0,    0, 1)    /* weight of the thin film */          \
+    X(float, iridescence_ior,             1.3f, 1, maxFactor)           /* of the film */       \
+    X(float, iridescence_thickness_least, 100,  0, maxFilmThickness)    /* of the film, nm */   \
+    X(float, iridescence_thickness_most,  400,  0, maxFilmThickness)
 // clang-format on
 
 CONTRACT_BEGIN
 
-#define DIPTYCH_SLOT_NUMBER(number, name) CONTRACT_CONST(uint, SLOT_##name, number);
+#define DIPTYCH_SLOT_NUMBER(number, name, colors, reads, layer, factor, words) \
+    CONTRACT_CONST(uint, SLOT_##name, number);
 MATERIAL_SLOTS(DIPTYCH_SLOT_NUMBER)
 #undef DIPTYCH_SLOT_NUMBER
-#define DIPTYCH_SLOT_ONE(number, name) +1
+#define DIPTYCH_SLOT_ONE(number, name, colors, reads, layer, factor, words) +1
 CONTRACT_CONST(uint, SLOT_COUNT, 0 MATERIAL_SLOTS(DIPTYCH_SLOT_ONE));
 #undef DIPTYCH_SLOT_ONE
 CONTRACT_CONST(uint, BINDING_MATERIAL, SLOT_COUNT);  // of SET_MATERIAL: uniform Material, after the slots
@@ -59,15 +114,10 @@ CONTRACT_CONST(uint, MASK_COVERS, 2);
 CONTRACT_CONST(uint, TRANSMISSION_COVERED, 1);
 CONTRACT_CONST(uint, TRANSMISSION_WHOLE, 2);
 
-// FEATURE_layers: a sum of the layers of a draw's material, or of a scene's materials.
-CONTRACT_CONST(uint, LAYER_CLEARCOAT, 1);              // KHR_materials_clearcoat
-CONTRACT_CONST(uint, LAYER_ANISOTROPY, 2);             // KHR_materials_anisotropy
-CONTRACT_CONST(uint, LAYER_SHEEN, 4);                  // KHR_materials_sheen
-CONTRACT_CONST(uint, LAYER_IRIDESCENCE, 8);            // KHR_materials_iridescence
-CONTRACT_CONST(uint, LAYER_DIFFUSE_TRANSMISSION, 16);  // KHR_materials_diffuse_transmission
-// KHR_materials_transmission, for a scene's materials alone: no draw has it as a layer and the G-buffer
-// does not store it, because its surfaces are drawn after either path.
-CONTRACT_CONST(uint, LAYER_TRANSMISSION, 32);
+CONTRACT_CONST(uint, LAYER_BASE, 0);
+#define DIPTYCH_LAYER(name, bit, factor) CONTRACT_CONST(uint, LAYER_##name, bit);
+MATERIAL_LAYERS(DIPTYCH_LAYER)
+#undef DIPTYCH_LAYER
 
 // FEATURE_specular_aa filters the screen-space change of the interpolated normal or of the normal-mapped
 // one.
@@ -99,35 +149,13 @@ struct TextureTransform {
 // component c of its diffuse light darker by the fraction (largest F0 - F0_c) / (1 - F0_c), the same for
 // all directions: by 0 for grey F0, and by at most a quarter of `diffuse`.
 struct Material {
-    vec4 base_color;  // linear Rec.709, alpha
-    vec3 emission;    // W/(sr m^2): emissiveFactor x emissiveStrength
-    float metallic;
-    vec3 dielectric_f0;  // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
-    float roughness;     // perceptual; with specular_glossiness, 1 - glossinessFactor
-    float specular;      // KHR_materials_specular: specularFactor, the dielectric F90
-    float normal_scale;
-    float occlusion_strength;
-    float alpha_cutoff;
-    float lightmap_intensity;
-    float ior;           // KHR_materials_ior; 0: infinite
-    float transmission;  // KHR_materials_transmission: transmissionFactor
-    float thickness;     // KHR_materials_volume: m in the mesh's space; 0: thin wall
-    vec3 attenuation_color;
-    float attenuation_distance;  // m; 0: infinite, nothing is absorbed
-    float dispersion;            // KHR_materials_dispersion: 20 / Abbe number
-    float diffuse_transmission;  // KHR_materials_diffuse_transmission: weight, 0 to 1
-    vec3 diffuse_transmission_color;
-    float clearcoat;            // KHR_materials_clearcoat: the layer's weight, 0 to 1
-    float clearcoat_roughness;  // perceptual
-    float clearcoat_normal_scale;
-    float anisotropy;          // KHR_materials_anisotropy: anisotropyStrength, 0 to 1
+#define DIPTYCH_FACTOR(type, name, initially, least, most) type name;
+    MATERIAL_FACTORS(DIPTYCH_FACTOR)
+#undef DIPTYCH_FACTOR
+    vec3 emission;             // W/(sr m^2): emissiveFactor x emissiveStrength
+    vec3 dielectric_f0;        // ((1 - ior) / (1 + ior))^2 x specularColorFactor, before specular and clamp
     vec2 anisotropy_rotation;  // cosine and sine of anisotropyRotation, from tangent to bitangent
-    vec3 sheen_color;          // KHR_materials_sheen
-    float sheen_roughness;     // perceptual
-    float iridescence;         // KHR_materials_iridescence: weight of the thin film, 0 to 1
-    float iridescence_ior;     // of the film
-    float iridescence_thickness_least, iridescence_thickness_most;  // of the film, nm
-    uint second_texcoord;  // bit SLOT_*: the slot reads the second UV set
+    uint second_texcoord;      // bit SLOT_*: the slot reads the second UV set
     TextureTransform transforms[SLOT_COUNT];
     vec4 texels[SLOT_COUNT];  // of slots with TEXEL_CONSTANT, as the device decodes them
 };

@@ -24,7 +24,7 @@ namespace diptych {
 
 namespace {
 
-#define DIPTYCH_SLOT_ROW(number, name) BindingRow{number, #name, binding_kind::image},
+#define DIPTYCH_SLOT_ROW(number, name, ...) BindingRow{number, #name, binding_kind::image},
 constexpr auto setTypes = bindingTypes({MATERIAL_SLOTS(DIPTYCH_SLOT_ROW) BindingRow{
     gpu::BINDING_MATERIAL, "MATERIAL", binding_kind::uniform_buffer}});
 #undef DIPTYCH_SLOT_ROW
@@ -33,7 +33,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
     Variant variant;
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
         if (texels[slot] == 0) continue;
-        const TextureSlot& texture = material.*materialSlots[slot].texture;
+        const TextureSlot& texture = slotOf(material, slot);
         variant.set(slotFeatures[slot], texels[slot]);
         if (texels[slot] != gpu::TEXEL_OWN) continue;  // has no coordinates of its own
         if (texture.texcoord == 1) variant.set(gpu::FEATURE_second_texcoord);
@@ -57,38 +57,15 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
 
 gpu::Material gpuMaterial(const Material& m) {
     gpu::Material g{};
-    g.base_color = m.base_color;
+#define DIPTYCH_COPY(type, name, ...) g.name = m.name;
+    MATERIAL_FACTORS(DIPTYCH_COPY)
+#undef DIPTYCH_COPY
     g.emission = m.emissive;
-    g.metallic = m.metallic;
     const float r = (1 - m.ior) / (1 + m.ior);  // KHR_materials_ior
     g.dielectric_f0 = r * r * m.specular_color;
-    g.roughness = m.roughness;
-    g.specular = m.specular;
-    g.normal_scale = m.normal_scale;
-    g.occlusion_strength = m.occlusion_strength;
-    g.alpha_cutoff = m.alpha_cutoff;
-    g.lightmap_intensity = m.lightmap_intensity;
-    g.ior = m.ior;
-    g.transmission = m.transmission;
-    g.thickness = m.thickness;
-    g.attenuation_color = m.attenuation_color;
-    g.attenuation_distance = m.attenuation_distance;
-    g.dispersion = m.dispersion;
-    g.diffuse_transmission = m.diffuse_transmission;
-    g.diffuse_transmission_color = m.diffuse_transmission_color;
-    g.clearcoat = m.clearcoat;
-    g.clearcoat_roughness = m.clearcoat_roughness;
-    g.clearcoat_normal_scale = m.clearcoat_normal_scale;
-    g.sheen_color = m.sheen_color;
-    g.sheen_roughness = m.sheen_roughness;
-    g.iridescence = m.iridescence;
-    g.iridescence_ior = m.iridescence_ior;
-    g.iridescence_thickness_least = m.iridescence_thickness_least;
-    g.iridescence_thickness_most = m.iridescence_thickness_most;
-    g.anisotropy = m.anisotropy;
     g.anisotropy_rotation = {std::cos(m.anisotropy_rotation), std::sin(m.anisotropy_rotation)};
     for (std::size_t slot = 0; slot < materialSlots.size(); ++slot) {
-        const TextureSlot& texture = m.*materialSlots[slot].texture;
+        const TextureSlot& texture = slotOf(m, slot);
         if (texture.texcoord == 1) g.second_texcoord |= 1u << slot;
         g.transforms[slot] = {glm::vec3(texture.u), glm::vec3(texture.v)};
     }
@@ -137,8 +114,8 @@ void Materials::make(Device& device, Uploader& uploader, const std::vector<Mater
         gpu::Material factors = gpuMaterial(material);
         for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
             if (texels.back()[slot] == gpu::TEXEL_CONSTANT)
-                factors.texels[slot] = textures_->colors.at(
-                    {(material.*materialSlots[slot].texture).texture, materialSlots[slot].srgb});
+                factors.texels[slot] =
+                    textures_->colors.at({slotOf(material, slot).texture, materialSlots[slot].srgb});
         std::memcpy(&data[(variants_.size() - 1) * stride], &factors, sizeof factors);
     }
     buffer_ = makeBuffer<std::byte>(device, uploader, "materials", data, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
@@ -178,8 +155,7 @@ bool Materials::Textures::hasPacked(const Material& material) const {
 
 Materials::Use Materials::Textures::useOf(const Material& material, const SlotTexels& texels,
                                           std::size_t slot) const {
-    Use use{(material.*materialSlots[slot].texture).texture, materialSlots[slot].srgb,
-            texels[slot] == gpu::TEXEL_CONSTANT};
+    Use use{slotOf(material, slot).texture, materialSlots[slot].srgb, texels[slot] == gpu::TEXEL_CONSTANT};
     constexpr std::size_t green = 1, blue = 2;
     if (texels[gpu::SLOT_metallic_roughness] == gpu::TEXEL_ALPHAS &&
         (slot == gpu::SLOT_base_color || slot == gpu::SLOT_normal)) {
@@ -202,8 +178,8 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
     };
     std::map<std::pair<int, std::size_t>, bool> oneColor;  // by image and readLike()
     eachRead(scene, [&](const Material& material, std::size_t slot, bool) {
-        const int texture = (material.*materialSlots[slot].texture).texture;
-        const Texture& read = scene.textures[static_cast<std::size_t>(texture)];
+        const int texture = slotOf(material, slot).texture;
+        const Texture& read = textureOf(scene, slotOf(material, slot));
         const std::size_t like = readLike(material, slot);
         const auto [known, isNew] = oneColor.try_emplace({read.image, like});
         if (isNew) known->second = hasOneColor(scene.images[static_cast<std::size_t>(read.image)], like);
@@ -239,7 +215,7 @@ std::vector<Materials::Use> Materials::chooseImages(const Scene& scene, TextureP
         textures.image_of[use] = entry->second;
     };
     eachRead(scene, [&](const Material& material, std::size_t slot, bool moves) {
-        const int texture = (material.*materialSlots[slot].texture).texture;
+        const int texture = slotOf(material, slot).texture;
         SlotTexels texels{};
         if (textures.one_color.at({texture, readLike(material, slot)})) texels[slot] = gpu::TEXEL_CONSTANT;
         if (precision == TexturePrecision::packed && !moves) {

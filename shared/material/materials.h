@@ -25,7 +25,7 @@
 namespace diptych {
 
 // The feature bit of each slot's texture, indexed by SLOT_*.
-#define DIPTYCH_SLOT_FEATURE(number, name) gpu::FEATURE_##name##_texture,
+#define DIPTYCH_SLOT_FEATURE(number, name, ...) gpu::FEATURE_##name##_texture,
 inline constexpr std::array<gpu::uint, gpu::SLOT_COUNT> slotFeatures{MATERIAL_SLOTS(DIPTYCH_SLOT_FEATURE)};
 #undef DIPTYCH_SLOT_FEATURE
 

@@ -9,37 +9,6 @@ namespace diptych {
 
 namespace {
 
-// Bit c: component c.
-constexpr std::array<unsigned, gpu::SLOT_COUNT> componentsRead = [] {
-    constexpr unsigned red = 1, green = 2, blue = 4, alpha = 8, color = red | green | blue;
-    std::array<unsigned, gpu::SLOT_COUNT> read{};
-    read[gpu::SLOT_base_color] = color | alpha;
-    read[gpu::SLOT_metallic_roughness] = green | blue;
-    read[gpu::SLOT_normal] = color;
-    read[gpu::SLOT_occlusion] = red;
-    read[gpu::SLOT_emissive] = color;
-    read[gpu::SLOT_specular] = alpha;
-    read[gpu::SLOT_specular_color] = color;
-    read[gpu::SLOT_lightmap] = color;
-    read[gpu::SLOT_clearcoat] = red;
-    read[gpu::SLOT_clearcoat_roughness] = green;
-    read[gpu::SLOT_clearcoat_normal] = color;
-    read[gpu::SLOT_anisotropy] = color;
-    read[gpu::SLOT_sheen_color] = color;
-    read[gpu::SLOT_sheen_roughness] = alpha;
-    read[gpu::SLOT_iridescence] = red;
-    read[gpu::SLOT_iridescence_thickness] = green;
-    read[gpu::SLOT_transmission] = red;
-    read[gpu::SLOT_thickness] = green;
-    read[gpu::SLOT_diffuse_transmission] = alpha;
-    read[gpu::SLOT_diffuse_transmission_color] = color;
-    return read;
-}();
-
-const TextureSlot& textureOf(const Material& material, gpu::uint slot) {
-    return material.*materialSlots[slot].texture;
-}
-
 bool sameCoordinates(const TextureSlot& a, const TextureSlot& b) {
     return a.texcoord == b.texcoord && a.u == b.u && a.v == b.v;
 }
@@ -56,7 +25,7 @@ int halvings(const TextureImage& large, const TextureImage& small) {
 bool hasOneColor(const TextureImage& image, std::size_t slot) {
     if (image.rgba.empty()) return false;
     for (std::size_t c = 0; c < 4; ++c) {
-        if ((componentsRead[slot] >> c & 1u) == 0) continue;
+        if ((materialSlots[slot].components >> c & 1u) == 0) continue;
         for (std::size_t i = c; i < image.rgba.size(); i += 4)
             if (image.rgba[i] != image.rgba[c]) return false;
     }
@@ -67,11 +36,11 @@ SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
     SlotTexels texels{};
     for (gpu::uint slot = 0; slot < gpu::SLOT_COUNT; ++slot)
         if (readsSlot(material, slot))
-            texels[slot] = ask.one_color(textureOf(material, slot).texture, readLike(material, slot))
+            texels[slot] = ask.one_color(slotOf(material, slot).texture, readLike(material, slot))
                                ? gpu::TEXEL_CONSTANT
                                : gpu::TEXEL_OWN;
     const auto share = [&](gpu::uint slot, gpu::uint sampled) {
-        const TextureSlot &a = textureOf(material, slot), &b = textureOf(material, sampled);
+        const TextureSlot &a = slotOf(material, slot), &b = slotOf(material, sampled);
         if (texels[slot] == gpu::TEXEL_OWN && texels[sampled] == gpu::TEXEL_OWN && sameCoordinates(a, b) &&
             ask.same_image(a.texture, b.texture))
             texels[slot] = gpu::TEXEL_SHARED;
@@ -94,15 +63,11 @@ bool isPacked(const Material& material, const Scene& scene) {
         std::min({base.texture, normal.texture, read.texture}) < 0 || !sameCoordinates(base, read) ||
         !sameCoordinates(normal, read))
         return false;
-    const auto textureAt = [&](const TextureSlot& slot) -> const Texture& {
-        return scene.textures[static_cast<std::size_t>(slot.texture)];
-    };
-    const auto imageAt = [&](const TextureSlot& slot) -> const TextureImage& {
-        return scene.images[static_cast<std::size_t>(textureAt(slot).image)];
-    };
+    const TextureImage& small = imageOf(scene, read);
     return std::ranges::all_of(std::array{&base, &normal}, [&](const TextureSlot* slot) {
-        return textureAt(*slot).sampler == textureAt(read).sampler && !imageAt(*slot).deep() &&
-               !imageAt(read).deep() && halvings(imageAt(*slot), imageAt(read)) >= 0;
+        const TextureImage& image = imageOf(scene, *slot);
+        return textureOf(scene, *slot).sampler == textureOf(scene, read).sampler && !image.deep() &&
+               !small.deep() && halvings(image, small) >= 0;
     });
 }
 

@@ -14,7 +14,7 @@
 #include "shaders/lib/surface/specular_aa.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
-#define SLOT_TEXTURE(number, name) \
+#define SLOT_TEXTURE(number, name, colors, reads, layer, factor, words) \
     layout(set = SET_MATERIAL, binding = number) uniform sampler2D name##_texture;
 MATERIAL_SLOTS(SLOT_TEXTURE)
 #undef SLOT_TEXTURE

@@ -207,14 +207,19 @@ std::vector<bool> drawnMaterials(const Model& model, std::size_t count, const Sc
     return drawn;
 }
 
+// Calls `use` with the slot and image of each texture of a material.
+template <class Use>
+void forImages(const Scene& scene, const Use& use) {
+    for (const Material& m : scene.materials)
+        for (std::size_t slot = 0; slot < materialSlots.size(); ++slot)
+            if (slotOf(m, slot).texture >= 0)
+                use(slot, static_cast<std::size_t>(textureOf(scene, slotOf(m, slot)).image));
+}
+
 // Keeps only the images that materials read, in the file's order, and updates texture indices.
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
-    for (const Material& m : scene.materials)
-        for (const MaterialSlot& slot : materialSlots)
-            if (const int texture = (m.*slot.texture).texture; texture >= 0)
-                used[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
-                    true;
+    forImages(scene, [&](std::size_t, std::size_t image) { used[image] = true; });
     std::vector<int> placeOf(imageCount, -1);
     for (std::size_t i = 0; i < imageCount; ++i) {
         if (!used[i]) continue;
@@ -265,12 +270,9 @@ void readMaterials(const Model& model, Scene& scene, std::vector<int>& imageOf) 
 
 std::vector<bool> lightmapsAlone(const Scene& scene) {
     std::vector<bool> alone(scene.images.size(), true);
-    for (const Material& m : scene.materials)
-        for (std::size_t i = 0; i < materialSlots.size(); ++i)
-            if (const int texture = (m.*materialSlots[i].texture).texture;
-                texture >= 0 && i != gpu::SLOT_lightmap)
-                alone[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(texture)].image)] =
-                    false;
+    forImages(scene, [&](std::size_t slot, std::size_t image) {
+        if (slot != gpu::SLOT_lightmap) alone[image] = false;
+    });
     return alone;
 }
 

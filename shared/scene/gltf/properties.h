@@ -7,6 +7,7 @@
 #include "shared/contract/material.h"
 #include "shared/scene/model/animated.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -170,16 +171,15 @@ constexpr Property map(std::string_view key, std::size_t slot,
     property.slot = slot;
     return property;
 }
-constexpr Property normalInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                   animated("scale", Part::normal_scale), extensions(infoExtensions)};
-constexpr Property occlusionInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                      animated("strength", Part::occlusion_strength),
-                                      extensions(infoExtensions)};
-constexpr Property coatNormalInfo[] = {required(index("index", "textures")), whole("texCoord"),
-                                       animated("scale", Part::clearcoat_normal_scale),
-                                       extensions(infoExtensions)};
+constexpr std::array<Property, 4> scaledInfo(std::string_view key, Part part) {
+    return {textureInfo[0], textureInfo[1], animated(key, part), textureInfo[2]};
+}
+constexpr auto normalInfo = scaledInfo("scale", Part::normal_scale),
+               occlusionInfo = scaledInfo("strength", Part::occlusion_strength),
+               coatNormalInfo = scaledInfo("scale", Part::clearcoat_normal_scale);
 
-// Materials are read in the order of these tables (material.cpp).
+// Materials are read in the order of these tables (material.cpp). The first factor of an extension that a
+// material may lack is its weight.
 constexpr Property metallicRoughness[] = {
     animated("baseColorFactor", Part::base_color), animated("metallicFactor", Part::metallic),
     animated("roughnessFactor", Part::roughness), map("baseColorTexture", gpu::SLOT_base_color),
@@ -223,11 +223,11 @@ constexpr Property diffuseTransmission[] = {
     animated("diffuseTransmissionColorFactor", Part::diffuse_transmission_color),
     map("diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission),
     map("diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color)};
-constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrength),
-                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
-                                           object("KHR_materials_unlit", {}),
-                                           object("KHR_materials_ior", ior),
+constexpr Property materialExtensions[] = {object("KHR_materials_ior", ior),
                                            object("KHR_materials_specular", specular),
+                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossiness),
+                                           object("KHR_materials_emissive_strength", emissiveStrength),
+                                           object("KHR_materials_unlit", {}),
                                            object("KHR_materials_transmission", transmission),
                                            object("KHR_materials_clearcoat", clearcoat),
                                            object("KHR_materials_anisotropy", anisotropy),

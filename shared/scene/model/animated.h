@@ -35,6 +35,7 @@ struct PartFacts {
 };
 
 constexpr PartFacts factsOf(AnimatedPart part) {
+    using glm::vec3, glm::vec4;
     constexpr double any = std::numeric_limits<float>::max();
     // rad or m: the least extent of a camera or light that float32 can divide by
     constexpr double thin = 1e-6;
@@ -69,46 +70,19 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, thin, glm::pi<double>() - thin};
         case AnimatedPart::camera_near:  // an orthographic camera may have 0
             return {1, 0, any};
-        case AnimatedPart::base_color:
-            return {4, 0, 1};
-        case AnimatedPart::specular_f0:
-        case AnimatedPart::sheen_color:
-        case AnimatedPart::attenuation_color:
-        case AnimatedPart::diffuse_transmission_color:
-            return {3, 0, 1};
+#define DIPTYCH_FACTS(type, name, initially, least, most) \
+    case AnimatedPart::name:                              \
+        return {sizeof(type) / sizeof(float), least, most};
+            MATERIAL_FACTORS(DIPTYCH_FACTS)
+#undef DIPTYCH_FACTS
         case AnimatedPart::emissive:
             return {3, 0, any};
         case AnimatedPart::specular_color:
             return {3, 0, maxFactor};
-        case AnimatedPart::metallic:
-        case AnimatedPart::roughness:
-        case AnimatedPart::occlusion_strength:
-        case AnimatedPart::specular:
-        case AnimatedPart::transmission:
+        case AnimatedPart::specular_f0:
+            return {3, 0, 1};
         case AnimatedPart::glossiness:
-        case AnimatedPart::clearcoat:
-        case AnimatedPart::clearcoat_roughness:
-        case AnimatedPart::anisotropy:
-        case AnimatedPart::sheen_roughness:
-        case AnimatedPart::iridescence:
-        case AnimatedPart::diffuse_transmission:
             return {1, 0, 1};
-        case AnimatedPart::iridescence_ior:
-            return {1, 1, maxFactor};
-        case AnimatedPart::iridescence_thickness_least:
-        case AnimatedPart::iridescence_thickness_most:
-            return {1, 0, maxFilmThickness};
-        case AnimatedPart::normal_scale:
-        case AnimatedPart::clearcoat_normal_scale:
-            return {1, -maxFactor, maxFactor};
-        case AnimatedPart::alpha_cutoff:
-        case AnimatedPart::thickness:
-        case AnimatedPart::dispersion:
-            return {1, 0, maxFactor};
-        case AnimatedPart::attenuation_distance:
-            return {1, minAttenuationDistance, maxFactor};
-        case AnimatedPart::ior:  // valid: 0, or at least 1
-            return {1, 0, maxFactor};
         case AnimatedPart::texture_offset:
         case AnimatedPart::texture_scale:
             return {2, -maxFactor, maxFactor};
@@ -139,24 +113,38 @@ inline void setTransform(TextureSlot& slot, const TextureTransform& t) {
     slot.v = {-s * t.scale.x, c * t.scale.y, t.offset.y};
 }
 
-// Materials that any animation of the scene changes, whether it plays or not.
-inline std::set<int> materialsThatMove(const Scene& scene) {
-    std::set<int> moving;
+// Calls `use` with each channel that changes a material, of all animations, whether they play or not.
+template <class Use>
+void forMaterialChannels(const Scene& scene, const Use& use) {
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
-            if (isMaterialPart(channel.part)) moving.insert(channel.object);
+            if (isMaterialPart(channel.part)) use(channel);
+}
+
+// Materials that any animation changes.
+inline std::set<int> materialsThatMove(const Scene& scene) {
+    std::set<int> moving;
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) { moving.insert(channel.object); });
     return moving;
 }
 
-// For each material, whether it is ever anisotropic, and so needs tangents without any map.
+// For each material, whether `is` is true of it at rest, or an animation changes `part`.
+template <class Is>
+std::vector<bool> materialsThatEver(const Scene& scene, AnimatedPart part, const Is& is) {
+    std::vector<bool> ever;
+    for (const Material& material : scene.materials) ever.push_back(is(material));
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) {
+        if (channel.part == part) ever[static_cast<std::size_t>(channel.object)] = true;
+    });
+    return ever;
+}
+// Whether it is ever anisotropic, and so needs tangents without any map.
 inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
-    std::vector<bool> anisotropic;
-    for (const Material& material : scene.materials) anisotropic.push_back(material.anisotropy > 0);
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.part == AnimatedPart::anisotropy)
-                anisotropic[static_cast<std::size_t>(channel.object)] = true;
-    return anisotropic;
+    return materialsThatEver(scene, AnimatedPart::anisotropy, hasFactor<&Material::anisotropy>);
+}
+// Whether it ever blends; an animation may make it transmit light.
+inline std::vector<bool> materialsThatBlend(const Scene& scene) {
+    return materialsThatEver(scene, AnimatedPart::transmission, blends);
 }
 
 // For each material, whether an animation rotates, scales or mirrors a map for which `counts(material,
@@ -164,13 +152,12 @@ inline std::vector<bool> materialsWithAnisotropy(const Scene& scene) {
 template <class Counts>
 std::vector<bool> mapsThatTurn(const Scene& scene, const Counts& counts) {
     std::vector<bool> turns(scene.materials.size(), false);
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if ((channel.part == AnimatedPart::texture_rotation ||
-                 channel.part == AnimatedPart::texture_scale) &&
-                counts(scene.materials[static_cast<std::size_t>(channel.object)],
-                       static_cast<std::size_t>(channel.element)))
-                turns[static_cast<std::size_t>(channel.object)] = true;
+    forMaterialChannels(scene, [&](const AnimationChannel& channel) {
+        const auto object = static_cast<std::size_t>(channel.object);
+        if ((channel.part == AnimatedPart::texture_rotation || channel.part == AnimatedPart::texture_scale) &&
+            counts(scene.materials[object], static_cast<std::size_t>(channel.element)))
+            turns[object] = true;
+    });
     return turns;
 }
 // Its tangentMap().
@@ -184,22 +171,10 @@ inline std::vector<bool> layerMapsThatTurn(const Scene& scene) {
     });
 }
 
-// For each material, whether it ever blends; an animation may make it transmit light.
-inline std::vector<bool> materialsThatBlend(const Scene& scene) {
-    std::vector<bool> blended;
-    for (const Material& material : scene.materials) blended.push_back(blends(material));
-    for (const Animation& animation : scene.animations)
-        for (const AnimationChannel& channel : animation.channels)
-            if (channel.part == AnimatedPart::transmission)
-                blended[static_cast<std::size_t>(channel.object)] = true;
-    return blended;
-}
-
 // readsSlot() at any time of an animation, if the material `moves`.
 inline bool mayReadSlot(const Material& material, std::size_t slot, bool moves) {
     if (!moves) return readsSlot(material, slot);
-    return (material.*materialSlots[slot].texture).texture >= 0 &&
-           (!material.unlit || slot == gpu::SLOT_base_color);
+    return slotOf(material, slot).texture >= 0 && (!material.unlit || slot == gpu::SLOT_base_color);
 }
 
 }  // namespace diptych

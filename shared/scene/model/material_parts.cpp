@@ -11,65 +11,45 @@ namespace diptych {
 
 namespace {
 
-glm::vec3 rgb(std::span<const double> v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+void set(float& member, std::span<const double> v) {
+    member = static_cast<float>(v[0]);
+}
+template <int N>
+void set(glm::vec<N, float>& member, std::span<const double> v) {
+    for (int c = 0; c < N; ++c) member[c] = static_cast<float>(v[static_cast<std::size_t>(c)]);
 }
 
-// Properties that are members of Material.
-template <class Value>
-struct MaterialMember {
-    AnimatedPart part;
-    Value Material::*member;
-};
-constexpr MaterialMember<float> materialNumbers[] = {
-    {AnimatedPart::metallic, &Material::metallic},
-    {AnimatedPart::roughness, &Material::roughness},
-    {AnimatedPart::normal_scale, &Material::normal_scale},
-    {AnimatedPart::occlusion_strength, &Material::occlusion_strength},
-    {AnimatedPart::alpha_cutoff, &Material::alpha_cutoff},
-    {AnimatedPart::specular, &Material::specular},
-    {AnimatedPart::transmission, &Material::transmission},
-    {AnimatedPart::clearcoat, &Material::clearcoat},
-    {AnimatedPart::clearcoat_roughness, &Material::clearcoat_roughness},
-    {AnimatedPart::clearcoat_normal_scale, &Material::clearcoat_normal_scale},
-    {AnimatedPart::anisotropy, &Material::anisotropy},
-    {AnimatedPart::anisotropy_rotation, &Material::anisotropy_rotation},
-    {AnimatedPart::sheen_roughness, &Material::sheen_roughness},
-    {AnimatedPart::iridescence, &Material::iridescence},
-    {AnimatedPart::iridescence_ior, &Material::iridescence_ior},
-    {AnimatedPart::iridescence_thickness_least, &Material::iridescence_thickness_least},
-    {AnimatedPart::iridescence_thickness_most, &Material::iridescence_thickness_most},
-    {AnimatedPart::thickness, &Material::thickness},
-    {AnimatedPart::attenuation_distance, &Material::attenuation_distance},
-    {AnimatedPart::dispersion, &Material::dispersion},
-    {AnimatedPart::diffuse_transmission, &Material::diffuse_transmission},
-};
-constexpr MaterialMember<glm::vec3> materialColors[] = {
-    {AnimatedPart::specular_color, &Material::specular_color},
-    {AnimatedPart::specular_f0, &Material::specular_color},
-    {AnimatedPart::sheen_color, &Material::sheen_color},
-    {AnimatedPart::attenuation_color, &Material::attenuation_color},
-    {AnimatedPart::diffuse_transmission_color, &Material::diffuse_transmission_color},
-};
+std::vector<double> valuesOf(float member) {
+    return {double{member}};
+}
+template <int N>
+std::vector<double> valuesOf(const glm::vec<N, float>& member) {
+    return {&member.x, &member.x + N};
+}
 
 }  // namespace
 
 void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t slot,
              std::span<const double> v) {
-    const auto number = static_cast<float>(v[0]);
     const auto emit = [&] {
         constexpr double most = std::numeric_limits<float>::max();
         for (int c = 0; c < 3; ++c)
             m.emissive[c] = static_cast<float>(std::min(parts.emissive[c] * parts.emissive_strength, most));
     };
     const auto place = [&] { setTransform(m.*materialSlots[slot].texture, parts.transforms[slot]); };
-    for (const auto& row : materialNumbers)
-        if (row.part == part) m.*row.member = number;
-    for (const auto& row : materialColors)
-        if (row.part == part) m.*row.member = rgb(v);
     switch (part) {
-        case AnimatedPart::base_color:
-            m.base_color = glm::vec4(rgb(v), static_cast<float>(v[3]));
+#define DIPTYCH_SET(type, name, ...) \
+    case AnimatedPart::name:         \
+        set(m.name, v);              \
+        break;
+        MATERIAL_FACTORS(DIPTYCH_SET)
+#undef DIPTYCH_SET
+        case AnimatedPart::specular_color:
+        case AnimatedPart::specular_f0:
+            set(m.specular_color, v);
+            break;
+        case AnimatedPart::anisotropy_rotation:
+            set(m.anisotropy_rotation, v);
             break;
         case AnimatedPart::emissive:
             parts.emissive = {v[0], v[1], v[2]};
@@ -78,9 +58,6 @@ void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t s
         case AnimatedPart::emissive_strength:
             parts.emissive_strength = v[0];
             emit();
-            break;
-        case AnimatedPart::ior:
-            m.ior = number == 0 ? 0 : std::max(number, 1.0f);
             break;
         case AnimatedPart::glossiness:
             m.roughness = static_cast<float>(1 - v[0]);
@@ -97,8 +74,30 @@ void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t s
             parts.transforms[slot].scale = {v[0], v[1]};
             place();
             break;
-        default:  // above, or parts of nodes, lights and cameras
+        default:  // parts of nodes, lights and cameras
             break;
+    }
+    if (part == AnimatedPart::ior && m.ior != 0) m.ior = std::max(m.ior, 1.0f);
+}
+
+std::vector<double> partOf(const Material& m, AnimatedPart part) {
+    switch (part) {
+#define DIPTYCH_GET(type, name, ...) \
+    case AnimatedPart::name:         \
+        return valuesOf(m.name);
+        MATERIAL_FACTORS(DIPTYCH_GET)
+#undef DIPTYCH_GET
+        case AnimatedPart::emissive:
+            return valuesOf(m.emissive);
+        case AnimatedPart::specular_color:
+        case AnimatedPart::specular_f0:
+            return valuesOf(m.specular_color);
+        case AnimatedPart::anisotropy_rotation:
+            return valuesOf(m.anisotropy_rotation);
+        case AnimatedPart::glossiness:
+            return {1 - double{m.roughness}};
+        default:
+            return {1};
     }
 }
 

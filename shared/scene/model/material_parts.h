@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace diptych {
 
@@ -14,5 +15,8 @@ namespace diptych {
 // from them. Ignores parts of other objects.
 void setPart(Material& material, MaterialParts& parts, AnimatedPart part, std::size_t slot,
              std::span<const double> value);
+
+// The value of a factor as glTF has it, with a strength of 1. `part`: none of a texture's transform.
+std::vector<double> partOf(const Material& material, AnimatedPart part);
 
 }  // namespace diptych

@@ -12,33 +12,37 @@
 
 namespace diptych {
 
+// Words of MATERIAL_SLOTS for a texel: bit c of a sum is component c.
+namespace texel {
+inline constexpr bool linear = false, srgb = true;
+inline constexpr unsigned r = 1, g = 2, b = 4, a = 8, rg = r | g, gb = g | b, rgb = rg | b, rgba = rgb | a;
+}  // namespace texel
+
 struct MaterialSlot {
     TextureSlot Material::*texture;
-    bool srgb;  // colour components are sRGB-encoded; alpha is always linear
+    bool srgb;                           // colour components are sRGB-encoded; alpha is always linear
+    unsigned components;                 // that have an effect
+    std::uint32_t layer;                 // LAYER_* without which none has
+    bool (*hasFactor)(const Material&);  // whether it is not 0
+    const char* words;                   // its name in messages
 };
 
-constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{{
-    {&Material::base_color_texture, true},
-    {&Material::metallic_roughness_texture, false},
-    {&Material::normal_texture, false},
-    {&Material::occlusion_texture, false},
-    {&Material::emissive_texture, true},
-    {&Material::specular_texture, false},
-    {&Material::specular_color_texture, true},
-    {&Material::lightmap_texture, true},
-    {&Material::clearcoat_texture, false},
-    {&Material::clearcoat_roughness_texture, false},
-    {&Material::clearcoat_normal_texture, false},
-    {&Material::anisotropy_texture, false},
-    {&Material::sheen_color_texture, true},
-    {&Material::sheen_roughness_texture, true},  // alpha, often of the colour's image
-    {&Material::iridescence_texture, false},
-    {&Material::iridescence_thickness_texture, false},
-    {&Material::transmission_texture, false},
-    {&Material::thickness_texture, false},
-    {&Material::diffuse_transmission_texture, true},  // alpha, often of the colour's image
-    {&Material::diffuse_transmission_color_texture, true},
-}};
+#define DIPTYCH_SLOT(number, name, colors, reads, layer, factor, words)                         \
+    MaterialSlot{&Material::name##_texture,    texel::colors, texel::reads, gpu::LAYER_##layer, \
+                 hasFactor<&Material::factor>, words},
+inline constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIAL_SLOTS(DIPTYCH_SLOT)};
+#undef DIPTYCH_SLOT
+
+inline const TextureSlot& slotOf(const Material& material, std::size_t slot) {
+    return material.*materialSlots[slot].texture;
+}
+// Of a slot that has one.
+inline const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.textures[static_cast<std::size_t>(slot.texture)];
+}
+inline const TextureImage& imageOf(const Scene& scene, const TextureSlot& slot) {
+    return scene.images[static_cast<std::size_t>(textureOf(scene, slot).image)];
+}
 
 // Whether what KHR_materials_volume absorbs colours diffuse transmission.
 inline bool diffusesThroughVolume(const Material& m) {
@@ -49,37 +53,19 @@ inline bool diffusesThroughVolume(const Material& m) {
 // Whether the slot's texture can change a pixel: its factor is not zero, and the material is not unlit, or
 // this is the base colour.
 inline bool readsSlot(const Material& material, std::size_t slot) {
-    if ((material.*materialSlots[slot].texture).texture < 0) return false;
+    if (slotOf(material, slot).texture < 0) return false;
     if (material.unlit) return slot == gpu::SLOT_base_color;
+    const std::uint32_t layer = materialSlots[slot].layer;
+    if (layer != gpu::LAYER_BASE && (layersOf(material) & layer) == 0) return false;
     switch (slot) {
         case gpu::SLOT_normal:
-            return material.normal_scale != 0;
         case gpu::SLOT_occlusion:
-            return material.occlusion_strength != 0;
         case gpu::SLOT_emissive:
-            return material.emissive != glm::vec3(0);
         case gpu::SLOT_lightmap:
-            return material.lightmap_intensity != 0;
-        case gpu::SLOT_clearcoat:
-        case gpu::SLOT_clearcoat_roughness:
-            return material.clearcoat != 0;
         case gpu::SLOT_clearcoat_normal:
-            return material.clearcoat != 0 && material.clearcoat_normal_scale != 0;
-        case gpu::SLOT_anisotropy:
-            return material.anisotropy != 0;
-        case gpu::SLOT_sheen_color:
-        case gpu::SLOT_sheen_roughness:
-            return material.sheen_color != glm::vec3(0);
-        case gpu::SLOT_iridescence:
-        case gpu::SLOT_iridescence_thickness:
-            return material.iridescence != 0;
-        case gpu::SLOT_transmission:
-            return material.transmission != 0;
+            return materialSlots[slot].hasFactor(material);
         case gpu::SLOT_thickness:
             return (material.transmission != 0 && material.thickness != 0) || diffusesThroughVolume(material);
-        case gpu::SLOT_diffuse_transmission:
-        case gpu::SLOT_diffuse_transmission_color:
-            return material.diffuse_transmission != 0;
         default:
             return true;
     }
@@ -89,12 +75,12 @@ inline bool readsSlot(const Material& material, std::size_t slot) {
 // as it is. Animation never changes it.
 inline std::size_t tangentSlot(const Material& material) {
     for (const std::size_t slot : {gpu::SLOT_normal, gpu::SLOT_clearcoat_normal, gpu::SLOT_anisotropy})
-        if ((material.*materialSlots[slot].texture).texture >= 0) return slot;
+        if (slotOf(material, slot).texture >= 0) return slot;
     return gpu::SLOT_COUNT;
 }
 inline TextureSlot tangentMap(const Material& material) {
     const std::size_t slot = tangentSlot(material);
-    return slot == gpu::SLOT_COUNT ? TextureSlot{} : material.*materialSlots[slot].texture;
+    return slot == gpu::SLOT_COUNT ? TextureSlot{} : slotOf(material, slot);
 }
 
 // Whether tangents of both maps agree on every surface: the transforms differ by an offset or by positive

@@ -3,6 +3,8 @@
 // validated all of it: indices are valid, numbers finite, and array lengths agree.
 #pragma once
 
+#include "shared/contract/material.h"
+
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/vector_uint4_sized.hpp>
 #include <glm/mat4x4.hpp>
@@ -112,37 +114,17 @@ enum class AnimatedPart {
     camera_xmag,
     camera_near,
     camera_far,
-    base_color,
-    metallic,
-    roughness,
+// clang-format off
+#define DIPTYCH_PART(type, name, ...) name,
+    MATERIAL_FACTORS(DIPTYCH_PART)
+#undef DIPTYCH_PART
     emissive,  // factor without the strength
+    // clang-format on
     emissive_strength,
-    normal_scale,
-    occlusion_strength,
-    alpha_cutoff,
-    ior,
-    specular,
     specular_color,
-    transmission,
     specular_f0,  // KHR_materials_pbrSpecularGlossiness: specularFactor
     glossiness,
-    clearcoat,
-    clearcoat_roughness,
-    clearcoat_normal_scale,
-    anisotropy,
     anisotropy_rotation,
-    sheen_color,
-    sheen_roughness,
-    iridescence,
-    iridescence_ior,
-    iridescence_thickness_least,
-    iridescence_thickness_most,
-    thickness,
-    attenuation_distance,
-    attenuation_color,
-    dispersion,
-    diffuse_transmission,
-    diffuse_transmission_color,
     texture_offset,  // KHR_texture_transform of one slot
     texture_rotation,
     texture_scale

@@ -22,6 +22,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace diptych {
@@ -75,41 +76,25 @@ struct TextureTransform {
 enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
+    using vec3 = glm::vec3;
+    using vec4 = glm::vec4;
+
     std::string name;
-    glm::vec4 base_color{1, 1, 1, 1};  // linear Rec.709
-    float metallic = 1, roughness = 1;
-    glm::vec3 emissive{0, 0, 0};  // W/(sr m^2), includes KHR_materials_emissive_strength
-    float normal_scale = 1, occlusion_strength = 1;
-    float ior = 1.5f;    // KHR_materials_ior; 0: infinite, everything is reflected
-    float specular = 1;  // KHR_materials_specular
-    glm::vec3 specular_color{1, 1, 1};
-    float lightmap_intensity = 1;  // see contract/material.h
-    float transmission = 0;        // KHR_materials_transmission
-    // KHR_materials_volume: m in the mesh's space, 0: thin wall; distance in m, 0: infinite
-    float thickness = 0, attenuation_distance = 0;
-    glm::vec3 attenuation_color{1, 1, 1};
-    float dispersion = 0;            // KHR_materials_dispersion: 20 / Abbe number
-    float diffuse_transmission = 0;  // KHR_materials_diffuse_transmission
-    glm::vec3 diffuse_transmission_color{1, 1, 1};
-    float clearcoat = 0, clearcoat_roughness = 0, clearcoat_normal_scale = 1;  // KHR_materials_clearcoat
-    float anisotropy = 0, anisotropy_rotation = 0;  // KHR_materials_anisotropy; rad, tangent to bitangent
-    glm::vec3 sheen_color{0, 0, 0};                 // KHR_materials_sheen
-    float sheen_roughness = 0;
-    float iridescence = 0, iridescence_ior = 1.3f;                              // KHR_materials_iridescence
-    float iridescence_thickness_least = 100, iridescence_thickness_most = 400;  // nm
+#define DIPTYCH_FACTOR(type, name, initially, ...) type name{initially};
+    MATERIAL_FACTORS(DIPTYCH_FACTOR)
+#undef DIPTYCH_FACTOR
+    vec3 emissive{0};               // W/(sr m^2), includes KHR_materials_emissive_strength
+    vec3 specular_color{1};         // KHR_materials_specular
+    float anisotropy_rotation = 0;  // rad, tangent to bitangent
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;
     bool double_sided = false;
     bool unlit = false;  // KHR_materials_unlit: uses only base colour, alpha and double_sided
     // KHR_materials_pbrSpecularGlossiness: base_color is diffuse, specular_color F0 (ior is 0, metallic 0),
     // roughness 1 - glossiness; see contract/material.h.
     bool specular_glossiness = false;
-    // In the order of SLOT_* in contract/material.h.
-    TextureSlot base_color_texture, metallic_roughness_texture, normal_texture, occlusion_texture,
-        emissive_texture, specular_texture, specular_color_texture, lightmap_texture, clearcoat_texture,
-        clearcoat_roughness_texture, clearcoat_normal_texture, anisotropy_texture, sheen_color_texture,
-        sheen_roughness_texture, iridescence_texture, iridescence_thickness_texture, transmission_texture,
-        thickness_texture, diffuse_transmission_texture, diffuse_transmission_color_texture;
+#define DIPTYCH_TEXTURE(number, name, ...) TextureSlot name##_texture;
+    MATERIAL_SLOTS(DIPTYCH_TEXTURE)
+#undef DIPTYCH_TEXTURE
 };
 
 // Values that Material stores combined, split into the parts that animations replace.
@@ -129,14 +114,20 @@ inline bool blends(const Material& m) {
     return m.alpha_mode == AlphaMode::blend || transmits(m);
 }
 
+// Whether a factor is not 0.
+template <auto factor>
+bool hasFactor(const Material& m) {
+    return m.*factor != std::remove_cvref_t<decltype(m.*factor)>(0);
+}
+
 // A sum of LAYER_* of contract/material.h.
 inline std::uint32_t layersOf(const Material& m) {
-    if (m.unlit) return 0;
-    return (m.clearcoat > 0 ? gpu::LAYER_CLEARCOAT : 0) | (m.anisotropy > 0 ? gpu::LAYER_ANISOTROPY : 0) |
-           (m.sheen_color != glm::vec3(0) ? gpu::LAYER_SHEEN : 0) |
-           (m.iridescence > 0 ? gpu::LAYER_IRIDESCENCE : 0) |
-           (m.diffuse_transmission > 0 ? gpu::LAYER_DIFFUSE_TRANSMISSION : 0) |
-           (transmits(m) ? gpu::LAYER_TRANSMISSION : 0);
+    std::uint32_t layers = gpu::LAYER_BASE;
+#define DIPTYCH_LAYER(name, bit, factor) \
+    if (!m.unlit && hasFactor<&Material::factor>(m)) layers |= gpu::LAYER_##name;
+    MATERIAL_LAYERS(DIPTYCH_LAYER)
+#undef DIPTYCH_LAYER
+    return layers;
 }
 
 // Triangles, front faces counter-clockwise. Every attribute array is empty or as long as positions. After

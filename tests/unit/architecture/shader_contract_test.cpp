@@ -236,7 +236,7 @@ std::vector<Declared> bindingTables() {
     }
 #undef ROW
     const auto table = add(gpu::SET_MATERIAL, false);
-#define SLOT(number, name) table(#name, number, Kind::image);
+#define SLOT(number, name, ...) table(#name, number, Kind::image);
     MATERIAL_SLOTS(SLOT)
 #undef SLOT
     table("MATERIAL", gpu::BINDING_MATERIAL, Kind::uniform_buffer);
