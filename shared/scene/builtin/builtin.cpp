@@ -31,8 +31,8 @@ using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 struct Row {
     std::string_view name, shows;
     bool for_tests;
-    Scene (*make)();
-    Scene (*makeWith)(Numbers) = nullptr;
+    void (*make)(Builder&);
+    void (*makeWith)(Builder&, Numbers) = nullptr;
     std::span<const Parameter> parameters = {};
     double (*bytes)(Numbers) = nullptr;  // estimated memory (rig.h: lightBytes)
 };
@@ -61,7 +61,7 @@ constexpr std::array ROWS{
     Row{"gallery", "sculpture hall in the evening: every kind of material, about 70 lights (the default)",
         PICTURE, builtin::gallery},
     Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", PICTURE, nullptr,
-        [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters,
+        [](Builder& b, Numbers n) { builtin::spheres(b, n[0]); }, sphereParameters,
         [](Numbers n) { return lightBytes * n[0]; }},
     Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", PICTURE,
         builtin::furnace},
@@ -126,14 +126,14 @@ constexpr std::array ROWS{
     Row{"unlit", "no lights and no emission, with a camera", TEST, builtin::unlit},
     Row{"array", "any number of objects, triangles, meshes, materials and textures: growth of frame time",
         TEST, nullptr,
-        [](Numbers n) {
-            return builtin::array({n[0], n[1], n[2], n[3], n[4]});
+        [](Builder& b, Numbers n) {
+            builtin::array(b, {n[0], n[1], n[2], n[3], n[4]});
         },
         arrayParameters, arrayBytes},
     Row{"covered", "a wall of tiles, N % of them coated, woven, brushed or glass: cost of layers", TEST,
         nullptr,
-        [](Numbers n) {
-            return builtin::covered({n[0], n[1], n[2], n[3]}, n[4]);
+        [](Builder& b, Numbers n) {
+            builtin::covered(b, {n[0], n[1], n[2], n[3]}, n[4]);
         },
         coveredParameters, [](Numbers n) { return lightBytes * n[4]; }},
 };
@@ -219,9 +219,13 @@ Scene makeBuiltin(const std::string& name) {
     const Row& row = rowOf(name);
     const std::vector<std::uint32_t> numbers = numbersOf(name, row);
     if (row.bytes) checkMemory("builtin:" + name, builtinBytes(name), "smaller numbers need less");
-    Scene scene = row.makeWith ? row.makeWith(numbers) : row.make();
-    scene.name = "builtin:" + name;
-    return scene;
+    Builder b;
+    if (row.makeWith)
+        row.makeWith(b, numbers);
+    else
+        row.make(b);
+    b.scene.name = "builtin:" + name;
+    return std::move(b.scene);
 }
 
 }  // namespace diptych

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The test scene of animation: joints, morph targets, nodes and lights, over the first two seconds.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 #include "shared/scene/model/tangents.h"
@@ -205,9 +204,9 @@ int addFlag(Stage& b) {
     constexpr AnimatedPart R = AnimatedPart::rotation;
     const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     const int cloth = b.material("flag", {{0.8f, 0.15f, 0.1f}, 0, 0.7f});
-    b.scene.materials.back().base_color.a = 0.6f;
-    b.scene.materials.back().alpha_mode = AlphaMode::blend;
-    b.scene.materials.back().double_sided = true;
+    b.last().base_color.a = 0.6f;
+    b.last().alpha_mode = AlphaMode::blend;
+    b.last().double_sided = true;
     const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * rotated(-90, Z));  // its +Y points to the right
     const int flag = b.addChain("flag", 3, 0.45, pole);
     const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
@@ -251,7 +250,7 @@ void addSurroundings(Stage& b, int box) {
 // a mirrored root; twisting facets; and a translucent flag. In front: a bending leaf, and a sliding box
 // that casts a shadow. The flag's mesh is a child of the box in the node tree, which must not move it. A
 // light circles above.
-Scene motion() {
+void motion(Builder& builder) {
     constexpr AnimatedPart R = AnimatedPart::rotation, S = AnimatedPart::scale, W = AnimatedPart::weights;
     constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
                             cubic = Interpolation::cubic_spline;
@@ -262,7 +261,7 @@ Scene motion() {
     const TextureSlot weave = b.texture(normalMap("weave", weaveHeights(64), 8), 3);
 
     const int ground = b.material("floor", {glm::vec3(0.55f), 0, 0.7f});
-    b.add("floor", quad({-4.5, 0, 2.6}, {9, 0, 0}, {0, 0, -4.4}), ground, glm::dvec3(0));
+    b.add("floor", quad({-4.5, 0, 2.6}, {9, 0, 0}, {0, 0, -4.4}), ground);
 
     const int clay = b.material("clay", {{0.75f, 0.4f, 0.25f}, 0, 0.5f});
     const int bones = b.addChain("bone", 2, 0.7, b.addNode("column root", -1, at(-3.3, 0, 0)));
@@ -273,13 +272,13 @@ Scene motion() {
     addTentacle(b);
 
     const int porcelain = b.material("ball", {glm::vec3(1), 0, 0.4f});
-    b.scene.materials.back().normal_texture = weave;
+    b.last().normal_texture = weave;
     const int ball = b.addMorphed("ball", morphingBall(weave), porcelain, {-0.8, 0.6, 0});
     b.animate(figures, ball, W, cubic, {0, 1, 2},
               {{0, 0}, {0, 0}, {2, 1}, {0, 0}, {1, 0.5f}, {0, 1}, {0, 0}, {0.25f, 1}, {0, 0}});
 
     const int bark = b.material("mirrored column", {{0.5f, 0.45f, 0.6f}, 0, 0.45f});
-    b.scene.materials.back().normal_texture = weave;
+    b.last().normal_texture = weave;
     const int mirror = b.addNode("mirrored root", -1, at(0.5, 0, 0) * scaled(-1, 1, 1));
     const int mirrored = b.addChain("mirrored bone", 2, 0.7, mirror);
     b.addSkinned("mirrored column", bound(column(0.25, 1.4, 12), 2, 1, upperOfTwo), bark, mirrored);
@@ -292,14 +291,14 @@ Scene motion() {
     const int box = addFlag(b);
 
     const int green = b.material("leaf", {glm::vec3(1), 0, 0.6f});
-    b.scene.materials.back().base_color_texture = b.texture(leaf("leaf", 64));
-    b.scene.materials.back().alpha_mode = AlphaMode::mask;
-    b.scene.materials.back().double_sided = true;
+    b.last().base_color_texture = b.texture(leaf("leaf", 64));
+    b.last().alpha_mode = AlphaMode::mask;
+    b.last().double_sided = true;
     const int bending = b.addMorphed("leaf", bendingLeaf(), green, {1.1, 0, 1.3});
     b.animate(figures, bending, W, linear, {0, 1, 2}, {{0}, {1.2f}, {-0.6f}});
     addSurroundings(b, box);
     b.sun({-0.5, -1.2, -0.8}, {0.9f, 0.95f, 1}, 2.5f);
-    return std::move(b.scene);
+    builder.scene = std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

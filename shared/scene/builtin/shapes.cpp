@@ -312,6 +312,11 @@ Primitive scaleTexcoords(Primitive shape, double u, double v) {
     return shape;
 }
 
+Primitive withTurnedSet(Primitive shape) {
+    for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
+    return shape;
+}
+
 Primitive paint(Primitive shape, const std::function<glm::vec4(const glm::vec3& position)>& color) {
     shape.colors.clear();
     for (const glm::vec3& p : shape.positions) shape.colors.push_back(color(p));
