@@ -2,7 +2,7 @@
 #include "shared/scene/gltf/animation_pointer.h"
 
 #include "shared/scene/gltf/model.h"
-#include "shared/scene/gltf/motion_budget.h"
+#include "shared/scene/gltf/motion.h"
 #include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"

@@ -6,7 +6,6 @@
 #include "shared/scene/motion/animation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <compare>
 #include <limits>
 #include <map>
