@@ -98,8 +98,7 @@ constexpr std::array dracoTypes{
 
 template <class Key>
 const Type* typeOf(Key Type::*member, Key key) {
-    const auto at =
-        std::find_if(dracoTypes.begin(), dracoTypes.end(), [&](const Type& t) { return t.*member == key; });
+    const auto at = std::ranges::find(dracoTypes, key, member);
     return at == dracoTypes.end() ? nullptr : at;
 }
 

@@ -95,12 +95,10 @@ void readInstancing(const MotionSource& source) {
         if (sceneNode[n] < 0 || !e) continue;
         Node& node = source.nodeOf(n);
         const std::string who = fmt::format("node {}: EXT_mesh_gpu_instancing", n);
-        if (node.mesh < 0) {
-            scene.notes.push_back(who + ": the node has no mesh: left out");
-            continue;
-        }
-        if (node.skin >= 0) {
-            scene.notes.push_back(who + ": its mesh is skinned, so nodes do not move it: drawn once");
+        if (node.mesh < 0 || node.skin >= 0) {
+            scene.notes.push_back(who + (node.mesh < 0
+                                             ? ": the node has no mesh: left out"
+                                             : ": its mesh is skinned, so nodes do not move it: drawn once"));
             continue;
         }
         const Attributes attributes{model, (*e)["attributes"], who};

@@ -55,16 +55,10 @@ bool isWhole(const Json& value) {
 
 // Formats a value for messages.
 std::string quoted(const Json& value) {
-    switch (value.type()) {
-        case Json::value_t::object:
-            return "an object";
-        case Json::value_t::array:
-            return "an array";
-        case Json::value_t::string:
-            return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
-        default:
-            return value.dump();
-    }
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "an array";
+    if (value.is_string()) return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
+    return value.dump();
 }
 
 class Walk {
