@@ -2,6 +2,7 @@
 // A wall of equal tiles with layered materials on chosen shares of it. Shows what drawing a layer costs.
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 namespace diptych::builtin {
@@ -67,7 +67,7 @@ void addLights(Builder& b, std::uint32_t lights) {
 void covered(Builder& b, const CoverShares& shares, std::uint32_t lights) {
     const std::uint32_t percent = shares.coated + shares.woven + shares.brushed + shares.glass;
     if (percent > 100)
-        throw std::runtime_error(fmt::format(
+        fail(fmt::format(
             "builtin:covered: coated, woven, brushed and glass are {} % together; they take up to 100",
             percent));
 

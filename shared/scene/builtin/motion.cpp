@@ -3,6 +3,7 @@
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 #include "shared/scene/model/tangents.h"
+#include "shared/scene/motion/animation.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -34,11 +35,7 @@ class Stage : public Builder {
 public:
     // Adds a node that animations move.
     int addMover(const std::string& name, const Transform& transform, int parent = -1) {
-        const int node =
-            addNode(name, -1,
-                    glm::translate(glm::dmat4(1), transform.translation) *
-                        glm::mat4_cast(transform.rotation) * glm::scale(glm::dmat4(1), transform.scale),
-                    parent);
+        const int node = addNode(name, -1, matrixOf(transform), parent);
         scene.nodes.back().transform = static_cast<int>(scene.transforms.size());
         scene.transforms.push_back(transform);
         return node;
@@ -176,12 +173,15 @@ Primitive bendingLeaf() {
     return leaf;
 }
 
-// Animations of the scene.
+// Animations of the scene, and what they use.
 constexpr int figures = 0, surroundings = 1;
+constexpr AnimatedPart T = AnimatedPart::translation, R = AnimatedPart::rotation, S = AnimatedPart::scale,
+                       W = AnimatedPart::weights;
+constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
+                        cubic = Interpolation::cubic_spline;
+constexpr glm::dvec3 X(1, 0, 0), Y(0, 1, 0), Z(0, 0, 1);
 
 void addTentacle(Stage& b) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     const int skin = b.material("tentacle", {{0.3f, 0.55f, 0.4f}, 0, 0.35f});
     const int tentacle = b.addChain("tentacle", 8, 0.2, b.addNode("tentacle root", -1, at(-2.1, 0, 0)));
     b.addSkinned("tentacle",
@@ -193,14 +193,12 @@ void addTentacle(Stage& b) {
                  skin, tentacle);
     for (std::size_t j = 1; j < 8; ++j)
         b.animate(
-            figures, b.joint(tentacle, j), R, Interpolation::cubic_spline, {0, 2},
+            figures, b.joint(tentacle, j), R, cubic, {0, 2},
             {{0, 0, 0, 0}, rotation(0, Z), {0, 0, 0.5f, 0}, {0.5f, 0, 0, 0}, rotation(22, X), {0, 0, 0, 0}});
 }
 
 // Returns the box, to which the flag's mesh belongs.
 int addFlag(Stage& b) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     const int cloth = b.material("flag", {{0.8f, 0.15f, 0.1f}, 0, 0.7f});
     b.last().base_color.a = 0.6f;
     b.last().alpha_mode = AlphaMode::blend;
@@ -218,7 +216,7 @@ int addFlag(Stage& b) {
                  cloth, flag, box);
     for (std::size_t j = 0; j < 3; ++j)
         b.animate(
-            figures, b.joint(flag, j), R, Interpolation::linear, {0, 0.5f, 1, 1.5f, 2},
+            figures, b.joint(flag, j), R, linear, {0, 0.5f, 1, 1.5f, 2},
             {rotation(j == 1 ? 40 : -30, X), rotation(j == 1 ? -25 : 20, X), rotation(j == 1 ? -40 : 30, X),
              rotation(j == 1 ? 25 : -20, X), rotation(j == 1 ? 40 : -30, X)});
     return box;
@@ -226,10 +224,7 @@ int addFlag(Stage& b) {
 
 // The sliding box, and a light that circles above.
 void addSurroundings(Stage& b, int box) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    constexpr Interpolation linear = Interpolation::linear;
-    const glm::dvec3 Y(0, 1, 0);
-    b.animate(surroundings, box, AnimatedPart::translation, Interpolation::cubic_spline, {0, 2},
+    b.animate(surroundings, box, T, cubic, {0, 2},
               {{0, 0, 0}, {-2.6f, 0.3f, 1.7f}, {1, 1, 0}, {1, -1, 0}, {0.2f, 0.3f, 1.7f}, {0, 0, 0}});
     b.animate(surroundings, box, R, linear, {0, 2}, {rotation(0, Y), rotation(130, Y)});
     const int orbit = b.addMover("orbit", {.translation = {0, 2.3, 0.6}});
@@ -249,10 +244,6 @@ void addSurroundings(Stage& b, int box) {
 // that casts a shadow. The flag's mesh is a child of the box in the node tree, which must not move it. A
 // light circles above.
 void motion(Builder& builder) {
-    constexpr AnimatedPart R = AnimatedPart::rotation, S = AnimatedPart::scale, W = AnimatedPart::weights;
-    constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
-                            cubic = Interpolation::cubic_spline;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     Stage b;
     b.camera("front", {0, 2.6, 8.2}, {0, 0.85, 0}, 34, 0.1, 100);
     b.scene.animations = {{"figures", {}, {}}, {"surroundings", {}, {}}};

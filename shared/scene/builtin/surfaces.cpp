@@ -112,9 +112,8 @@ void cutout(Builder& b) {
     const TextureSlot relief = b.texture(normalMap("relief", weaveHeights(256), 24), 2);
     const auto masked = [&](const std::string& name, TextureImage image, double tiles, bool doubleSided) {
         const int made = b.material(name, {glm::vec3(1), 0, 0.4f});
-        const TextureSlot slot = b.texture(std::move(image), tiles);
         Material& material = b.last();
-        material.base_color_texture = slot;
+        material.base_color_texture = b.texture(std::move(image), tiles);
         material.normal_texture = relief;
         material.alpha_mode = AlphaMode::mask;
         material.double_sided = doubleSided;
@@ -204,12 +203,9 @@ void sixteenBits(Builder& b) {
         for (int row = 0; row < 3; ++row) {
             const int made = b.material(fmt::format("{} bits, row {}", deep ? 16 : 8, row),
                                         {glm::vec3(0.8f), row == 2 ? 1.0f : 0.0f, row == 2 ? 1.0f : 0.3f});
-            TextureSlot& read = row == 0   ? b.last().base_color_texture
-                                : row == 1 ? b.last().normal_texture
-                                           : b.last().metallic_roughness_texture;
-            read = row == 0   ? slot("dark", deep, dark)
-                   : row == 1 ? slot("waves", deep, waves)
-                              : slot("rough", deep, rough);
+            if (row == 0) b.last().base_color_texture = slot("dark", deep, dark);
+            if (row == 1) b.last().normal_texture = slot("waves", deep, waves);
+            if (row == 2) b.last().metallic_roughness_texture = slot("rough", deep, rough);
             b.add("card", card, made, glm::dvec3(deep ? -0.8 : 0.8, 1.1 * (1 - row), 0));
         }
     b.sun({0.9, -0.1, -0.3}, glm::vec3(1), 4);
@@ -253,9 +249,8 @@ void vertexColors(Builder& b) {
     b.camera("front", {0, 0.6, 5}, {0, 0, 0}, 34, 0.1, 100);
     const int plain = b.material("plain", {glm::vec3(1), 0, 0.3f});
     const int textured = b.material("textured", {{0.9f, 0.9f, 0.7f}, 0, 0.5f});
-    const TextureSlot slot =
+    b.last().base_color_texture =
         b.texture(checker("checker", 128, 8, {240, 240, 240, 255}, {120, 120, 120, 255}), 2);
-    b.last().base_color_texture = slot;
     const auto rainbow = [](const glm::vec3& p) { return glm::vec4(0.5f + 0.5f * p, 1); };
     b.add("ball", paint(sphere(0.9), rainbow), plain, glm::dvec3(-1.1, 0, 0));
     b.add("checkered ball", paint(sphere(0.9), rainbow), textured, glm::dvec3(1.1, 0, 0));
