@@ -4,6 +4,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -117,7 +117,7 @@ namespace {
 constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"";
 
 [[noreturn]] void failCamera(std::string_view choice, const std::string& why) {
-    throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
+    fail(fmt::format("--camera \"{}\": {}", choice, why));
 }
 
 std::optional<double> number(std::string_view text) {
@@ -245,8 +245,7 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
 
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
               const DefaultViewOf& defaultView) {
-    if (width < 1 || height < 1)
-        throw std::runtime_error(fmt::format("--size {}x{}: must be at least 1x1", width, height));
+    if (width < 1 || height < 1) fail(fmt::format("--size {}x{}: must be at least 1x1", width, height));
 
     View view;
     const Camera* own =
