@@ -11,14 +11,6 @@
 
 namespace diptych::builtin {
 
-int Room::textured(const std::string& name, const Surface& surface, const TextureSlot& color,
-                   const TextureSlot& normal) {
-    const int made = b.material(name, surface);
-    b.last().base_color_texture = color;
-    b.last().normal_texture = normal;
-    return made;
-}
-
 int Room::glowing(const std::string& name, const vec3& radiance) {
     return b.material(name, {vec3(0.02f), 0, 0.5f, radiance});
 }

@@ -27,9 +27,6 @@ struct Room {
     Builder& b;
     int stone = 0, brass = 0, dark_wood = 0;
 
-    // Adds a material with these two textures; the caller may then modify b.last().
-    int textured(const std::string& name, const Surface& surface, const TextureSlot& color,
-                 const TextureSlot& normal);
     int glowing(const std::string& name, const vec3& radiance);
 };
 

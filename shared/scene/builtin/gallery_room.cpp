@@ -30,22 +30,21 @@ void addWalls(Room& room) {
     Builder& b = room.b;
     const HeightField tiles = tileHeights(512), bricks = brickHeights(512), plaster = plasterHeights(256);
 
-    const TextureSlot tileColor =
+    const int floor = b.material("floor tiles", {vec3(1), 0, 1});
+    b.last().base_color_texture =
         b.texture(colorMap("tile colour", tiles, {40, 38, 40, 255}, {160, 156, 162, 255}, {4, 4, false}, 90));
-    const TextureSlot tileNormal = b.texture(normalMap("tile relief", tiles, 3));
-    const int floor = room.textured("floor tiles", {vec3(1), 0, 1}, tileColor, tileNormal);
+    b.last().normal_texture = b.texture(normalMap("tile relief", tiles, 3));
     b.last().metallic_roughness_texture =
         b.texture(colorMap("tile polish", tiles, {255, 230, 0, 255}, {255, 62, 0, 255}, {4, 4, false}, 40));
-    b.last().metallic = 0;
     const double length = NEAR_END - FAR_END, width = RIGHT - LEFT;
     Primitive ground = quad({LEFT, 0, NEAR_END}, {width, 0, 0}, {0, 0, -length}, 58, 106);
     ground = paint(std::move(ground), [](const vec3& p) { return glm::vec4(vec3(openness(p)), 1); });
     b.add("floor", scaleTexcoords(std::move(ground), width / 3.2, length / 3.2), floor);
 
-    const TextureSlot brickColor = b.texture(
+    const int wall = b.material("bricks", {vec3(1), 0, 0.75f});
+    b.last().base_color_texture = b.texture(
         colorMap("brick colour", bricks, {110, 100, 94, 255}, {186, 134, 108, 255}, {4, 8, true}, 110));
-    const TextureSlot brickNormal = b.texture(normalMap("brick relief", bricks, 9));
-    const int wall = room.textured("bricks", {vec3(1), 0, 0.75f}, brickColor, brickNormal);
+    b.last().normal_texture = b.texture(normalMap("brick relief", bricks, 9));
     b.last().occlusion_texture = b.texture(occlusion("brick depths", bricks));
     b.add("brick wall",
           scaleTexcoords(quad({LEFT, 0, NEAR_END}, {0, 0, -length}, {0, CEILING, 0}), length / 1.6,
