@@ -2,7 +2,6 @@
 #include "shared/scene/image/radiance_layer.h"
 
 #include "shared/text/counted.h"
-
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
