@@ -236,15 +236,8 @@ void fitFrame(View& view) {
 
 }  // namespace
 
-View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height) {
-    std::optional<DefaultView> chosen;
-    return makeView(scene, pose, choice, width, height, [&]() -> const DefaultView& {
-        return chosen.emplace(chooseDefaultView(scene, pose.animation));
-    });
-}
-
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
-              const DefaultViewOf& defaultView) {
+              const DefaultViewOf& kept) {
     if (width < 1 || height < 1) fail(fmt::format("--size {}x{}: must be at least 1x1", width, height));
 
     View view;
@@ -255,6 +248,10 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     } else if (choice.empty() || choice.find('=') != choice.npos) {
         const double aspect = static_cast<double>(width) / height;
         const Bounds bounds = boundsAtStart(scene, pose);
+        std::optional<DefaultView> own_default;
+        const DefaultViewOf defaultView = kept ? kept : DefaultViewOf([&]() -> const DefaultView& {
+            return own_default.emplace(chooseDefaultView(scene, pose.animation));
+        });
         if (choice.empty()) {
             const DefaultView& chosen = defaultView();
             view.camera = freeCamera(bounds);
