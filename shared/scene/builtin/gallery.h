@@ -9,6 +9,7 @@
 
 namespace diptych::builtin {
 
+using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 

@@ -29,17 +29,11 @@ void stage(Room& room) {
 }
 
 Primitive pedestal(double radius, double height) {
-    return lathe({{0, 0},
-                  {radius, 0},
-                  {radius, 0.1},
-                  {radius * 0.86, 0.16},
-                  {radius * 0.78, 0.2},
-                  {radius * 0.76, height - 0.16},
-                  {radius * 0.82, height - 0.1},
-                  {radius * 0.94, height - 0.07},
-                  {radius * 0.94, height},
-                  {0, height}},
-                 48);
+    return lathe(
+        {dvec2(0, 0), dvec2(radius, 0), dvec2(radius, 0.1), dvec2(radius * 0.86, 0.16),
+         dvec2(radius * 0.78, 0.2), dvec2(radius * 0.76, height - 0.16), dvec2(radius * 0.82, height - 0.1),
+         dvec2(radius * 0.94, height - 0.07), dvec2(radius * 0.94, height), dvec2(0, height)},
+        48);
 }
 
 void sculptures(Room& room) {
@@ -63,20 +57,11 @@ void sculptures(Room& room) {
     // Vertex colours show a glaze that runs down. The low specular strength suggests unglazed clay.
     const int glaze = b.material("glaze", {vec3(1), 0, 0.25f});
     b.last().specular = 0.6f;
-    const Primitive vase = lathe({{0, 0},
-                                  {0.16, 0},
-                                  {0.2, 0.06},
-                                  {0.3, 0.26},
-                                  {0.33, 0.42},
-                                  {0.29, 0.58},
-                                  {0.17, 0.74},
-                                  {0.1, 0.86},
-                                  {0.1, 0.96},
-                                  {0.15, 1.04},
-                                  {0.13, 1.04},
-                                  {0.08, 0.95},
-                                  {0.08, 0.86}},
-                                 64);
+    const Primitive vase =
+        lathe({dvec2(0, 0), dvec2(0.16, 0), dvec2(0.2, 0.06), dvec2(0.3, 0.26), dvec2(0.33, 0.42),
+               dvec2(0.29, 0.58), dvec2(0.17, 0.74), dvec2(0.1, 0.86), dvec2(0.1, 0.96), dvec2(0.15, 1.04),
+               dvec2(0.13, 1.04), dvec2(0.08, 0.95), dvec2(0.08, 0.86)},
+              64);
     b.add("vase",
           paint(vase,
                 [](const vec3& p) {

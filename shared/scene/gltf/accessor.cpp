@@ -110,20 +110,12 @@ T load(const unsigned char* at) {
 // Calls use(T{}) with the C++ type T of the component type.
 template <class Use>
 auto withType(int type, const Use& use) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return use(std::int8_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return use(std::uint8_t{});
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return use(std::int16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return use(std::uint16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return use(std::uint32_t{});
-        default:
-            return use(float{});
-    }
+    if (type == TINYGLTF_COMPONENT_TYPE_BYTE) return use(std::int8_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return use(std::uint8_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_SHORT) return use(std::int16_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return use(std::uint16_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return use(std::uint32_t{});
+    return use(float{});
 }
 
 // glTF 2.0, 3.11: the most negative integer maps to -1, too.
