@@ -63,8 +63,7 @@ double fittingDistance(const Bounds& bounds, const glm::dmat4& axes, double aspe
 // Whether `eye` sees the front of at least one triangle, or either side of a double-sided one.
 bool anythingFaces(const Scene& scene, const Pose& pose, const glm::dvec3& eye) {
     for (const Instance& instance : pose.instances) {
-        const Primitive& primitive = scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                                         .primitives[static_cast<std::size_t>(instance.primitive)];
+        const Primitive& primitive = primitiveOf(scene, instance);
         if (primitive.indices.empty()) continue;
         if (scene.materials[static_cast<std::size_t>(primitive.material)].double_sided) return true;
         const glm::dmat4& worldFromObject = instance.world_from_object;

@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/gltf.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/deformation_bounds.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <stdexcept>
 
 namespace diptych {
 
@@ -36,7 +36,7 @@ SceneFile fileOf(const std::string& where) {
     const std::string file = where.substr(0, question);
     const std::string ending = lowerCase(std::filesystem::path(file).extension().string());
     if (ending != ".gltf" && ending != ".glb")
-        throw std::runtime_error(fmt::format(
+        fail(fmt::format(
             "{}: is not a scene; give a .gltf or .glb file or builtin:NAME (render --list-scenes lists them)",
             where));
     return {file, question == where.npos ? "" : where.substr(question + key.size())};
@@ -45,8 +45,8 @@ SceneFile fileOf(const std::string& where) {
 Scene builtinOf(const std::string& where, const std::string& variant) {
     Scene scene = makeBuiltin(where.substr(builtinPrefix.size()));
     if (!variant.empty())
-        throw std::runtime_error(fmt::format(
-            "{}: --variant \"{}\": built-in scenes have no material variants", where, oneLine(variant)));
+        fail(fmt::format("{}: --variant \"{}\": built-in scenes have no material variants", where,
+                         oneLine(variant)));
     return scene;
 }
 

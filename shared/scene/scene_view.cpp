@@ -3,12 +3,12 @@
 
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/motion/bounds.h"
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace diptych {
@@ -47,8 +47,7 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
     };
     // Only what lies beyond is missing in a pose.
     if (pose.instances.empty() && hasTriangles(scene))
-        throw std::runtime_error(
-            fmt::format("{}: nothing is left to draw: {}", oneLine(scene.name), pose.notes.back()));
+        fail(fmt::format("{}: nothing is left to draw: {}", oneLine(scene.name), pose.notes.back()));
     SceneView result;
     result.pose = std::move(pose);
     result.view = makeView(scene, result.pose, request.camera, request.width, request.height, defaultView);

@@ -4,6 +4,7 @@
 #include "shared/scene/model/axes.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -117,7 +117,7 @@ namespace {
 constexpr std::string_view accepted = "an index, a name, or \"eye=x,y,z target=x,y,z fov=deg near=m far=m\"";
 
 [[noreturn]] void failCamera(std::string_view choice, const std::string& why) {
-    throw std::runtime_error(fmt::format("--camera \"{}\": {}", choice, why));
+    fail(fmt::format("--camera \"{}\": {}", choice, why));
 }
 
 std::optional<double> number(std::string_view text) {
@@ -236,17 +236,9 @@ void fitFrame(View& view) {
 
 }  // namespace
 
-View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height) {
-    std::optional<DefaultView> chosen;
-    return makeView(scene, pose, choice, width, height, [&]() -> const DefaultView& {
-        return chosen.emplace(chooseDefaultView(scene, pose.animation));
-    });
-}
-
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
-              const DefaultViewOf& defaultView) {
-    if (width < 1 || height < 1)
-        throw std::runtime_error(fmt::format("--size {}x{}: must be at least 1x1", width, height));
+              const DefaultViewOf& kept) {
+    if (width < 1 || height < 1) fail(fmt::format("--size {}x{}: must be at least 1x1", width, height));
 
     View view;
     const Camera* own =
@@ -256,6 +248,10 @@ View makeView(const Scene& scene, const Pose& pose, const std::string& choice, i
     } else if (choice.empty() || choice.find('=') != choice.npos) {
         const double aspect = static_cast<double>(width) / height;
         const Bounds bounds = boundsAtStart(scene, pose);
+        std::optional<DefaultView> own_default;
+        const DefaultViewOf defaultView = kept ? kept : DefaultViewOf([&]() -> const DefaultView& {
+            return own_default.emplace(chooseDefaultView(scene, pose.animation));
+        });
         if (choice.empty()) {
             const DefaultView& chosen = defaultView();
             view.camera = freeCamera(bounds);

@@ -37,11 +37,9 @@ struct View {
 //
 // `choice` is Settings::camera: a camera of the scene, a free camera, or empty. Empty means the first
 // camera, or the default view if there is none. Throws std::runtime_error that names --camera and the
-// accepted values.
-View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height);
-// As above; `defaultView` is called only if needed, and its result is cached by the caller.
+// accepted values. `kept` is called only if the default view is needed; the caller keeps its result.
 using DefaultViewOf = std::function<const DefaultView&()>;
 View makeView(const Scene& scene, const Pose& pose, const std::string& choice, int width, int height,
-              const DefaultViewOf& defaultView);
+              const DefaultViewOf& kept = {});
 
 }  // namespace diptych

@@ -3,6 +3,7 @@
 
 #include "shared/scene/embree.h"
 #include "shared/scene/motion/posed.h"
+#include "shared/text/fail.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -85,7 +85,7 @@ struct VisibleSurface::Traced {
     // Built by one thread, so that coincident surfaces are hit in a deterministic order.
     void build() {
         device = rtcNewDevice("threads=1");
-        if (!device) throw std::runtime_error("Embree failed to start");
+        if (!device) fail("Embree failed to start");
         scene = rtcNewScene(device);
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | embree_filter_flag);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
@@ -159,18 +159,8 @@ std::optional<VisibleSurface::Seen> VisibleSurface::nearest(const glm::dvec3& or
     if (!(glm::dot(from, from) < 1e12) || !(glm::dot(direction, direction) > 0)) return std::nullopt;
     SeenContext query{{}, &traced_->owners};
     RTCRayHit request{};
-    request.ray = {static_cast<float>(from.x),
-                   static_cast<float>(from.y),
-                   static_cast<float>(from.z),
-                   0,
-                   static_cast<float>(direction.x),
-                   static_cast<float>(direction.y),
-                   static_cast<float>(direction.z),
-                   0,
-                   std::numeric_limits<float>::infinity(),
-                   ~0u,
-                   0,
-                   0};
+    const glm::vec3 o(from), d(direction);
+    request.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
     request.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     embreeIntersect(traced_->scene, query.context, passBackFaces, request);
     if (request.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;

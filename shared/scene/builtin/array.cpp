@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Configurable numbers of objects, triangles, meshes, materials and textures in one view. Shows how a
 // frame's time and memory grow with each.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
 
@@ -40,8 +39,7 @@ TextureImage noiseTexture(std::uint32_t number) {
 
 }  // namespace
 
-Scene array(const ArrayCounts& counts) {
-    Builder b;
+void array(Builder& b, const ArrayCounts& counts) {
     b.scene.background = {0.02f, 0.02f, 0.03f};
     b.camera("front", {0, 0, eyeDistance}, {0, 0, 0}, 60, 0.1, 100);
     const std::uint32_t objects = std::max(counts.objects, 1u);
@@ -58,7 +56,7 @@ Scene array(const ArrayCounts& counts) {
                               static_cast<float>(0.3 + 0.6 * u01(3 * m + 1)),
                               static_cast<float>(0.3 + 0.6 * u01(3 * m + 2)));
         b.material(fmt::format("material {}", m), {color, 0, static_cast<float>(0.2 + 0.6 * u01(m))});
-        if (m < images) b.scene.materials.back().base_color_texture = b.texture(noiseTexture(m));
+        if (m < images) b.last().base_color_texture = b.texture(noiseTexture(m));
     }
     const double triangles = static_cast<double>(counts.triangles) / objects;
     for (std::uint32_t m = 0; m < meshes; ++m)  // all meshes differ
@@ -75,7 +73,6 @@ Scene array(const ArrayCounts& counts) {
     b.sun({-0.3, -0.5, -1}, glm::vec3(1), 1);
     for (std::uint32_t i = 0; i < 16; ++i)
         b.point({(i % 4 - 1.5) * wallWidth / 4, (i / 4 - 1.5) * wallHeight / 4, 1.5}, glm::vec3(1), 2, 4);
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

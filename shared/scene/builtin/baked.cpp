@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Test scenes with baked lighting (lightmaps).
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 
@@ -61,13 +60,6 @@ TextureImage ballLight() {
     return image;
 }
 
-// The second UV set is the first, mirrored horizontally and rotated by 90 degrees: use of the wrong set
-// becomes visible.
-Primitive unwrapped(Primitive shape) {
-    for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
-    return shape;
-}
-
 }  // namespace
 
 // A floor and a wall under a sky that two balls partly hide, and a stripe of 40 W/(sr m^2) along the
@@ -75,23 +67,21 @@ Primitive unwrapped(Primitive shape) {
 // bits and an intensity of 1.5. In front are five tiles: without a lightmap, with one, with an occlusion
 // map too, metallic (reflects no baked light), and unlit. A weak sun and a point light light everything as
 // well.
-Scene lightmaps() {
-    Builder b;
+void lightmaps(Builder& b) {
     b.camera("front", {0, 2.4, 6.5}, {0, 0.7, 0}, 38, 0.1, 100);
     constexpr std::array balls{Ball{{-1.2, 0.7, 0}, 0.7}, Ball{{1.1, 0.5, 0.4}, 0.5}};
-    Sampler clamped;
-    clamped.wrap_s = clamped.wrap_t = Wrap::clamp_to_edge;
+    constexpr Sampler clamped{.wrap_s = Wrap::clamp_to_edge, .wrap_t = Wrap::clamp_to_edge};
     const auto lit = [&](const std::string& name, const Surface& surface, TextureImage image,
                          float intensity) {
         const int material = b.material(name, surface);
-        b.scene.materials.back().lightmap_texture = b.texture(std::move(image), 1, clamped);
-        b.scene.materials.back().lightmap_texture.texcoord = 1;
-        b.scene.materials.back().lightmap_intensity = intensity;
+        b.last().lightmap_texture = b.texture(std::move(image), 1, clamped);
+        b.last().lightmap_texture.texcoord = 1;
+        b.last().lightmap_intensity = intensity;
         return material;
     };
     const glm::dvec3 sky(0.55, 0.7, 0.9), glow(40, 9, 2);
 
-    // The lightmap's (u, v) of unwrapped() equals (1 - v, u) of the first UV set.
+    // The lightmap's (u, v) of withTurnedSet() equals (1 - v, u) of the first UV set.
     const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f},
                           floats("floor light", 128,
                                  [&](double u, double v) {
@@ -100,7 +90,7 @@ Scene lightmaps() {
                                      return sky * skyLight(place, {0, 1, 0}, balls) + glow * near * near;
                                  }),
                           1);
-    b.add("floor", unwrapped(quad({-4, 0, 3}, {8, 0, 0}, {0, 0, -5})), floor, glm::dvec3(0.0));
+    b.add("floor", withTurnedSet(quad({-4, 0, 3}, {8, 0, 0}, {0, 0, -5})), floor);
     const int wall =
         lit("wall", {{0.7f, 0.6f, 0.5f}, 0, 0.8f},
             floats("wall light", 64,
@@ -109,11 +99,11 @@ Scene lightmaps() {
                        return sky * 0.5 * skyLight(place, {0, 0, 1}, balls) + glow * 1e-3 * (3 - place.y);
                    }),
             1);
-    b.add("wall", unwrapped(quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})), wall, glm::dvec3(0.0));
+    b.add("wall", withTurnedSet(quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})), wall);
 
     for (const Ball& ball : balls) {
         const int material = lit("ball", {{0.8f, 0.3f, 0.2f}, 0, 0.3f}, ballLight(), 1.5f);
-        b.add("ball", unwrapped(sphere(ball.radius)), material, ball.centre);
+        b.add("ball", withTurnedSet(sphere(ball.radius)), material, ball.centre);
     }
 
     const TextureSlot depths = b.texture(diptych::occlusion("depths", brickHeights(128)));
@@ -121,16 +111,14 @@ Scene lightmaps() {
         const int tile =
             lit("tile", {{0.5f, 0.6f, 0.4f}, i == 3 ? 1.0f : 0.0f, 0.4f},
                 floats("tile light", 16, [&](double u, double v) { return sky * (u + 2 * v); }), 0.7f);
-        Material& material = b.scene.materials[static_cast<std::size_t>(tile)];
-        if (i == 0) material.lightmap_texture = {};
-        if (i == 2) material.occlusion_texture = depths;
-        material.unlit = i == 4;
-        b.add("tile", unwrapped(quad({-0.35, 0, 0}, {0.7, 0, 0}, {0, 0.6, -0.4})), tile,
+        if (i == 0) b.last().lightmap_texture = {};
+        if (i == 2) b.last().occlusion_texture = depths;
+        b.last().unlit = i == 4;
+        b.add("tile", withTurnedSet(quad({-0.35, 0, 0}, {0.7, 0, 0}, {0, 0.6, -0.4})), tile,
               glm::dvec3(0.85 * (i - 2), 0.02, 2.6));
     }
     b.sun({-0.4, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 0.5f);
     b.point({0, 1.8, 1.5}, {1.0f, 0.8f, 0.6f}, 1.5f, 5);
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

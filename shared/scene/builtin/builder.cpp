@@ -3,8 +3,8 @@
 
 #include "shared/scene/model/axes.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
@@ -13,13 +13,12 @@
 namespace diptych {
 
 int Builder::material(const std::string& name, const Surface& surface) {
-    Material made;
+    Material& made = scene.materials.emplace_back();
     made.name = name;
     made.base_color = glm::vec4(surface.base_color, 1);
     made.metallic = surface.metallic;
     made.roughness = surface.roughness;
     made.emissive = surface.emissive;
-    scene.materials.push_back(made);
     return static_cast<int>(scene.materials.size() - 1);
 }
 
@@ -34,9 +33,8 @@ TextureSlot Builder::texture(TextureImage image, double tiles, const Sampler& sa
 
 int Builder::addMesh(Primitive shape, int material, const std::string& name) {
     shape.material = material;
-    Mesh mesh{name, {}};
-    mesh.primitives.push_back(std::move(shape));
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.push_back({name, {}});
+    scene.meshes.back().primitives.push_back(std::move(shape));
     return static_cast<int>(scene.meshes.size() - 1);
 }
 
@@ -53,63 +51,55 @@ int Builder::add(const std::string& name, Primitive shape, int material, const g
     return add(name, std::move(shape), material, at(position.x, position.y, position.z));
 }
 
+Light& Builder::light(const char* name, LightKind kind, const glm::vec3& color, float intensity, float range,
+                      const glm::dvec3& position, const glm::dvec3& direction) {
+    Light& made = scene.lights.emplace_back();
+    made.name = fmt::format("{} {}", name, scene.lights.size() - 1);
+    made.kind = kind;
+    made.color = color;
+    made.intensity = intensity;
+    made.range = range;
+    made.position = position;
+    made.direction = glm::normalize(direction);
+    return made;
+}
+
 void Builder::point(const glm::dvec3& position, const glm::vec3& color, float candela, float range) {
-    Light light;
-    light.name = "point " + std::to_string(scene.lights.size());
-    light.position = position;
-    light.color = color;
-    light.intensity = candela;
-    light.range = range;
-    scene.lights.push_back(light);
+    light("point", LightKind::point, color, candela, range, position, {0, 0, -1});
 }
 
 void Builder::spot(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color,
                    float candela, float range, const Cone& cone) {
-    point(position, color, candela, range);
-    Light& light = scene.lights.back();
-    light.name = "spot " + std::to_string(scene.lights.size() - 1);
-    light.kind = LightKind::spot;
-    light.direction = glm::normalize(target - position);
-    light.inner_cone = static_cast<float>(glm::radians(cone.inner));
-    light.outer_cone = static_cast<float>(glm::radians(cone.outer));
+    Light& made = light("spot", LightKind::spot, color, candela, range, position, target - position);
+    made.inner_cone = static_cast<float>(glm::radians(cone.inner));
+    made.outer_cone = static_cast<float>(glm::radians(cone.outer));
 }
 
 Light& Builder::rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
                      float range) {
-    point(position, color, nits, range);
-    Light& light = scene.lights.back();
-    light.name = "area " + std::to_string(scene.lights.size() - 1);
-    light.kind = LightKind::rect;
-    light.direction = glm::normalize(target - position);
-    light.axis = perpendicularTo(light.direction);
-    return light;
+    Light& made = light("area", LightKind::rect, color, nits, range, position, target - position);
+    made.axis = perpendicularTo(made.direction);
+    return made;
 }
 
 void Builder::sun(const glm::dvec3& direction, const glm::vec3& color, float lux) {
-    Light light;
-    light.name = "sun " + std::to_string(scene.lights.size());
-    light.kind = LightKind::directional;
-    light.direction = glm::normalize(direction);
-    light.color = color;
-    light.intensity = lux;
-    scene.lights.push_back(light);
+    light("sun", LightKind::directional, color, lux, noEnd, {0, 0, 0}, direction);
 }
 
 Camera& Builder::camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
                         double yfovDegrees, double near, double far) {
     const glm::dvec3 forward = glm::normalize(target - eye);
     const glm::dvec3 up = std::abs(forward.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
-    Camera made;
+    // Built from its axes, because inverting a view matrix would lose digits far from the origin.
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    Camera& made = scene.cameras.emplace_back();
     made.name = name;
     made.yfov = glm::radians(yfovDegrees);
     made.near = near;
     made.far = far;
-    // Built from its axes, because inverting a view matrix would lose digits far from the origin.
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
     made.world_from_camera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(glm::cross(right, forward), 0),
                                         glm::dvec4(-forward, 0), glm::dvec4(eye, 1));
-    scene.cameras.push_back(made);
-    return scene.cameras.back();
+    return made;
 }
 
 glm::dmat4 at(double x, double y, double z) {

@@ -20,10 +20,12 @@ struct Surface {
 
 class Builder {
 public:
+    static constexpr float noEnd = std::numeric_limits<float>::infinity();  // a light's range
     Scene scene;
 
-    // Adds a material and returns its index; the caller may then modify `scene.materials.back()`.
+    // Adds a material and returns its index; the caller may then modify it as last().
     int material(const std::string& name, const Surface& surface);
+    Material& last() { return scene.materials.back(); }
 
     // Adds a texture and returns a slot that reads it by the first UV set, repeated `tiles` times over [0,
     // 1].
@@ -37,8 +39,7 @@ public:
     int addNode(const std::string& name, int mesh, const glm::dmat4& parentFromNode, int parent = -1);
 
     // Units: candela, for the sun lux; m; cone half angles in degrees. `direction` need not be normalized.
-    void point(const glm::dvec3& position, const glm::vec3& color, float candela,
-               float range = std::numeric_limits<float>::infinity());
+    void point(const glm::dvec3& position, const glm::vec3& color, float candela, float range = noEnd);
     struct Cone {
         double inner, outer;
     };
@@ -48,11 +49,15 @@ public:
     // Adds an area light of 1 m^2 that shines towards `target`. Returns it, so that the caller can change
     // its shape.
     Light& rect(const glm::dvec3& position, const glm::dvec3& target, const glm::vec3& color, float nits,
-                float range = std::numeric_limits<float>::infinity());
+                float range = noEnd);
 
     // Adds a camera at `eye` looking at `target`, with +Y up (unless it looks along Y).
     Camera& camera(const std::string& name, const glm::dvec3& eye, const glm::dvec3& target,
                    double yfovDegrees, double near = 0.1, double far = 1000);
+
+private:
+    Light& light(const char* name, LightKind kind, const glm::vec3& color, float intensity, float range,
+                 const glm::dvec3& position, const glm::dvec3& direction);
 };
 
 glm::dmat4 at(double x, double y, double z);

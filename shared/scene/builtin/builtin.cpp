@@ -5,6 +5,7 @@
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/text/did_you_mean.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +16,6 @@
 #include <cstdint>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -28,11 +28,13 @@ struct Parameter {
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
+constexpr bool PICTURE = false, TEST = true;
+
 struct Row {
     std::string_view name, shows;
-    bool for_tests;
-    Scene (*make)();
-    Scene (*makeWith)(Numbers) = nullptr;
+    void (*make)(Builder&);
+    bool for_tests = TEST;
+    void (*makeWith)(Builder&, Numbers) = nullptr;
     std::span<const Parameter> parameters = {};
     double (*bytes)(Numbers) = nullptr;  // estimated memory (rig.h: lightBytes)
 };
@@ -56,93 +58,82 @@ double arrayBytes(Numbers n) {
            n[4] * texels;
 }
 
-constexpr bool PICTURE = false, TEST = true;
 constexpr std::array ROWS{
     Row{"gallery", "sculpture hall in the evening: every kind of material, about 70 lights (the default)",
-        PICTURE, builtin::gallery},
-    Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", PICTURE, nullptr,
-        [](Numbers n) { return builtin::spheres(n[0]); }, sphereParameters,
+        builtin::gallery, PICTURE},
+    Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", nullptr, PICTURE,
+        [](Builder& b, Numbers n) { builtin::spheres(b, n[0]); }, sphereParameters,
         [](Numbers n) { return lightBytes * n[0]; }},
-    Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", PICTURE,
-        builtin::furnace},
-    Row{"normals", "normals of every direction under sharp highlights: seams of normal encodings", TEST,
+    Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", builtin::furnace,
+        PICTURE},
+    Row{"normals", "normals of every direction under sharp highlights: seams of normal encodings",
         builtin::normals},
     Row{"emission", "emitters from 1e-6 to 1e6 W/(sr m^2), grey and saturated: range of packed HDR formats",
-        TEST, builtin::emission},
-    Row{"dark_albedo", "base colour ramps from 0 to 0.05 and to 1: gamma-encoded albedo", TEST,
+        builtin::emission},
+    Row{"dark_albedo", "base colour ramps from 0 to 0.05 and to 1: gamma-encoded albedo",
         builtin::darkAlbedo},
     Row{"dielectrics",
-        "ior 1 to 2.4 and 0, specular 0 to 1, tinted: parameters a basic G-buffer does not store", TEST,
+        "ior 1 to 2.4 and 0, specular 0 to 1, tinted: parameters a basic G-buffer does not store",
         builtin::dielectrics},
     Row{"layers",
-        "clear coats, anisotropy, sheen and iridescence: every factor and texture, alone and combined", TEST,
+        "clear coats, anisotropy, sheen and iridescence: every factor and texture, alone and combined",
         builtin::layers},
     Row{"transmission",
-        "glass, slabs and leaves before a wall: transmission, volume, dispersion, diffuse transmission", TEST,
+        "glass, slabs and leaves before a wall: transmission, volume, dispersion, diffuse transmission",
         builtin::transmission},
     Row{"cutout",
-        "masked, normal-mapped, double-sided cards, some at grazing angles: alpha test in every pass", TEST,
+        "masked, normal-mapped, double-sided cards, some at grazing angles: alpha test in every pass",
         builtin::cutout},
-    Row{"occlusion", "deep occlusion maps under direct light only, which they must not darken", TEST,
+    Row{"occlusion", "deep occlusion maps under direct light only, which they must not darken",
         builtin::occlusion},
-    Row{"many_materials", "5000 tiles with 5000 materials: material ids beyond the packed bits", TEST,
+    Row{"many_materials", "5000 tiles with 5000 materials: material ids beyond the packed bits",
         builtin::manyMaterials},
-    Row{"vertex_colors", "varying vertex colours, with and without textures", TEST, builtin::vertexColors},
+    Row{"vertex_colors", "varying vertex colours, with and without textures", builtin::vertexColors},
     Row{"unlit_materials",
         "KHR_materials_unlit beside the same lit materials: plain, textured, with vertex colours, "
         "alpha-masked",
-        TEST, builtin::unlitMaterials},
-    Row{"sixteen_bits", "16-bit textures beside 8-bit ones: dark colours, shallow normals, roughness", TEST,
+        builtin::unlitMaterials},
+    Row{"sixteen_bits", "16-bit textures beside 8-bit ones: dark colours, shallow normals, roughness",
         builtin::sixteenBits},
     Row{"lightmaps", "lightmaps on the second UV set, float and 8-bit, beside the same surfaces without",
-        TEST, builtin::lightmaps},
-    Row{"coplanar", "coincident triangles and intersecting bodies: depth ties", TEST, builtin::coplanar},
-    Row{"deep", "0.2 m to 90 km in the corner of one view with far 1e5: position from depth", TEST,
-        builtin::deep},
+        builtin::lightmaps},
+    Row{"coplanar", "coincident triangles and intersecting bodies: depth ties", builtin::coplanar},
+    Row{"deep", "0.2 m to 90 km in the corner of one view with far 1e5: position from depth", builtin::deep},
     Row{"glass", "blended panes, balls and textures, single and in 32 layers, before a wall and the sky",
-        TEST, builtin::glass},
-    Row{"crossed", "intersecting and coplanar blended panes: no draw order is correct", TEST,
-        builtin::crossed},
-    Row{"mirrored", "normal-mapped reliefs with mirroring transforms", TEST, builtin::mirrored},
-    Row{"stretched", "non-uniform scales and shears in a node hierarchy", TEST, builtin::stretched},
-    Row{"far_away", "spheres and a light a million metres from the origin", TEST, builtin::farAway},
-    Row{"ortho", "an orthographic camera", TEST, builtin::ortho},
-    Row{"triangle", "one triangle, one light", TEST, builtin::triangle},
-    Row{"empty", "no meshes and no camera", TEST, builtin::empty},
-    Row{"background", "a camera that looks past the only mesh: nothing but background", TEST,
-        builtin::background},
-    Row{"range_edge", "lights whose range ends inside the view: zero light beyond", TEST, builtin::rangeEdge},
-    Row{"calibration", "charts for calibrate: how another renderer interprets its inputs", TEST,
+        builtin::glass},
+    Row{"crossed", "intersecting and coplanar blended panes: no draw order is correct", builtin::crossed},
+    Row{"mirrored", "normal-mapped reliefs with mirroring transforms", builtin::mirrored},
+    Row{"stretched", "non-uniform scales and shears in a node hierarchy", builtin::stretched},
+    Row{"far_away", "spheres and a light a million metres from the origin", builtin::farAway},
+    Row{"ortho", "an orthographic camera", builtin::ortho},
+    Row{"triangle", "one triangle, one light", builtin::triangle},
+    Row{"empty", "no meshes and no camera", builtin::empty},
+    Row{"background", "a camera that looks past the only mesh: nothing but background", builtin::background},
+    Row{"range_edge", "lights whose range ends inside the view: zero light beyond", builtin::rangeEdge},
+    Row{"calibration", "charts for calibrate: how another renderer interprets its inputs",
         builtin::calibration},
-    Row{"suns", "only directional lights", TEST, builtin::suns},
-    Row{"points", "only point lights", TEST, builtin::points},
-    Row{"spots", "only spot lights, cones of 0 to 90 degrees", TEST, builtin::spots},
-    Row{"areas", "only rectangle, disc and tube lights, which occlude each other and meet the floor", TEST,
+    Row{"suns", "only directional lights", builtin::suns},
+    Row{"points", "only point lights", builtin::points},
+    Row{"spots", "only spot lights, cones of 0 to 90 degrees", builtin::spots},
+    Row{"areas", "only rectangle, disc and tube lights, which occlude each other and meet the floor",
         builtin::areas},
-    Row{"tangents", "normal maps rotated, mirrored and on the second UV set, on planes and columns", TEST,
+    Row{"tangents", "normal maps rotated, mirrored and on the second UV set, on planes and columns",
         builtin::tangents},
-    Row{"motion", "joints, morph targets, nodes and a light that move from 0 s to 2 s", TEST,
-        builtin::motion},
-    Row{"unlit", "no lights and no emission, with a camera", TEST, builtin::unlit},
+    Row{"motion", "joints, morph targets, nodes and a light that move from 0 s to 2 s", builtin::motion},
+    Row{"unlit", "no lights and no emission, with a camera", builtin::unlit},
     Row{"array", "any number of objects, triangles, meshes, materials and textures: growth of frame time",
-        TEST, nullptr,
-        [](Numbers n) {
-            return builtin::array({n[0], n[1], n[2], n[3], n[4]});
+        nullptr, TEST,
+        [](Builder& b, Numbers n) {
+            builtin::array(b, {n[0], n[1], n[2], n[3], n[4]});
         },
         arrayParameters, arrayBytes},
-    Row{"covered", "a wall of tiles, N % of them coated, woven, brushed or glass: cost of layers", TEST,
-        nullptr,
-        [](Numbers n) {
-            return builtin::covered({n[0], n[1], n[2], n[3]}, n[4]);
+    Row{"covered", "a wall of tiles, N % of them coated, woven, brushed or glass: cost of layers", nullptr,
+        TEST,
+        [](Builder& b, Numbers n) {
+            builtin::covered(b, {n[0], n[1], n[2], n[3]}, n[4]);
         },
         coveredParameters, [](Numbers n) { return lightBytes * n[4]; }},
 };
-
-std::vector<std::string> knownNames() {
-    std::vector<std::string> names;
-    for (const Row& row : ROWS) names.emplace_back(row.name);
-    return names;
-}
 
 // Joins "lights=N" of each parameter.
 std::string namesOf(std::span<const Parameter> parameters, std::string_view joined) {
@@ -153,8 +144,7 @@ std::string namesOf(std::span<const Parameter> parameters, std::string_view join
 
 // Parses "lights=64", or several separated by &.
 std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, std::string_view query) {
-    if (row.makeWith == nullptr)
-        throw std::runtime_error(fmt::format("builtin:{}: {} takes no parameters", name, row.name));
+    if (row.makeWith == nullptr) fail("builtin:" + name, fmt::format("{} takes no parameters", row.name));
     std::vector<std::uint32_t> numbers;
     for (const Parameter& parameter : row.parameters) numbers.push_back(parameter.default_value);
     std::set<std::string_view> given;
@@ -164,16 +154,15 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
         const std::string_view key = one.substr(0, one.find('='));
         const auto known = std::ranges::find(row.parameters, key, &Parameter::name);
         if (known == row.parameters.end() || key.size() == one.size())
-            throw std::runtime_error(fmt::format("builtin:{}: unknown parameter '{}'; {} takes {}", name, one,
-                                                 row.name, namesOf(row.parameters, ", ")));
-        if (!given.insert(key).second)
-            throw std::runtime_error(fmt::format("builtin:{}: {} is given twice", name, key));
+            fail("builtin:" + name, fmt::format("unknown parameter '{}'; {} takes {}", one, row.name,
+                                                namesOf(row.parameters, ", ")));
+        if (!given.insert(key).second) fail("builtin:" + name, fmt::format("{} is given twice", key));
         const std::string_view digits = one.substr(key.size() + 1);
         std::uint32_t& number = numbers[static_cast<std::size_t>(known - row.parameters.begin())];
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
         if (error != std::errc() || end != digits.data() + digits.size() || number > known->most)
-            throw std::runtime_error(fmt::format("builtin:{}: '{}' is not a number of {}; it takes 0 to {}",
-                                                 name, digits, known->name, known->most));
+            fail("builtin:" + name, fmt::format("'{}' is not a number of {}; it takes 0 to {}", digits,
+                                                known->name, known->most));
     }
     return numbers;
 }
@@ -182,16 +171,17 @@ const Row& rowOf(const std::string& name) {
     const std::string_view base = std::string_view(name).substr(0, name.find('?'));
     const auto row = std::ranges::find(ROWS, base, &Row::name);
     if (row != ROWS.end()) return *row;
-    const std::vector<std::string> names = knownNames();
-    throw std::runtime_error(fmt::format("builtin:{}: no such scene{}; there are {}", name,
-                                         didYouMean(base, names), fmt::join(names, ", ")));
+    std::vector<std::string> names;
+    for (const Row& known : ROWS) names.emplace_back(known.name);
+    fail("builtin:" + name,
+         fmt::format("no such scene{}; there are {}", didYouMean(base, names), fmt::join(names, ", ")));
 }
 
 // The parameters of "array?objects=5", or the defaults; none if the scene has none.
 std::vector<std::uint32_t> numbersOf(const std::string& name, const Row& row) {
     const bool given = row.name.size() < name.size();
     if (given && row.name.size() + 1 == name.size())
-        throw std::runtime_error(fmt::format("builtin:{}: a parameter is missing after the ?", name));
+        fail(fmt::format("builtin:{}: a parameter is missing after the ?", name));
     if (!given && row.makeWith == nullptr) return {};
     return numbersFrom(name, row, std::string_view(name).substr(given ? row.name.size() + 1 : name.size()));
 }
@@ -219,9 +209,13 @@ Scene makeBuiltin(const std::string& name) {
     const Row& row = rowOf(name);
     const std::vector<std::uint32_t> numbers = numbersOf(name, row);
     if (row.bytes) checkMemory("builtin:" + name, builtinBytes(name), "smaller numbers need less");
-    Scene scene = row.makeWith ? row.makeWith(numbers) : row.make();
-    scene.name = "builtin:" + name;
-    return scene;
+    Builder b;
+    if (row.makeWith)
+        row.makeWith(b, numbers);
+    else
+        row.make(b);
+    b.scene.name = "builtin:" + name;
+    return std::move(b.scene);
 }
 
 }  // namespace diptych

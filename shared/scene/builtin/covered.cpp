@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A wall of equal tiles with layered materials on chosen shares of it. Shows what drawing a layer costs.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 #include <vector>
 
 namespace diptych::builtin {
@@ -65,14 +64,13 @@ void addLights(Builder& b, std::uint32_t lights) {
 
 }  // namespace
 
-Scene covered(const CoverShares& shares, std::uint32_t lights) {
+void covered(Builder& b, const CoverShares& shares, std::uint32_t lights) {
     const std::uint32_t percent = shares.coated + shares.woven + shares.brushed + shares.glass;
     if (percent > 100)
-        throw std::runtime_error(fmt::format(
+        fail(fmt::format(
             "builtin:covered: coated, woven, brushed and glass are {} % together; they take up to 100",
             percent));
 
-    Builder b;
     b.scene.background = {0.02f, 0.02f, 0.03f};
     const double eye = 0.5 * wallSize.y / std::tan(glm::radians(0.5 * fieldOfView));
     b.camera("front", {0, 0, eye}, {0, 0, 0}, fieldOfView, 0.1, 100).aspect = wallSize.x / wallSize.y;
@@ -96,7 +94,7 @@ Scene covered(const CoverShares& shares, std::uint32_t lights) {
     for (const CoverKind& kind : coverKinds) {
         if (shares.*kind.percent == 0) continue;
         const int mesh = addTile(kind.name);
-        Material& material = b.scene.materials.back();
+        Material& material = b.last();
         kind.put(material);
         for (const std::size_t end = next + shares.*kind.percent * tilesOfWall / 100; next < end; ++next) {
             put(tiles[next], mesh, 0);
@@ -105,7 +103,6 @@ Scene covered(const CoverShares& shares, std::uint32_t lights) {
     }
     for (; next < tiles.size(); ++next) put(tiles[next], plain, 0);
     addLights(b, lights);
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

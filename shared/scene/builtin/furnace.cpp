@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 
 #include <fmt/format.h>
@@ -12,8 +11,7 @@ namespace diptych::builtin {
 // The white furnace test of Heitz et al., approximated with directional lights: all surfaces are white and
 // lit equally from all sides. If an environment of radiance 1 replaces the lights, objects whose BRDF
 // loses no energy vanish against the background of radiance 1.
-Scene furnace() {
-    Builder b;
+void furnace(Builder& b) {
     b.scene.background = glm::vec3(1);
     b.camera("front", {0, 0, 9}, {0, 0, 0}, 30, 0.1, 100);
     constexpr int COLUMNS = 11;
@@ -37,7 +35,6 @@ Scene furnace() {
         b.sun({r * std::cos(theta), y, r * std::sin(theta)}, glm::vec3(1),
               static_cast<float>(4 * std::numbers::pi / SUNS));
     }
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

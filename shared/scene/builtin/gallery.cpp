@@ -11,14 +11,6 @@
 
 namespace diptych::builtin {
 
-int Room::textured(const std::string& name, const Surface& surface, const TextureSlot& color,
-                   const TextureSlot& normal) {
-    const int made = b.material(name, surface);
-    b.scene.materials.back().base_color_texture = color;
-    b.scene.materials.back().normal_texture = normal;
-    return made;
-}
-
 int Room::glowing(const std::string& name, const vec3& radiance) {
     return b.material(name, {vec3(0.02f), 0, 0.5f, radiance});
 }
@@ -35,9 +27,8 @@ void glow(Room& room) {
     for (int i = 0; i < 7; ++i)
         b.add("panel", quad({-0.8, 0, -0.3}, {1.6, 0, 0}, {0, 0, 0.6}), panel,
               dvec3(KNOT.x, CEILING - 0.05, NEAR_END - 2.6 - 2.0 * i));
-    b.material("sign", {vec3(0.015f), 0, 0.25f, vec3(1.6f)});
-    b.scene.materials.back().emissive_texture = b.texture(glyphs("sign", 256));
-    const int sign = static_cast<int>(b.scene.materials.size() - 1);
+    const int sign = b.material("sign", {vec3(0.015f), 0, 0.25f, vec3(1.6f)});
+    b.last().emissive_texture = b.texture(glyphs("sign", 256));
     b.add("sign", scaleTexcoords(quad({0, 0, 0}, {1.5, 0, 0}, {0, 0.75, 0}), 1, 0.5), sign,
           at(LEFT + 0.08, 1.75, -1.1) * rotated(90));
     const int strip = room.glowing("cyan strip", CYAN * 1.5f);
@@ -89,9 +80,8 @@ void lamps(Room& room) {
 
 }  // namespace
 
-Scene gallery() {
-    Room room;
-    Builder& b = room.b;
+void gallery(Builder& b) {
+    Room room{b};
     b.scene.background = {0.01f, 0.016f, 0.035f};
     b.camera("entrance", {-0.55, 1.62, 5.5}, {0.12, 1.47, -3}, 46, 0.1, 60);
     b.camera("stage", {1.6, 1.5, -0.2}, {0, 1.0, -3}, 50, 0.05, 60);
@@ -102,7 +92,6 @@ Scene gallery() {
     addExhibits(room);
     glow(room);
     lamps(room);
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

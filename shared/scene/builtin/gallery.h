@@ -9,6 +9,7 @@
 
 namespace diptych::builtin {
 
+using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 
@@ -24,12 +25,9 @@ inline constexpr Footprint STAGE{0.2, -2.9, 2.6, 1.15}, KNOT{0.2, -8.2, 0.55, 0.
     GEM{2.4, 1.45, 0.34, 0.34}, VASE{2.62, -0.75, 0.38, 0.38}, PLANTER{-2.75, 0.9, 0.42, 0.42};
 
 struct Room {
-    Builder b;
+    Builder& b;
     int stone = 0, brass = 0, dark_wood = 0;
 
-    // Adds a material with these two textures; the caller may then modify `b.scene.materials.back()`.
-    int textured(const std::string& name, const Surface& surface, const TextureSlot& color,
-                 const TextureSlot& normal);
     int glowing(const std::string& name, const vec3& radiance);
 };
 

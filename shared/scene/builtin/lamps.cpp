@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Test scenes about lights.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 
 #include <fmt/format.h>
@@ -11,26 +10,24 @@ namespace diptych::builtin {
 namespace {
 
 // A floor, a wall and six balls that receive the light.
-Builder stage() {
-    Builder b;
+void stage(Builder& b) {
     b.camera("front", {0, 2.2, 7}, {0, 0.8, 0}, 40, 0.1, 100);
     const int grey = b.material("floor and wall", {glm::vec3(0.6f), 0, 0.6f});
-    b.add("floor", quad({-5, 0, 4}, {10, 0, 0}, {0, 0, -6}), grey, glm::dvec3(0.0));
-    b.add("wall", quad({-5, 0, -2}, {10, 0, 0}, {0, 3.5, 0}), grey, glm::dvec3(0.0));
+    b.add("floor", quad({-5, 0, 4}, {10, 0, 0}, {0, 0, -6}), grey);
+    b.add("wall", quad({-5, 0, -2}, {10, 0, 0}, {0, 3.5, 0}), grey);
     for (int i = 0; i < 6; ++i) {
         const int material =
             b.material(fmt::format("ball {}", i),
                        {{0.7f, 0.5f, 0.3f}, static_cast<float>(i % 2), 0.1f + 0.15f * static_cast<float>(i)});
         b.add("ball", sphere(0.45), material, glm::dvec3(1.2 * (i - 2.5), 0.45, 0.3 * (i % 2)));
     }
-    return b;
 }
 
 }  // namespace
 
 // Bright lights with short ranges: light remaining at the end of a range would show as a rim.
-Scene rangeEdge() {
-    Builder b = stage();
+void rangeEdge(Builder& b) {
+    stage(b);
     for (int i = 0; i < 4; ++i)
         b.point({1.8 * (i - 1.5), 0.6 + 0.2 * i, 1.6}, {1.0f, 0.7f, 0.4f}, 5,
                 0.9f + 0.1f * static_cast<float>(i));
@@ -40,32 +37,29 @@ Scene rangeEdge() {
     b.point({-0.6, 0.45, 2.45}, {1.0f, 1.0f, 0.5f}, 6, 2.0f);  // ends on the foremost point of a ball
     b.spot({0, 3, -0.5}, {0, 0, -0.5}, {0.6f, 0.8f, 1.0f}, 20, 3.0f, {15, 25});  // ends on the floor
     b.spot({4, 1.5, 0}, {4, 1.5, -2}, {1.0f, 0.4f, 0.8f}, 10, 2.0f, {0, 40});    // ends on the wall
-    return std::move(b.scene);
 }
 
-Scene suns() {
-    Builder b = stage();
+void suns(Builder& b) {
+    stage(b);
     b.sun({-0.5, -1, -0.5}, {1.0f, 0.9f, 0.8f}, 2);
     b.sun({0.9, -0.3, -0.3}, {0.3f, 0.5f, 1.0f}, 1);
     b.sun({0, -1, 0}, glm::vec3(1), 0.2f);
     b.sun({0, 1, 0}, {1.0f, 0.2f, 0.1f}, 5);  // from below: lights only the undersides of the balls
-    return std::move(b.scene);
 }
 
-Scene points() {
-    Builder b = stage();
+void points(Builder& b) {
+    stage(b);
     for (int i = 0; i < 12; ++i)
         b.point({0.85 * (i - 5.5), 0.4 + 0.8 * (i % 3), 1.4 - 0.7 * (i % 4)},
                 {i % 2 == 0 ? 1.0f : 0.4f, 0.7f, i % 2 == 0 ? 0.4f : 1.0f}, 2.0f,
                 i % 3 == 0 ? std::numeric_limits<float>::infinity() : 3.0f);
     b.point({0, 0.45, 0.3}, glm::vec3(1), 1, 2);    // inside a ball
     b.point({-4, 0, 2}, {1.0f, 0.5f, 0.5f}, 1, 2);  // in the floor plane
-    return std::move(b.scene);
 }
 
 // Cones from very narrow to a half-space; one has a hard edge, and one has no range.
-Scene spots() {
-    Builder b = stage();
+void spots(Builder& b) {
+    stage(b);
     const double cones[][2] = {{0, 5}, {0, 30}, {14.9, 15}, {20, 40}, {25, 25.0001}, {60, 90}};
     for (int i = 0; i < 6; ++i) {
         const double x = 1.5 * (i - 2.5);
@@ -75,13 +69,12 @@ Scene spots() {
     }
     // At a grazing angle along the floor.
     b.spot({-4, 0.5, 3}, {3, 0.8, -2}, {0.4f, 0.6f, 1.0f}, 40, 12, {4, 9});
-    return std::move(b.scene);
 }
 
 // Area lights of all shapes: one-sided and two-sided, above and through the floor, with and without
 // ranges, near and far; one encloses a ball.
-Scene areas() {
-    Builder b = stage();
+void areas(Builder& b) {
+    stage(b);
     b.rect({-3, 2.4, -1.8}, {-2, 0.5, 1}, {1.0f, 0.7f, 0.4f}, 8).height = 0.5f;
     Light& panel =
         // The lower part is below the floor.
@@ -101,13 +94,12 @@ Scene areas() {
         // Encloses a ball, which stays dark.
         b.rect({-1.8, 0.45, 0}, {-1.8, 0, 0}, {1.0f, 0.5f, 1.0f}, 1, 2);
     barrel.kind = LightKind::tube, barrel.radius = 0.5f, barrel.length = 1.2f;
-    return std::move(b.scene);
 }
 
 // Has a camera, so that there is no default view. The program may add its default sun; the paths alone
 // must render black.
-Scene unlit() {
-    return std::move(stage().scene);
+void unlit(Builder& b) {
+    stage(b);
 }
 
 }  // namespace diptych::builtin

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The test scene of animation: joints, morph targets, nodes and lights, over the first two seconds.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 #include "shared/scene/model/tangents.h"
+#include "shared/scene/motion/animation.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -37,11 +35,7 @@ class Stage : public Builder {
 public:
     // Adds a node that animations move.
     int addMover(const std::string& name, const Transform& transform, int parent = -1) {
-        const int node =
-            addNode(name, -1,
-                    glm::translate(glm::dmat4(1), transform.translation) *
-                        glm::mat4_cast(transform.rotation) * glm::scale(glm::dmat4(1), transform.scale),
-                    parent);
+        const int node = addNode(name, -1, matrixOf(transform), parent);
         scene.nodes.back().transform = static_cast<int>(scene.transforms.size());
         scene.transforms.push_back(transform);
         return node;
@@ -179,12 +173,15 @@ Primitive bendingLeaf() {
     return leaf;
 }
 
-// Animations of the scene.
+// Animations of the scene, and what they use.
 constexpr int figures = 0, surroundings = 1;
+constexpr AnimatedPart T = AnimatedPart::translation, R = AnimatedPart::rotation, S = AnimatedPart::scale,
+                       W = AnimatedPart::weights;
+constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
+                        cubic = Interpolation::cubic_spline;
+constexpr glm::dvec3 X(1, 0, 0), Y(0, 1, 0), Z(0, 0, 1);
 
 void addTentacle(Stage& b) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     const int skin = b.material("tentacle", {{0.3f, 0.55f, 0.4f}, 0, 0.35f});
     const int tentacle = b.addChain("tentacle", 8, 0.2, b.addNode("tentacle root", -1, at(-2.1, 0, 0)));
     b.addSkinned("tentacle",
@@ -196,18 +193,16 @@ void addTentacle(Stage& b) {
                  skin, tentacle);
     for (std::size_t j = 1; j < 8; ++j)
         b.animate(
-            figures, b.joint(tentacle, j), R, Interpolation::cubic_spline, {0, 2},
+            figures, b.joint(tentacle, j), R, cubic, {0, 2},
             {{0, 0, 0, 0}, rotation(0, Z), {0, 0, 0.5f, 0}, {0.5f, 0, 0, 0}, rotation(22, X), {0, 0, 0, 0}});
 }
 
 // Returns the box, to which the flag's mesh belongs.
 int addFlag(Stage& b) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
     const int cloth = b.material("flag", {{0.8f, 0.15f, 0.1f}, 0, 0.7f});
-    b.scene.materials.back().base_color.a = 0.6f;
-    b.scene.materials.back().alpha_mode = AlphaMode::blend;
-    b.scene.materials.back().double_sided = true;
+    b.last().base_color.a = 0.6f;
+    b.last().alpha_mode = AlphaMode::blend;
+    b.last().double_sided = true;
     const int pole = b.addNode("pole", -1, at(2.5, 1, 0) * rotated(-90, Z));  // its +Y points to the right
     const int flag = b.addChain("flag", 3, 0.45, pole);
     const int box = b.addMover("box", {.translation = {-2.6, 0.3, 1.7}});
@@ -221,7 +216,7 @@ int addFlag(Stage& b) {
                  cloth, flag, box);
     for (std::size_t j = 0; j < 3; ++j)
         b.animate(
-            figures, b.joint(flag, j), R, Interpolation::linear, {0, 0.5f, 1, 1.5f, 2},
+            figures, b.joint(flag, j), R, linear, {0, 0.5f, 1, 1.5f, 2},
             {rotation(j == 1 ? 40 : -30, X), rotation(j == 1 ? -25 : 20, X), rotation(j == 1 ? -40 : 30, X),
              rotation(j == 1 ? 25 : -20, X), rotation(j == 1 ? 40 : -30, X)});
     return box;
@@ -229,10 +224,7 @@ int addFlag(Stage& b) {
 
 // The sliding box, and a light that circles above.
 void addSurroundings(Stage& b, int box) {
-    constexpr AnimatedPart R = AnimatedPart::rotation;
-    constexpr Interpolation linear = Interpolation::linear;
-    const glm::dvec3 Y(0, 1, 0);
-    b.animate(surroundings, box, AnimatedPart::translation, Interpolation::cubic_spline, {0, 2},
+    b.animate(surroundings, box, T, cubic, {0, 2},
               {{0, 0, 0}, {-2.6f, 0.3f, 1.7f}, {1, 1, 0}, {1, -1, 0}, {0.2f, 0.3f, 1.7f}, {0, 0, 0}});
     b.animate(surroundings, box, R, linear, {0, 2}, {rotation(0, Y), rotation(130, Y)});
     const int orbit = b.addMover("orbit", {.translation = {0, 2.3, 0.6}});
@@ -251,18 +243,14 @@ void addSurroundings(Stage& b, int box) {
 // a mirrored root; twisting facets; and a translucent flag. In front: a bending leaf, and a sliding box
 // that casts a shadow. The flag's mesh is a child of the box in the node tree, which must not move it. A
 // light circles above.
-Scene motion() {
-    constexpr AnimatedPart R = AnimatedPart::rotation, S = AnimatedPart::scale, W = AnimatedPart::weights;
-    constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
-                            cubic = Interpolation::cubic_spline;
-    const glm::dvec3 X(1, 0, 0), Z(0, 0, 1);
+void motion(Builder& builder) {
     Stage b;
     b.camera("front", {0, 2.6, 8.2}, {0, 0.85, 0}, 34, 0.1, 100);
     b.scene.animations = {{"figures", {}, {}}, {"surroundings", {}, {}}};
     const TextureSlot weave = b.texture(normalMap("weave", weaveHeights(64), 8), 3);
 
     const int ground = b.material("floor", {glm::vec3(0.55f), 0, 0.7f});
-    b.add("floor", quad({-4.5, 0, 2.6}, {9, 0, 0}, {0, 0, -4.4}), ground, glm::dvec3(0));
+    b.add("floor", quad({-4.5, 0, 2.6}, {9, 0, 0}, {0, 0, -4.4}), ground);
 
     const int clay = b.material("clay", {{0.75f, 0.4f, 0.25f}, 0, 0.5f});
     const int bones = b.addChain("bone", 2, 0.7, b.addNode("column root", -1, at(-3.3, 0, 0)));
@@ -273,13 +261,13 @@ Scene motion() {
     addTentacle(b);
 
     const int porcelain = b.material("ball", {glm::vec3(1), 0, 0.4f});
-    b.scene.materials.back().normal_texture = weave;
+    b.last().normal_texture = weave;
     const int ball = b.addMorphed("ball", morphingBall(weave), porcelain, {-0.8, 0.6, 0});
     b.animate(figures, ball, W, cubic, {0, 1, 2},
               {{0, 0}, {0, 0}, {2, 1}, {0, 0}, {1, 0.5f}, {0, 1}, {0, 0}, {0.25f, 1}, {0, 0}});
 
     const int bark = b.material("mirrored column", {{0.5f, 0.45f, 0.6f}, 0, 0.45f});
-    b.scene.materials.back().normal_texture = weave;
+    b.last().normal_texture = weave;
     const int mirror = b.addNode("mirrored root", -1, at(0.5, 0, 0) * scaled(-1, 1, 1));
     const int mirrored = b.addChain("mirrored bone", 2, 0.7, mirror);
     b.addSkinned("mirrored column", bound(column(0.25, 1.4, 12), 2, 1, upperOfTwo), bark, mirrored);
@@ -292,14 +280,14 @@ Scene motion() {
     const int box = addFlag(b);
 
     const int green = b.material("leaf", {glm::vec3(1), 0, 0.6f});
-    b.scene.materials.back().base_color_texture = b.texture(leaf("leaf", 64));
-    b.scene.materials.back().alpha_mode = AlphaMode::mask;
-    b.scene.materials.back().double_sided = true;
+    b.last().base_color_texture = b.texture(leaf("leaf", 64));
+    b.last().alpha_mode = AlphaMode::mask;
+    b.last().double_sided = true;
     const int bending = b.addMorphed("leaf", bendingLeaf(), green, {1.1, 0, 1.3});
     b.animate(figures, bending, W, linear, {0, 1, 2}, {{0}, {1.2f}, {-0.6f}});
     addSurroundings(b, box);
     b.sun({-0.5, -1.2, -0.8}, {0.9f, 0.95f, 1}, 2.5f);
-    return std::move(b.scene);
+    builder.scene = std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Test scenes about positions, visibility and transforms.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 
@@ -13,16 +12,14 @@ namespace {
 
 int relief(Builder& b, const std::string& name, const glm::vec3& color, double tiles) {
     const int made = b.material(name, {color, 0, 0.35f});
-    const TextureSlot normals = b.texture(normalMap(name, brickHeights(256), 8), tiles);
-    b.scene.materials.back().normal_texture = normals;
+    b.last().normal_texture = b.texture(normalMap(name, brickHeights(256), 8), tiles);
     return made;
 }
 
 }  // namespace
 
 // All passes must resolve equal depths alike: in all of them the first draw wins, or in all the last.
-Scene coplanar() {
-    Builder b;
+void coplanar(Builder& b) {
     b.camera("above", {1.5, 2.6, 5}, {0, 0.3, 0}, 36, 0.1, 100);
     const glm::vec3 colors[] = {
         {0.8f, 0.2f, 0.1f}, {0.1f, 0.6f, 0.2f}, {0.1f, 0.2f, 0.8f}, {0.7f, 0.6f, 0.1f}};
@@ -31,15 +28,15 @@ Scene coplanar() {
     // First the same square four times. Then coplanar squares with different corners: their interpolated
     // depths agree only in most pixels. Then the same triangles twice in one mesh.
     const Primitive square = quad({-2.5, 0, 2}, {2, 0, 0}, {0, 0, -2});
-    for (int material : materials) b.add("equal squares", square, material, glm::dvec3(0.0));
+    for (int material : materials) b.add("equal squares", square, material);
     for (int i = 0; i < 4; ++i)
         b.add("overlapping squares",
-              quad({0.1 + 0.3 * i, 0, 1.9 - 0.25 * i}, {1.3, 0, 0}, {0, 0, -1.3}, 1 + i, 2 + i), materials[i],
-              glm::dvec3(0.0));
+              quad({0.1 + 0.3 * i, 0, 1.9 - 0.25 * i}, {1.3, 0, 0}, {0, 0, -1.3}, 1 + i, 2 + i),
+              materials[i]);
     Primitive twice = quad({-2.5, 0, -0.3}, {2, 0, 0}, {0, 0, -1.5});
     const Primitive once = twice;
     append(twice, once);
-    b.add("double triangles", twice, materials[3], glm::dvec3(0.0));
+    b.add("double triangles", twice, materials[3]);
     // Intersecting bodies, whose depths are equal along the seam.
     b.add("ball", sphere(0.6, 64, 32), materials[0], glm::dvec3(1, 0.4, -1));
     b.add("box", box({0.9, 0.9, 0.9}), materials[2], at(1.4, 0.35, -0.8) * rotated(30, {1, 2, 0}));
@@ -47,17 +44,15 @@ Scene coplanar() {
     b.add("same ball, other mesh", sphere(0.6, 24, 12), materials[3], glm::dvec3(1, 0.4, -1));
     b.sun({-0.4, -1, -0.5}, glm::vec3(1), 2);
     b.point({-1, 1.5, 1}, {1.0f, 0.8f, 0.6f}, 4, 6);
-    return std::move(b.scene);
 }
 
 // Objects from 0.2 m to 90 km in the corner of a wide view; the far plane is at 1e5 m.
-Scene deep() {
-    Builder b;
+void deep(Builder& b) {
     const glm::dvec3 eye(0, 1.7, 0);
     b.camera("corner", eye, eye + glm::dvec3(0.55, -0.15, -1), 75, 0.01, 1e5);
     b.scene.background = {0.2f, 0.3f, 0.5f};
     b.add("plain", quad({-1e5, 0, 1e5}, {2e5, 0, 0}, {0, 0, -2e5}),
-          b.material("plain", {{0.3f, 0.28f, 0.22f}, 0, 0.7f}), glm::dvec3(0.0));
+          b.material("plain", {{0.3f, 0.28f, 0.22f}, 0, 0.7f}));
     // Distances and sizes grow alike by about ten times, so that all appear equally large.
     const double distances[] = {0.2, 1, 10, 100, 1000, 1e4, 9e4};
     for (int i = 0; i < 7; ++i) {
@@ -71,12 +66,10 @@ Scene deep() {
                 {1.0f, 0.9f, 0.7f}, static_cast<float>(0.12 * d * d), static_cast<float>(d));
     }
     b.sun({-0.3, -0.7, -0.5}, {1.0f, 0.95f, 0.85f}, 2);
-    return std::move(b.scene);
 }
 
 // Each pair shows the same relief, mirrored by a node on the right. The bricks must protrude in both.
-Scene mirrored() {
-    Builder b;
+void mirrored(Builder& b) {
     b.camera("front", {0.05, 0, 7}, {0.05, 0, 0}, 36, 0.1, 100);
     const int bricks = relief(b, "bricks", {0.6f, 0.3f, 0.2f}, 1);
     const int wall = b.addMesh(quad({-0.9, -0.9, 0}, {1.8, 0, 0}, {0, 1.8, 0}), bricks, "wall");
@@ -92,11 +85,9 @@ Scene mirrored() {
     b.addNode("ball, mirrored twice", ball, at(-1.9, 0, 0) * scaled(1, -1, 1), mirror);
     b.sun({0.8, -0.5, -0.6}, glm::vec3(1), 2);
     b.point({-2, 2.5, 2}, {0.6f, 0.8f, 1.0f}, 12, 12);
-    return std::move(b.scene);
 }
 
-Scene stretched() {
-    Builder b;
+void stretched(Builder& b) {
     b.camera("front", {0, 1.2, 8}, {0, 0, 0}, 34, 0.1, 100);
     const int bricks = relief(b, "bricks", {0.55f, 0.5f, 0.45f}, 2);
     const int enamel = b.material("enamel", {{0.7f, 0.45f, 0.2f}, 0.2f, 0.25f});
@@ -115,12 +106,10 @@ Scene stretched() {
     b.addNode("sheared stone", stone, at(1.1, 0, 0) * rotated(50, {1, 1, 0}) * scaled(1, 2, 0.4), deeper);
     b.sun({-0.5, -0.8, -0.6}, glm::vec3(1), 2);
     b.point({2, 2, 3}, {1.0f, 0.8f, 0.6f}, 14, 12);
-    return std::move(b.scene);
 }
 
 // Near 1e6 m, float32 has steps of 62 mm: surfaces stay smooth only with camera-relative positions.
-Scene farAway() {
-    Builder b;
+void farAway(Builder& b) {
     const glm::dvec3 here(1e6, 2e5, -1e6);
     b.camera("there", here + glm::dvec3(0, 1.5, 4), here + glm::dvec3(0, 0.5, 0), 40, 0.05, 1000);
     const int tiles = relief(b, "tiles", {0.5f, 0.5f, 0.55f}, 2);
@@ -135,16 +124,14 @@ Scene farAway() {
     b.point(here + glm::dvec3(-1, 1.6, 1), {1.0f, 0.8f, 0.6f}, 5, 6);
     b.spot(here + glm::dvec3(2, 2.5, 1), here + glm::dvec3(0.5, 0, 0), {0.6f, 0.8f, 1.0f}, 20, 8, {10, 25});
     b.sun({-0.3, -1, -0.4}, glm::vec3(1), 0.5f);
-    return std::move(b.scene);
 }
 
-Scene ortho() {
-    Builder b;
+void ortho(Builder& b) {
     Camera& camera = b.camera("isometric", {6, 5, 6}, {0, 0.2, 0}, 60, 0.5, 20);
     camera.orthographic = true;
     camera.ymag = 2;
     const int stone = relief(b, "stone", {0.6f, 0.55f, 0.5f}, 1);
-    b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 4, 4), stone, glm::dvec3(0.0));
+    b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 4, 4), stone);
     for (int i = 0; i < 9; ++i) {
         const glm::dvec3 place(1.3 * (i % 3 - 1), 0.4, 1.3 * (i / 3 - 1));
         const int material =
@@ -158,11 +145,9 @@ Scene ortho() {
     }
     b.sun({-0.3, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
     b.point({1, 1.5, 1.5}, {1.0f, 0.6f, 0.3f}, 4, 4);
-    return std::move(b.scene);
 }
 
-Scene triangle() {
-    Builder b;
+void triangle(Builder& b) {
     b.camera("front", {0, 0, 3}, {0, 0, 0}, 40, 0.1, 10);
     Primitive one;
     one.positions = {{-1, -0.6f, 0}, {1, -0.6f, 0}, {0, 0.9f, 0}};
@@ -170,25 +155,19 @@ Scene triangle() {
     one.tangents.assign(3, {1, 0, 0, 1});
     one.texcoords[0] = {{0, 1}, {1, 1}, {0.5f, 0}};
     one.indices = {0, 1, 2};
-    b.add("triangle", one, b.material("white", {glm::vec3(0.8f), 0, 0.5f}), glm::dvec3(0.0));
+    b.add("triangle", one, b.material("white", {glm::vec3(0.8f), 0, 0.5f}));
     b.point({0.5, 0.5, 1.5}, {1.0f, 0.9f, 0.8f}, 4, 5);
-    return std::move(b.scene);
 }
 
-Scene empty() {
-    Scene scene;
-    scene.background = {0.1f, 0.1f, 0.1f};
-    return scene;
+void empty(Builder& b) {
+    b.scene.background = {0.1f, 0.1f, 0.1f};
 }
 
-Scene background() {
-    Builder b;
+void background(Builder& b) {
     b.camera("away", {0, 0, 3}, {0, 0, 10}, 40, 0.1, 100);
-    b.add("ball behind the camera", sphere(1), b.material("white", {glm::vec3(0.8f), 0, 0.5f}),
-          glm::dvec3(0.0));
+    b.add("ball behind the camera", sphere(1), b.material("white", {glm::vec3(0.8f), 0, 0.5f}));
     b.sun({0, -1, 0}, glm::vec3(1), 1);
     b.scene.background = {0.2f, 0.4f, 0.6f};
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

@@ -246,25 +246,19 @@ Primitive archway(double width, double height, double depth, double opening, dou
     const auto inFront = [&](double x, double y) {
         return push(shape, {{x, y, 0}, {0, 0, 1}, {1, 0, 0}, {x + width / 2, height - y}});
     };
-    const auto flat = [&](double x0, double y0, double x1, double y1) {
-        const std::uint32_t a = inFront(x0, y0), b = inFront(x1, y0), c = inFront(x1, y1),
-                            d = inFront(x0, y1);
+    const auto upFrom = [&](const dvec2& left, const dvec2& right) {  // to the top
+        const std::uint32_t a = inFront(left.x, left.y), b = inFront(right.x, right.y),
+                            c = inFront(right.x, height), d = inFront(left.x, height);
         triangle(shape, a, b, c);
         triangle(shape, a, c, d);
     };
-    flat(-width / 2, 0, -radius, height);
-    flat(radius, 0, width / 2, height);
+    upFrom({-width / 2, 0}, {-radius, 0});
+    upFrom({radius, 0}, {width / 2, 0});
     const auto arc = [&](int k) {  // point k of the arc, left to right
         const double angle = TAU / 2 * (1 - static_cast<double>(k) / segments);
         return dvec2(radius * std::cos(angle), spring + radius * std::sin(angle));
     };
-    for (int k = 0; k < segments; ++k) {
-        const dvec2 p = arc(k), q = arc(k + 1);
-        const std::uint32_t a = inFront(p.x, p.y), b = inFront(q.x, q.y), c = inFront(q.x, height),
-                            d = inFront(p.x, height);
-        triangle(shape, a, b, c);
-        triangle(shape, a, c, d);
-    }
+    for (int k = 0; k < segments; ++k) upFrom(arc(k), arc(k + 1));
     // The inner surface of the opening. u runs into the wall, v along the edge from its right foot.
     const double length = 2 * spring + TAU / 2 * radius;
     const auto edge = [&](int k) -> Vertex {  // k: right foot, the arc from right to left, left foot
@@ -309,6 +303,11 @@ void append(Primitive& whole, const Primitive& part, const glm::dmat4& wholeFrom
 
 Primitive scaleTexcoords(Primitive shape, double u, double v) {
     for (glm::vec2& uv : shape.texcoords[0]) uv = glm::vec2(dvec2(uv) * dvec2(u, v));
+    return shape;
+}
+
+Primitive withTurnedSet(Primitive shape) {
+    for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
     return shape;
 }
 

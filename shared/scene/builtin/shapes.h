@@ -45,6 +45,8 @@ Primitive archway(double width, double height, double depth, double opening, dou
 
 void append(Primitive& whole, const Primitive& part, const glm::dmat4& wholeFromPart = glm::dmat4(1.0));
 Primitive scaleTexcoords(Primitive shape, double u, double v);
+// Adds a second UV set: the first, rotated by 90 degrees. So use of the wrong set becomes visible.
+Primitive withTurnedSet(Primitive shape);
 Primitive paint(Primitive shape, const std::function<glm::vec4(const glm::vec3& position)>& color);
 
 }  // namespace diptych

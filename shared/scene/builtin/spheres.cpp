@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The many-light benchmark, defined by the numbers in spheres.md so that other renderers can be measured on
 // the same work. If a number changes, the scene needs a new name.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
 
@@ -11,13 +10,12 @@
 
 namespace diptych::builtin {
 
-Scene spheres(std::uint32_t lights) {
-    Builder b;
+void spheres(Builder& b, std::uint32_t lights) {
     b.scene.background = {0.02f, 0.02f, 0.03f};
     b.camera("overview", {0, 6, 14}, {0, 0, 0}, 60, 0.1, 100);
 
     b.add("ground", quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40}),
-          b.material("ground", {glm::vec3(0.5f), 0, 0.8f}), glm::dvec3(0.0));
+          b.material("ground", {glm::vec3(0.5f), 0, 0.8f}));
     const Primitive ball = sphere(0.4, 32, 16);
     for (std::uint32_t k = 0; k < 400; ++k) {
         const std::uint32_t row = k / 20, column = k % 20;
@@ -38,7 +36,6 @@ Scene spheres(std::uint32_t lights) {
             {radius * std::cos(theta), 1 + 0.5 * std::sin(static_cast<double>(i)), radius * std::sin(theta)},
             glm::vec3(0.3 + 0.7 * glm::dvec3(u01(c), u01(c + 1), u01(c + 2))), 4, 3);
     }
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The test scene of normal maps that are rotated, mirrored, or read by the second UV set.
-#include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/builtin/textures.h"
 #include "shared/scene/model/animated.h"
@@ -28,12 +27,6 @@ constexpr Turn turns[] = {{"plain", 0},
                           {"v mirrored and turned", 65, 1, -1},
                           {"second set", 20, 1, 1, 1}};
 
-// The second UV set is the first, rotated by 90 degrees.
-Primitive withTurnedSet(Primitive shape) {
-    for (const glm::vec2& uv : shape.texcoords[0]) shape.texcoords[1].push_back({uv.y, 1 - uv.x});
-    return shape;
-}
-
 void turnOverTime(Scene& scene, int material, const TextureTransform& rest) {
     MaterialParts parts;
     parts.transforms[gpu::SLOT_normal] = rest;
@@ -60,8 +53,7 @@ void turnOverTime(Scene& scene, int material, const TextureTransform& rest) {
 // must protrude everywhere. Tangents of untransformed coordinates would light some from the right or
 // below. The animation rotates all maps by 120 degrees in 4 s and mirrors them after 3 s. Tangents of the
 // maps at rest would be as wrong.
-Scene tangents() {
-    Builder b;
+void tangents(Builder& b) {
     b.scene.animations.push_back({"turning", {}, {}});
     b.camera("front", {0, 0, 11}, {0, 0, 0}, 24, 0.1, 100);
     const TextureSlot tiles = b.texture(normalMap("tiles", tileHeights(128), 5), 1);
@@ -73,7 +65,7 @@ Scene tangents() {
         TextureSlot slot = tiles;
         slot.texcoord = turn.texcoord;
         setTransform(slot, transform);
-        b.scene.materials.back().normal_texture = slot;
+        b.last().normal_texture = slot;
         turnOverTime(b.scene, material, transform);
         const auto add = [&](const std::string& shape, Primitive primitive, double y) {
             primitive = withTurnedSet(std::move(primitive));
@@ -86,7 +78,6 @@ Scene tangents() {
         x += 1.2;
     }
     b.sun({0.8, -0.7, -0.6}, glm::vec3(1), 2.5f);
-    return std::move(b.scene);
 }
 
 }  // namespace diptych::builtin

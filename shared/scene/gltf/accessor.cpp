@@ -3,7 +3,6 @@
 
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/model.h"
-#include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -82,7 +81,7 @@ ViewSource sourceOf(const Model& model, int index) {
 // Checks that the elements lie inside a bufferView.
 Elements locate(const Model& model, int view, const ElementLayout& e, const std::string& who,
                 const char* noun) {
-    const std::span<const unsigned char> bytes = viewBytes(model, view, who);
+    const std::span<const unsigned char> bytes = viewBytes(model, view);
     if (e.stride < e.size)
         fail(who, fmt::format("{} of {} bytes, but bufferView {} has a stride of {}", noun, e.size, view,
                               e.stride));
@@ -110,21 +109,13 @@ T load(const unsigned char* at) {
 
 // Calls use(T{}) with the C++ type T of the component type.
 template <class Use>
-void withType(int type, const Use& use) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return use(std::int8_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return use(std::uint8_t{});
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return use(std::int16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return use(std::uint16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return use(std::uint32_t{});
-        default:
-            return use(float{});
-    }
+auto withType(int type, const Use& use) {
+    if (type == TINYGLTF_COMPONENT_TYPE_BYTE) return use(std::int8_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return use(std::uint8_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_SHORT) return use(std::int16_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return use(std::uint16_t{});
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return use(std::uint32_t{});
+    return use(float{});
 }
 
 // glTF 2.0, 3.11: the most negative integer maps to -1, too.
@@ -144,7 +135,9 @@ public:
     // `width`: required number of components; 0: any.
     SoundAccessor(const Model& model, int index, const std::string& asks, const char* noun,
                   std::size_t width = 0)
-        : file_(find(model, index, asks)), who_(fmt::format("accessor {}", index)), shape_(shapeOf(file_)) {
+        : file_(model.accessors[static_cast<std::size_t>(index)]),
+          who_(fmt::format("accessor {}", index)),
+          shape_(shapeOf(file_)) {
         if (width && (shape_.columns != 1 || shape_.rows != width))
             fail(asks,
                  fmt::format("{} is not {}", who_, width == 1 ? "SCALAR" : fmt::format("VEC{}", width)));
@@ -155,13 +148,12 @@ public:
                                        file_.count, noun, shape_.bytes()));
             own_ = {decoded->second.data(), shape_.bytes(), file_.count};
         } else if (file_.bufferView >= 0) {
-            const std::size_t stride = strideOf(model, file_.bufferView);
+            const std::size_t stride =
+                model.bufferViews[static_cast<std::size_t>(file_.bufferView)].byteStride;
             own_ = locate(model, file_.bufferView,
                           {file_.byteOffset, file_.count, shape_.bytes(),
                            stride ? stride : shape_.columns * shape_.columnStride()},
                           who_, noun);
-        } else if (file_.bufferView < -1) {
-            viewBytes(model, file_.bufferView, who_);
         } else if (file_.count > MAX_ZERO_ELEMENTS) {
             fail(who_, fmt::format("{} {} without a bufferView; the limit is {}", file_.count, noun,
                                    MAX_ZERO_ELEMENTS));
@@ -197,18 +189,6 @@ private:
     Shape shape_;
     Elements own_, sparse_indices_, sparse_values_;
 
-    static const tinygltf::Accessor& find(const Model& model, int index, const std::string& asks) {
-        if (checkedIndex(index, model.accessors.size(), asks, "accessor") < 0)
-            fail(asks, "names no accessor");
-        return model.accessors[static_cast<std::size_t>(index)];
-    }
-
-    static std::size_t strideOf(const Model& model, int view) {
-        // The caller's viewBytes() reports the error.
-        if (static_cast<std::size_t>(view) >= model.bufferViews.size()) return 0;
-        return model.bufferViews[static_cast<std::size_t>(view)].byteStride;
-    }
-
     void locateSparse(const Model& model) {
         const auto& sparse = file_.sparse;
         if (!isIndexType(sparse.indices.componentType)) fail(who_, "its sparse indices have no index type");
@@ -235,15 +215,9 @@ private:
     }
 
     std::uint32_t sparseIndex(std::size_t s) const {
-        const unsigned char* at = sparse_indices_.at(s);
-        switch (file_.sparse.indices.componentType) {
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-                return *at;
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-                return load<std::uint16_t>(at);
-            default:
-                return load<std::uint32_t>(at);
-        }
+        return withType(file_.sparse.indices.componentType, [&](auto sample) {
+            return static_cast<std::uint32_t>(load<decltype(sample)>(sparse_indices_.at(s)));
+        });
     }
 };
 
@@ -251,15 +225,12 @@ private:
 
 // ---- what is read ------------------------------------------------------------------------------------
 
-std::span<const unsigned char> viewBytes(const Model& model, int index, const std::string& who) {
-    if (checkedIndex(index, model.bufferViews.size(), who, "bufferView") < 0)
-        fail(who, "names no bufferView");
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
-    const std::string name = fmt::format("bufferView {}", index);
-    if (checkedIndex(view.buffer, model.buffers.size(), name, "buffer") < 0) fail(name, "names no buffer");
+std::span<const unsigned char> viewBytes(const Model& model, int index) {
     const ViewSource source = sourceOf(model, index);
     const std::string cut = cutOf(model, index);
-    if (cut.empty()) return source.data.subspan(source.offset, view.byteLength);
+    if (cut.empty())
+        return source.data.subspan(source.offset,
+                                   model.bufferViews[static_cast<std::size_t>(index)].byteLength);
     if (source.offset >= source.data.size()) throw std::runtime_error(cut);
     return source.data.subspan(source.offset);
 }
@@ -277,10 +248,6 @@ std::string cutOf(const Model& model, int index) {
 std::size_t soundCount(const Model& model, int accessor, const std::string& who, const char* noun,
                        std::size_t width) {
     return SoundAccessor(model, accessor, who, noun, width).file().count;
-}
-
-std::size_t componentsOf(const Model& model, int accessor) {
-    return shapeOf(model.accessors[static_cast<std::size_t>(accessor)]).width();
 }
 
 template <class Vec>

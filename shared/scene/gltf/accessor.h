@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// All reads of buffer memory go through here: index, bufferView, stride, count and all their products are
-// checked first. Offsets may be unaligned. All functions throw std::runtime_error: "accessor 3: ...", or
-// "WHO: accessor 3 ..." if an accessor does not suit its use.
+// All reads of buffer memory go through here: stride, count and all their products are checked first. Indices
+// are those of a checked document. Offsets may be unaligned. All functions throw std::runtime_error:
+// "accessor 3: ...", or "WHO: accessor 3 ..." if an accessor does not suit its use.
 #pragma once
 
 #include <glm/ext/vector_uint4_sized.hpp>
@@ -20,9 +20,8 @@ namespace diptych::gltf {
 struct Model;
 
 // The bytes of bufferView `index` that exist in its buffer; throws if there are none. The result may be
-// shorter than byteLength, because exporters count padding that they do not write. `who` names the caller
-// in errors.
-std::span<const unsigned char> viewBytes(const Model& model, int index, const std::string& who);
+// shorter than byteLength, because exporters count padding that they do not write.
+std::span<const unsigned char> viewBytes(const Model& model, int index);
 // Why viewBytes() is shorter than byteLength: "bufferView 3: 40 bytes from 0 on end past buffer 0 (38
 // bytes)". Empty if it is not.
 std::string cutOf(const Model& model, int index);
@@ -44,9 +43,6 @@ std::vector<Vec> readVectors(const Model& model, int accessor, const std::string
 // Reads COLOR_0 with three or four components; the default alpha is 1. Integers must be normalized.
 std::vector<glm::vec4> readColors(const Model& model, int accessor, const std::string& who,
                                   const Selection& which = {});
-
-// Components per element of an accessor that passed soundCount().
-std::size_t componentsOf(const Model& model, int accessor);
 
 // Reads JOINTS_n: VEC4 of unsigned 8- or 16-bit integers.
 std::vector<glm::u16vec4> readJoints(const Model& model, int accessor, const std::string& who,

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/gltf/animation.h"
+#include "shared/scene/gltf/motion.h"
 
 #include "shared/scene/gltf/animation_pointer.h"
+#include "shared/scene/gltf/node.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <compare>
 #include <map>
-#include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace diptych::gltf {
@@ -32,7 +34,7 @@ const Json* pointerOf(const Json& channel) {
 }
 
 bool hasTransform(AnimatedPart part) {
-    return part == AnimatedPart::translation || part == AnimatedPart::rotation || part == AnimatedPart::scale;
+    return part <= AnimatedPart::scale;
 }
 
 // Format of a sampler's output. Channels with the same sampler and format share keyframes.
@@ -44,55 +46,58 @@ struct OutputShape {
     auto operator<=>(const OutputShape&) const = default;
 };
 
-// Objects of the file that the scene contains.
-struct Contained {
-    std::set<int> meshes, lights, cameras, materials;
+// The word for the object that has the part.
+std::string_view objectOf(AnimatedPart part) {
+    return isNodePart(part)     ? "node"
+           : isMeshPart(part)   ? "mesh"
+           : isLightPart(part)  ? "light"
+           : isCameraPart(part) ? "camera"
+                                : "material";
+}
 
-    Contained(const Model& model, const Scene& scene) {
-        for (const Node& node : scene.nodes)
-            if (node.mesh >= 0) meshes.insert(node.mesh);
-        for (const int mesh : meshes)
-            for (const tinygltf::Primitive& p : model.meshes[static_cast<std::size_t>(mesh)].primitives)
-                materials.insert(p.material);
-        for (const Light& light : scene.lights) lights.insert(light.source);
-        for (const Camera& camera : scene.cameras) cameras.insert(camera.source);
-    }
-};
+// Objects but nodes that the scene contains, by objectOf().
+std::map<std::string_view, std::set<int>> containedObjects(const MotionSource& source) {
+    std::map<std::string_view, std::set<int>> all;
+    for (const Node& node : source.scene.nodes)
+        if (node.mesh >= 0) all["mesh"].insert(node.mesh);
+    for (const int mesh : all["mesh"])
+        for (const tinygltf::Primitive& p : source.model.meshes[static_cast<std::size_t>(mesh)].primitives)
+            all["material"].insert(p.material);
+    for (const Light& light : source.scene.lights) all["light"].insert(light.source);
+    for (const Camera& camera : source.scene.cameras) all["camera"].insert(camera.source);
+    return all;
+}
 
-class AnimationReader {
+class AnimationReader : MotionSource {
 public:
-    AnimationReader(const Model& model, const std::vector<int>& sceneNode, MotionBudget& budget, Scene& scene)
-        : model_(model), scene_node_(sceneNode), budget_(budget), scene_(scene), contained_(model, scene) {}
+    explicit AnimationReader(const MotionSource& source)
+        : MotionSource(source), contained_(containedObjects(source)) {}
 
     void read() {
-        const std::size_t before = scene_.notes.size();
-        for (std::size_t a = 0; a < model_.animations.size(); ++a) animation(a);
-        limitNotes(scene_.notes, before, "animations");
-        const auto moving = std::ranges::count_if(scene_.animations, movesAnything);
-        if (moving == 0) scene_.animations.clear();
+        const std::size_t before = scene.notes.size();
+        for (std::size_t a = 0; a < model.animations.size(); ++a) animation(a);
+        limitNotes(scene.notes, before, "animations");
+        const auto moving = std::ranges::count_if(scene.animations, movesAnything);
+        if (moving == 0) scene.animations.clear();
         if (moving > 1)
-            scene_.notes.push_back(fmt::format(
+            scene.notes.push_back(fmt::format(
                 "{} animations: all play at once, later ones override earlier ones; --animation selects one",
                 moving));
     }
 
 private:
-    const Model& model_;
-    const std::vector<int>& scene_node_;
-    MotionBudget& budget_;
-    Scene& scene_;
-    Contained contained_;
+    std::map<std::string_view, std::set<int>> contained_;
     const tinygltf::Animation* file_ = nullptr;
     // (the file's sampler, shape) -> index of keyframes
     std::map<std::pair<int, OutputShape>, int> place_;
     std::set<ChannelTarget> moved_;
 
     void animation(std::size_t index) {
-        file_ = &model_.animations[index];
+        file_ = &model.animations[index];
         place_.clear();
         moved_.clear();
         const std::string who = fmt::format("animation {}", index);
-        const Json* channels = memberOf(elementOf(arrayAt(model_.rest, "/animations"), index), "channels");
+        const Json* channels = memberOf(elementOf(arrayAt(model.rest, "/animations"), index), "channels");
         Animation result;
         result.name = file_->name;
         std::size_t faulty = 0;
@@ -108,18 +113,18 @@ private:
             }
         }
         if (faulty)
-            scene_.notes.push_back(fmt::format("{}: {} of {} channels left out: {}", who, faulty,
-                                               file_->channels.size(), first));
+            scene.notes.push_back(fmt::format("{}: {} of {} channels left out: {}", who, faulty,
+                                              file_->channels.size(), first));
         if (result.channels.empty()) result.keyframes.clear();
-        scene_.animations.push_back(std::move(result));
+        scene.animations.push_back(std::move(result));
     }
 
     // `pointer`: of KHR_animation_pointer; nullptr: none.
     void channel(const tinygltf::AnimationChannel& file, const Json* pointer, const std::string& animation,
                  const std::string& who, Animation& result) {
-        const ChannelTarget target = pointer ? pointerTarget(model_, *pointer, who) : targetOf(file, who);
+        const ChannelTarget target = pointer ? pointerTarget(model, *pointer, who) : targetOf(file, who);
         if (target.object < 0 || !isContained(target)) return;
-        if (hasTransform(target.part) && !nodeOf(target).matrix.empty())
+        if (hasTransform(target.part) && !fileOf(target).matrix.empty())
             fail(who, fmt::format("node {} has a matrix, which cannot be animated", target.object));
         claim(target, who);
         const OutputShape shape{
@@ -136,22 +141,28 @@ private:
         noteKeys(these, target, known == place_.end(), fmt::format("{}: {}", animation, who));
         AnimationChannel made{.keyframes = keys, .part = target.part, .element = target.element};
         if (isNodePart(target.part))
-            made.node = scene_node_[static_cast<std::size_t>(target.object)];
+            made.node = scene_node[static_cast<std::size_t>(target.object)];
         else
             made.object = target.object;
         if (known == place_.end()) {
             place_[{file.sampler, shape}] = keys;
             result.keyframes.push_back(std::move(fresh));
         }
-        if (hasTransform(target.part)) giveTransform(target.object);
+        if (hasTransform(target.part)) {
+            Node& node = nodeOf(static_cast<std::size_t>(target.object));
+            if (node.transform < 0) {
+                node.transform = static_cast<int>(scene.transforms.size());
+                scene.transforms.push_back(partsOf(fileOf(target)));
+            }
+        }
         result.channels.push_back(made);
     }
 
-    const tinygltf::Node& nodeOf(const ChannelTarget& target) const {
-        return model_.nodes[static_cast<std::size_t>(target.object)];
+    const tinygltf::Node& fileOf(const ChannelTarget& target) const {
+        return model.nodes[static_cast<std::size_t>(target.object)];
     }
 
-    ChannelTarget targetOf(const tinygltf::AnimationChannel& channel, const std::string& who) const {
+    ChannelTarget targetOf(const tinygltf::AnimationChannel& channel, const std::string& who) {
         ChannelTarget target;
         target.object = channel.target_node;
         if (target.object < 0 || !isContained(target)) return target;
@@ -167,44 +178,29 @@ private:
         return target;
     }
 
-    bool isContained(const ChannelTarget& target) const {
+    bool isContained(const ChannelTarget& target) {
         if (!target.effect) return false;
-        if (isNodePart(target.part)) return scene_node_[static_cast<std::size_t>(target.object)] >= 0;
-        return (isMeshPart(target.part)     ? contained_.meshes
-                : isLightPart(target.part)  ? contained_.lights
-                : isCameraPart(target.part) ? contained_.cameras
-                                            : contained_.materials)
-            .contains(target.object);
+        if (isNodePart(target.part)) return scene_node[static_cast<std::size_t>(target.object)] >= 0;
+        return contained_[objectOf(target.part)].contains(target.object);
     }
 
     // Within one animation, targets must be distinct; an array and one of its elements conflict.
     void claim(const ChannelTarget& target, const std::string& who) {
-        const auto taken = [&](AnimatedPart part, int element) {
-            return moved_.contains({part, target.object, element});
-        };
+        constexpr int any = -1;
+        const bool one = target.part == AnimatedPart::weight || target.part == AnimatedPart::mesh_weight;
         const AnimatedPart all = target.part == AnimatedPart::weight        ? AnimatedPart::weights
                                  : target.part == AnimatedPart::mesh_weight ? AnimatedPart::mesh_weights
                                                                             : target.part;
-        const AnimatedPart one = all == AnimatedPart::weights        ? AnimatedPart::weight
-                                 : all == AnimatedPart::mesh_weights ? AnimatedPart::mesh_weight
-                                                                     : target.part;
-        const bool element = all != target.part;
-        constexpr int any = -1;
-        if (taken(target.part, target.element) || (element && taken(all, 0)) ||
-            (!element && one != all && taken(one, any)))
-            fail(who, fmt::format("an earlier channel already animates {} {}",
-                                  isNodePart(target.part)     ? "node"
-                                  : isMeshPart(target.part)   ? "mesh"
-                                  : isLightPart(target.part)  ? "light"
-                                  : isCameraPart(target.part) ? "camera"
-                                                              : "material",
+        if (moved_.contains(target) || moved_.contains({all, target.object, one ? 0 : any}))
+            fail(who, fmt::format("an earlier channel already animates {} {}", objectOf(target.part),
                                   target.object));
         moved_.insert(target);
-        if (element) moved_.insert({one, target.object, any});
+        if (one) moved_.insert({all, target.object, any});
     }
 
     Keyframes keyframes(int index, const OutputShape& shape, const std::string& who) {
-        if (checkedIndex(index, file_->samplers.size(), who, "sampler") < 0) fail(who, "names no sampler");
+        if (static_cast<std::size_t>(index) >= file_->samplers.size())
+            fail(who, fmt::format("sampler {}, but the file has {}", index, file_->samplers.size()));
         const tinygltf::AnimationSampler& file = file_->samplers[static_cast<std::size_t>(index)];
         Keyframes result;
         if (file.interpolation == "STEP")
@@ -217,7 +213,7 @@ private:
     }
 
     void readTimes(int accessor, const std::string& who, Keyframes& result) {
-        Numbers times = budget_.read(model_, accessor, who);
+        Numbers times = budget.read(model, accessor, who);
         if (times.width != 1 || times.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
             fail(who, fmt::format("accessor {} is not SCALAR of floats", accessor));
         if (times.count == 0) fail(who, "has no keys");
@@ -232,7 +228,7 @@ private:
     }
 
     void readValues(int accessor, const OutputShape& shape, const std::string& who, Keyframes& result) {
-        Numbers read = budget_.read(model_, accessor, who);
+        Numbers read = budget.read(model, accessor, who);
         const bool floats = read.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
         const bool integers = read.normalized && read.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
         const bool mayBeIntegers = shape.rotation || shape.several;
@@ -268,20 +264,20 @@ private:
     void checkWeights(const Keyframes& keys, const ChannelTarget& target, const std::string& who) {
         const bool node = isNodePart(target.part);
         if (hasTransform(target.part) || !(node || isMeshPart(target.part))) return;
-        const std::size_t targets = node ? targetsOf(model_, nodeOf(target))
-                                         : targetsOf(model_.meshes[static_cast<std::size_t>(target.object)]);
-        const char* what = node ? "node" : "mesh";
+        const std::size_t targets = node ? targetsOf(model, fileOf(target))
+                                         : targetsOf(model.meshes[static_cast<std::size_t>(target.object)]);
+        const std::string_view what = objectOf(target.part);
         if (targets == 0) fail(who, fmt::format("{} {} has no morph targets", what, target.object));
         const bool all = target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights;
         if (all && keys.width != targets)
             fail(who, fmt::format("{} weights per key, but {} {} has {} morph targets", keys.width, what,
                                   target.object, targets));
-        budget_.hold(sizeof(double), targets, who, "weights");
+        budget.hold(sizeof(double), targets, who, "weights");
     }
 
     void noteKeys(const Keyframes& keys, const ChannelTarget& target, bool fresh, const std::string& who) {
         if (fresh && std::ranges::adjacent_find(keys.times) != keys.times.end())
-            scene_.notes.push_back(who + ": several keys at one time: the last one is used");
+            scene.notes.push_back(who + ": several keys at one time: the last one is used");
         if (isNodePart(target.part) || isMeshPart(target.part)) return;
         const PartFacts facts = factsOf(target.part);
         const std::size_t width = keys.width;
@@ -292,39 +288,19 @@ private:
                 const double x = keys.values[i];
                 const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
                 if (x >= facts.least && x <= facts.most && !gap) continue;
-                scene_.notes.push_back(
+                scene.notes.push_back(
                     gap ? fmt::format("{}: ior {:g} is not 0 or at least 1: 1 is used", who, x)
                         : fmt::format("{}: {:g} is outside {:g} to {:g}: the nearest value is used", who, x,
                                       facts.least, facts.most));
                 return;
             }
     }
-
-    // The values were checked when the node's matrix was computed.
-    void giveTransform(int node) {
-        Node& target = scene_.nodes[static_cast<std::size_t>(scene_node_[static_cast<std::size_t>(node)])];
-        if (target.transform >= 0) return;
-        const tinygltf::Node& file = model_.nodes[static_cast<std::size_t>(node)];
-        Transform t;
-        for (std::size_t c = 0; c < 3; ++c) {
-            if (file.translation.size() == 3) t.translation[static_cast<int>(c)] = file.translation[c];
-            if (file.scale.size() == 3) t.scale[static_cast<int>(c)] = file.scale[c];
-        }
-        if (file.rotation.size() == 4) {
-            const std::vector<double>& r = file.rotation;
-            const glm::dquat q(r[3], r[0], r[1], r[2]);
-            if (glm::length(q) > 0) t.rotation = glm::normalize(q);
-        }
-        target.transform = static_cast<int>(scene_.transforms.size());
-        scene_.transforms.push_back(t);
-    }
 };
 
 }  // namespace
 
-void readAnimations(const Model& model, const std::vector<int>& sceneNode, MotionBudget& budget,
-                    Scene& scene) {
-    AnimationReader(model, sceneNode, budget, scene).read();
+void readAnimations(const MotionSource& source) {
+    AnimationReader(source).read();
 }
 
 }  // namespace diptych::gltf

@@ -2,7 +2,7 @@
 #include "shared/scene/gltf/animation_pointer.h"
 
 #include "shared/scene/gltf/model.h"
-#include "shared/scene/gltf/motion_budget.h"
+#include "shared/scene/gltf/motion.h"
 #include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
@@ -145,9 +145,7 @@ private:
                    glossy = extension(material, "KHR_materials_pbrSpecularGlossiness"),
                    ofGlossy = names("/KHR_materials_pbrSpecularGlossiness/");
         if (ofGlossy && !glossy) wrong("the material has no KHR_materials_pbrSpecularGlossiness");
-        const bool transform = target.part == AnimatedPart::texture_offset ||
-                               target.part == AnimatedPart::texture_rotation ||
-                               target.part == AnimatedPart::texture_scale;
+        const bool transform = target.part >= AnimatedPart::texture_offset;
         if (!match.texture.empty() && !model_.rest.contains(Json::json_pointer(match.texture)))
             wrong("the material has no such texture");
         if (transform) target.element = static_cast<int>(match.slot);

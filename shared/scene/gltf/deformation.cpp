@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/gltf/deformation.h"
+#include "shared/scene/gltf/attributes.h"
 
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"
@@ -55,7 +55,7 @@ void normalizeWeights(const AttributeReader& reader, std::size_t joints,
 std::vector<glm::vec4> readColorDeltas(const Model& model, int accessor, const std::string& who,
                                        const Selection& which) {
     std::vector<glm::vec4> deltas = readColors(model, accessor, who, which);
-    if (componentsOf(model, accessor) == 3)
+    if (model.accessors[static_cast<std::size_t>(accessor)].type == TINYGLTF_TYPE_VEC3)
         for (glm::vec4& delta : deltas) delta.a = 0;
     return deltas;
 }
@@ -93,17 +93,16 @@ void readTargets(const AttributeReader& reader, std::size_t count, Primitive& pr
             };
             // A delta needs a base attribute. Generated normals and tangents follow from the morphed
             // positions instead.
-            if (!reader.has(name))
-                reader.note("{}: left out", what);
-            else if (name == "POSITION")
+            const bool based = reader.has(name);
+            if (based && name == "POSITION")
                 take(target.positions, readVectors<glm::vec3>);
-            else if (name == "NORMAL")
+            else if (based && name == "NORMAL")
                 take(target.normals, readVectors<glm::vec3>);
-            else if (name == "TANGENT")
+            else if (based && name == "TANGENT")
                 take(target.tangents, readVectors<glm::vec3>);
-            else if (name == "TEXCOORD_0" || name == "TEXCOORD_1")
+            else if (based && (name == "TEXCOORD_0" || name == "TEXCOORD_1"))
                 take(target.texcoords[name.back() - '0'], readVectors<glm::vec2>);
-            else if (name == "COLOR_0")
+            else if (based && name == "COLOR_0")
                 take(target.colors, readColorDeltas);
             else
                 reader.note("{}: left out", what);

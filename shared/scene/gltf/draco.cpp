@@ -15,7 +15,6 @@
 #include <cstring>
 #include <iterator>
 #include <new>
-#include <stdexcept>
 
 namespace diptych::gltf {
 
@@ -99,8 +98,7 @@ constexpr std::array dracoTypes{
 
 template <class Key>
 const Type* typeOf(Key Type::*member, Key key) {
-    const auto at =
-        std::find_if(dracoTypes.begin(), dracoTypes.end(), [&](const Type& t) { return t.*member == key; });
+    const auto at = std::ranges::find(dracoTypes, key, member);
     return at == dracoTypes.end() ? nullptr : at;
 }
 
@@ -152,7 +150,7 @@ Result decoded(const Model& model, const DracoPrimitive& p, std::size_t limit) {
                  fmt::format("accessor {}: {} indices are not a multiple of 3", primitive.indices, indices));
         expected.triangles = indices / 3;
     }
-    const std::span<const unsigned char> stream = viewBytes(model, p.view, who);
+    const std::span<const unsigned char> stream = viewBytes(model, p.view);
     std::unique_ptr<draco::Mesh> mesh;
     try {
         mesh = decodeDracoStream(stream, expected);
@@ -191,14 +189,13 @@ std::vector<DracoPrimitive> findDraco(const Model& model, const std::vector<bool
         const Json* primitives = memberOf(elementOf(meshes, m), "primitives");
         if (!drawn[m] || !primitives) continue;
         std::vector<DracoPrimitive> of_mesh;
-        try {
+        const std::string fault = faultOf([&] {
             for (std::size_t p = 0; p < primitives->size(); ++p)
                 if (const Json* e = extension((*primitives)[p], dracoName))
                     of_mesh.push_back(readExtension(model, *e, m, p));
             std::ranges::move(of_mesh, std::back_inserter(result));
-        } catch (const std::runtime_error& e) {
-            broken.emplace(m, e.what());
-        }
+        });
+        if (!fault.empty()) broken.emplace(m, fault);
     }
     return result;
 }
@@ -218,11 +215,7 @@ void decodeDraco(Model& model, const std::vector<DracoPrimitive>& primitives, st
     std::vector<Result> results(primitives.size());
     std::vector<std::string> faults(primitives.size());
     forEachInParallel(primitives.size(), [&](std::size_t i) {
-        try {
-            results[i] = decoded(model, primitives[i], limit);
-        } catch (const std::runtime_error& e) {
-            faults[i] = e.what();
-        }
+        faults[i] = faultOf([&] { results[i] = decoded(model, primitives[i], limit); });
     });
     for (std::size_t i = 0; i < primitives.size(); ++i)
         if (!faults[i].empty()) broken.emplace(primitives[i].mesh, faults[i]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/extras.h"
 
-#include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/lights/json_fields.h"
 #include "shared/scene/lights/lights_json.h"

@@ -36,8 +36,7 @@ void attachLights(const nlohmann::json& file, int index, const std::vector<int>&
 
 // Materials:
 //
-//   materials[i].extras.diptych.lightmap: { "index": a texture, "texCoord": 0 or 1 (1), "intensity": F (1)
-//   }
+//   materials[i].extras.diptych.lightmap: { "index": a texture, "texCoord": 0, 1 (1), "intensity": F (1) }
 //
 // The texture's image is PNG, JPEG or WebP (sRGB), or OpenEXR, Radiance HDR or PFM (linear). Its colour
 // times intensity is irradiance over pi, W/(sr m^2).

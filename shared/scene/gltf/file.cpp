@@ -3,7 +3,6 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/limits.h"
-#include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/schema.h"
 #include "shared/scene/gltf/value.h"
@@ -103,15 +102,6 @@ Container readContainer(const Bytes& bytes) {
 
 // ---- document ----------------------------------------------------------------------------------------
 
-Json parse(std::string_view text) {
-    if (text.empty()) fail("is empty");
-    if (text.size() > MAX_JSON_BYTES)
-        fail(fmt::format("its JSON has {} bytes; the limit is {}", text.size(), MAX_JSON_BYTES));
-    Json document = parseJson(text, {.values = MAX_JSON_VALUES, .objects = MAX_JSON_OBJECTS});
-    if (!document.is_object()) fail("its JSON is not an object");
-    return document;
-}
-
 // Whether a version is malformed or newer than 2.0.
 bool isBeyond(const std::string& version) {
     int major = 0, minor = 0;
@@ -154,8 +144,7 @@ void checkRequired(const Json& document) {
 
 // A fallback buffer for readers without EXT_meshopt_compression may be empty.
 bool mayBeEmpty(const Json& buffer) {
-    static const Json::json_pointer meshopt("/extensions/EXT_meshopt_compression");
-    return buffer.contains(meshopt);
+    return extension(buffer, "EXT_meshopt_compression");
 }
 
 Bytes bytesOf(const Json& json, bool isFirst, Bytes& file, const std::optional<Container::Range>& binary,
@@ -214,10 +203,9 @@ void loadBuffers(const Json& buffers, Bytes& bytes, const std::optional<Containe
 void noteCutViews(Document& out) {
     NoteList notes("bufferViews");
     for (std::size_t i = 0; i < out.model.bufferViews.size(); ++i) {
-        const int buffer = out.model.bufferViews[i].buffer;
-        if (buffer < 0 || static_cast<std::size_t>(buffer) >= out.model.buffers.size() ||
-            !missing(out.model.buffers[static_cast<std::size_t>(buffer)]).empty())
-            continue;
+        // An omitted bufferView refers to buffer 0, which may not exist.
+        const auto buffer = static_cast<std::size_t>(out.model.bufferViews[i].buffer);
+        if (buffer >= out.model.buffers.size() || !missing(out.model.buffers[buffer]).empty()) continue;
         if (const std::string cut = cutOf(out.model, static_cast<int>(i)); !cut.empty())
             notes.add(cut + ": the scene does not use the rest");
     }
@@ -263,50 +251,32 @@ Json takeTinygltfPart(Json& document) {
     for (const char* key :
          {"accessors", "animations", "bufferViews", "cameras", "meshes", "nodes", "scene", "scenes", "skins"})
         if (const auto at = document.find(key); at != document.end()) part[key] = std::move(*at);
-    // tinygltf leaves out channels without a node. One whose target is a pointer gets node 0, which is
-    // ignored; the others move nothing.
-    static const Json::json_pointer pointer("/extensions/KHR_animation_pointer");
-    if (part.contains("animations"))
-        for (Json& animation : part["animations"])
-            std::erase_if(animation["channels"].get_ref<Json::array_t&>(), [](Json& channel) {
-                Json& target = channel["target"];
-                if (!target.contains("node") && target["path"] == "pointer" && target.contains(pointer))
-                    target["node"] = 0;
-                return !target.contains("node");
-            });
+    // tinygltf leaves out channels without a node. One whose target is a pointer gets node 0,
+    // which is ignored; the others move nothing.
+    for (Json& animation : part["animations"])
+        std::erase_if(animation["channels"].get_ref<Json::array_t&>(), [](Json& channel) {
+            Json& target = channel["target"];
+            if (!target.contains("node") && target["path"] == "pointer" &&
+                extension(target, "KHR_animation_pointer"))
+                target["node"] = 0;
+            return !target.contains("node");
+        });
     if (Json taken = takeAdditions(part); !taken.is_null()) document.update(taken);
     return part;
 }
 
-// Callbacks that find no files. tinygltf 2.9 ignores them unless all are set, and has one more.
-template <class Callbacks>
-Callbacks noFiles() {
-    Callbacks files{};
-    files.FileExists = [](const std::string&, void*) { return false; };
-    files.ExpandFilePath = [](const std::string& name, void*) { return name; };
-    files.ReadWholeFile = [](Bytes*, std::string*, const std::string&, void*) { return false; };
-    files.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) { return false; };
-    if constexpr (requires { files.GetFileSizeInBytes; })
-        files.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
-            return false;
-        };
-    return files;
-}
-
-// `part`: from takeTinygltfPart().
+// `part`: from takeTinygltfPart(). It refers to no files.
 void parseModel(Json part, Model& model) {
     // tinygltf refuses indices whose accessor has no bufferView, which glTF 2.0 (3.6.2.3) allows.
     std::vector<int> indices;
-    if (part.contains("meshes"))
-        for (Json& mesh : part["meshes"])
-            for (Json& primitive : mesh["primitives"]) {
-                indices.push_back(primitive.value("indices", -1));
-                primitive.erase("indices");
-            }
+    for (Json& mesh : part["meshes"])
+        for (Json& primitive : mesh["primitives"]) {
+            indices.push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
+        }
     const std::string text = part.dump();
     part = nullptr;  // free it, because tinygltf builds the same tree again
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(noFiles<tinygltf::FsCallbacks>());  // the document refers to no files any more
     std::string error, warning;
     bool parsed = false;
     try {
@@ -330,8 +300,13 @@ void noteUndeclared(const Schema& found, std::vector<std::string>& notes) {
 
 // Parses the document and checks its version and required extensions.
 Json documentOf(const Bytes& bytes, const Container& container) {
-    Json document =
-        parse({reinterpret_cast<const char*>(bytes.data()) + container.json.offset, container.json.size});
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()) + container.json.offset,
+                                container.json.size);
+    if (text.empty()) fail("is empty");
+    if (text.size() > MAX_JSON_BYTES)
+        fail(fmt::format("its JSON has {} bytes; the limit is {}", text.size(), MAX_JSON_BYTES));
+    Json document = parseJson(text, {.values = MAX_JSON_VALUES, .objects = MAX_JSON_OBJECTS});
+    if (!document.is_object()) fail("its JSON is not an object");
     checkVersion(document);
     checkRequired(document);
     return document;

@@ -10,18 +10,15 @@
 #include "shared/scene/gltf/mesh.h"
 #include "shared/scene/gltf/motion.h"
 #include "shared/scene/gltf/node.h"
-#include "shared/scene/gltf/note_list.h"
-#include "shared/scene/gltf/schema.h"
-#include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/texture.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/motion/instances.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/text/counted.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 
 #include <atomic>
 #include <cstdint>
@@ -32,14 +29,6 @@ namespace diptych {
 
 namespace {
 
-void noteWhatIsLeftOut(const gltf::Document& document, std::vector<std::string>& notes) {
-    for (const std::string& name : document.left_out)
-        notes.push_back(
-            fmt::format("{}: left out, not supported{}", name,
-                        name == "KHR_lights_image_based" ? "; --env FILE sets an environment" : ""));
-    gltf::limitNotes(notes, 0, "extensions");
-}
-
 // Reads the encoded bytes of the images that materials use.
 void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
                  std::vector<std::string>& sceneNotes) {
@@ -47,8 +36,8 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
     std::vector<std::vector<std::string>> notes(imageOf.size());
     gltf::forEachInParallel(imageOf.size(), [&](std::size_t i) {
         tinygltf::Image& image = document.model.images[static_cast<std::size_t>(imageOf[i])];
-        if (image.uri.empty() && image.bufferView < 0)
-            throw std::runtime_error(fmt::format("image {}: has no uri or bufferView", imageOf[i]));
+        const std::string who = fmt::format("image {}", imageOf[i]);
+        if (image.uri.empty() && image.bufferView < 0) fail(who, "has no uri or bufferView");
         if (image.uri.empty()) return;
         const std::string uri = std::move(image.uri);
         image.uri = gltf::uriName(uri);
@@ -59,10 +48,10 @@ void fetchImages(gltf::Document& document, const std::vector<int>& imageOf,
             // One byte more than allowed, to detect files that are too long.
             image.image = document.resources.read(uri, left + 1, notes[i]);
             if ((held += image.image.size()) > gltf::MAX_ENCODED_IMAGE_BYTES)
-                throw std::runtime_error(fmt::format("the image files together exceed the limit of {} bytes",
-                                                     gltf::MAX_ENCODED_IMAGE_BYTES));
+                fail(fmt::format("the image files together exceed the limit of {} bytes",
+                                 gltf::MAX_ENCODED_IMAGE_BYTES));
         } catch (const std::runtime_error& e) {
-            throw std::runtime_error(fmt::format("image {}: {}", imageOf[i], e.what()));
+            fail(who, e.what());
         }
     });
     gltf::NoteList list("images");
@@ -96,11 +85,17 @@ void keepClaims(std::vector<Claim> claims) {
     kept = std::move(claims);
 }
 
-// `held`: bytes of the file.
-Scene readScene(gltf::Document document, const std::string& choice, const LoadProgress& progress,
-                std::uint64_t held) {
+Scene readScene(std::vector<unsigned char> bytes, const std::filesystem::path& folder,
+                const std::string& choice, const std::string& variant, const LoadProgress& progress) {
+    std::uint64_t held = bytes.size();
+    gltf::Document document = gltf::open(std::move(bytes), folder, variant);
     Scene scene;
-    noteWhatIsLeftOut(document, scene.notes);
+    gltf::NoteList unsupported("extensions");
+    for (const std::string& name : document.left_out)
+        unsupported.add(
+            fmt::format("{}: left out, not supported{}", name,
+                        name == "KHR_lights_image_based" ? "; --env FILE sets an environment" : ""));
+    unsupported.moveTo(scene.notes);
     scene.notes.insert(scene.notes.end(), document.notes.begin(), document.notes.end());
     scene.variants = std::move(document.variants.names);
     scene.variant = document.variants.chosen;
@@ -125,28 +120,19 @@ Scene readScene(gltf::Document document, const std::string& choice, const LoadPr
     const gltf::Model& model = document.model;
     std::size_t pieces = imageOf.size();
     for (const tinygltf::Mesh& mesh : model.meshes) pieces += mesh.primitives.size();
-    gltf::Tally tally(pieces, "images and meshes", progress);
-    std::exception_ptr meshFailure, imageFailure;
+    std::atomic<std::size_t> done = 0;
+    const auto tally = [&] {
+        const std::size_t now = ++done;
+        if (progress) progress(static_cast<double>(now) / static_cast<double>(pieces), "images and meshes");
+    };
     std::vector<std::string> meshNotes, imageNotes;
-    const auto guarded = [](std::exception_ptr& failure, const auto& run) {
-        return [&failure, &run] {
-            try {
-                run();
-            } catch (...) {
-                failure = std::current_exception();
-            }
-        };
-    };
-    const auto meshes = [&] {
-        scene.meshes = gltf::readMeshes(model, scene, document.broken_meshes, meshNotes, tally);
-    };
     const std::vector<bool> lightmaps = gltf::lightmapsAlone(scene);
-    const auto images = [&] {
-        claims = gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally);
-    };
-    tbb::parallel_invoke(guarded(meshFailure, meshes), guarded(imageFailure, images));
-    for (const std::exception_ptr& failure : {meshFailure, imageFailure})
-        if (failure) std::rethrow_exception(failure);
+    gltf::forEachInParallel(2, [&](std::size_t i) {
+        if (i == 0)
+            scene.meshes = gltf::readMeshes(model, scene, document.broken_meshes, meshNotes, tally);
+        else
+            claims = gltf::readImages(model, imageOf, lightmaps, scene.images, imageNotes, tally);
+    });
     for (const std::vector<std::string>* notes : {&imageNotes, &meshNotes})
         scene.notes.insert(scene.notes.end(), notes->begin(), notes->end());
     leaveOutWhatIsBeyond(scene);
@@ -161,10 +147,8 @@ Scene loadGltf(const std::string& file, const std::string& scene, const std::str
                const LoadProgress& progress) {
     return named(file, [&] {
         const std::filesystem::path path(file);
-        const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-        std::vector<unsigned char> bytes = firstBytesOf(path, gltf::MAX_FILE_BYTES);
-        const std::uint64_t held = bytes.size();
-        return readScene(gltf::open(std::move(bytes), folder, variant), scene, progress, held);
+        return readScene(firstBytesOf(path, gltf::MAX_FILE_BYTES),
+                         path.has_parent_path() ? path.parent_path() : ".", scene, variant, progress);
     });
 }
 
@@ -174,8 +158,7 @@ void checkGltf(const std::string& file, const std::string& variant) {
 
 Scene parseGltf(std::vector<unsigned char> bytes, const std::string& name,
                 const std::filesystem::path& folder) {
-    const std::uint64_t held = bytes.size();
-    return named(name, [&] { return readScene(gltf::open(std::move(bytes), folder, ""), "", {}, held); });
+    return named(name, [&] { return readScene(std::move(bytes), folder, "", "", {}); });
 }
 
 }  // namespace diptych

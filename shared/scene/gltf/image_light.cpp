@@ -62,25 +62,19 @@ Image faceOf(const Model& model, const Resources& resources, int index, std::vec
     const std::string who = fmt::format("image {}", index);
     std::vector<unsigned char> file;
     std::span<const unsigned char> bytes;
-    if (image.bufferView >= 0) {
-        bytes = viewBytes(model, image.bufferView, who);
-    } else if (!image.uri.empty()) {
-        std::vector<std::string> found;
-        try {
-            file = resources.read(image.uri, MAX_ENCODED_IMAGE_BYTES, found);
-        } catch (const std::runtime_error& e) {
-            fail(who, e.what());
-        }
-        for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", who, note));
-        bytes = file;
-    }
-    if (bytes.empty()) fail(who, "has no uri or bufferView, or is empty");
+    if (image.bufferView >= 0) bytes = viewBytes(model, image.bufferView);
     try {
+        if (image.bufferView < 0 && !image.uri.empty()) {
+            std::vector<std::string> found;
+            file = resources.read(image.uri, MAX_ENCODED_IMAGE_BYTES, found);
+            bytes = file;
+            for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", who, note));
+        }
+        if (bytes.empty()) fail("has no uri or bufferView, or is empty");
         const ImageHeader header = imageHeader(bytes);
         if (header.width != header.height || header.width > largestFace)
-            throw std::runtime_error(
-                fmt::format("has {} x {} pixels; cube faces must be square, up to {} per side", header.width,
-                            header.height, largestFace));
+            fail(fmt::format("has {} x {} pixels; cube faces must be square, up to {} per side", header.width,
+                             header.height, largestFace));
         return decodedRgbd(decodeImage(bytes));
     } catch (const std::runtime_error& e) {
         fail(who, e.what());
@@ -92,22 +86,21 @@ Image faceOf(const Model& model, const Resources& resources, int index, std::vec
 ImageLights takeImageLights(Json& document) {
     ImageLights result;
     const Json root = takeExtension(document, imageLightExtension);
-    std::vector<std::pair<std::size_t, Json>> uses;
     const std::size_t scenes = arrayAt(document, "/scenes").size(),
                       count = arrayAt(document, "/images").size();
-    for (std::size_t i = 0; i < scenes; ++i)
-        if (Json use = takeExtension(document["scenes"][i], imageLightExtension); !use.is_null())
-            uses.emplace_back(i, std::move(use));
-    for (const auto& [scene, use] : uses) try {
+    for (std::size_t scene = 0; scene < scenes; ++scene) {
+        const Json use = takeExtension(document["scenes"][scene], imageLightExtension);
+        const std::string fault = faultOf([&] {
+            if (use.is_null()) return;
             const std::string who = fmt::format("scene {}: {}", scene, imageLightExtension);
             if (!use.is_object() || !use.contains("light")) fail(who, "names no light");
             const Json& lights = arrayAt(root, "/lights");
             const int light = indexBelow(use["light"], lights.size(), who + ": light");
             result.scenes.emplace(scene, lightOf(lights[static_cast<std::size_t>(light)], count,
                                                  fmt::format("{}: light {}", imageLightExtension, light)));
-        } catch (const std::runtime_error& e) {
-            result.notes.push_back(std::string(e.what()) + ": left out");
-        }
+        });
+        if (!fault.empty()) result.notes.push_back(fault + ": left out");
+    }
     return result;
 }
 

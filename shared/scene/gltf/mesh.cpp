@@ -2,20 +2,16 @@
 #include "shared/scene/gltf/mesh.h"
 
 #include "shared/scene/gltf/limits.h"
-#include "shared/scene/gltf/model.h"
+#include "shared/scene/gltf/motion.h"
 #include "shared/scene/gltf/primitive.h"
-#include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/animated.h"
-#include "shared/text/counted.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <stdexcept>
 
 namespace diptych::gltf {
 
@@ -51,48 +47,25 @@ const tinygltf::Primitive& fileOf(const Model& model, const Task& task) {
     return model.meshes[task.mesh].primitives[task.primitive];
 }
 
-// Calls `read`. If it throws, the primitive is omitted with a note.
-template <class Read>
-void attempt(Task& task, const Read& read) {
-    if (!task.fault.empty()) return;
-    try {
-        read();
-    } catch (const std::runtime_error& e) {
-        task.fault = e.what();
-        const std::string who = task.who();
-        task.notes = {task.fault.starts_with(who)
-                          ? task.fault + ": left out"
-                          : fmt::format("{}: left out, it needs {}", who, task.fault)};
-    }
-}
-
 // Checks the decoded size from counts, before decoding.
 void checkSize(const Model& model, std::vector<Task>& tasks) {
     std::size_t decoded = 0;
     const std::size_t encoded = model.dataBytes();
     const std::size_t most = FREE_DECODED_BYTES + encoded * DECODED_BYTES_PER_BYTE;
     for (Task& task : tasks) {
-        attempt(task, [&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
+        task.fault = faultOf([&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
         if (decoded > most)
-            throw std::runtime_error(
-                fmt::format("{}: {} bytes of geometry so far from {} bytes of buffers; the limit is {}",
-                            task.who(), decoded, encoded, most));
+            fail(task.who(),
+                 fmt::format("{} bytes of geometry so far from {} bytes of buffers; the limit is {}", decoded,
+                             encoded, most));
     }
-}
-
-std::vector<float> readWeights(const tinygltf::Mesh& mesh, std::size_t targets, const std::string& who) {
-    if (mesh.weights.empty()) return std::vector<float>(targets, 0.0f);
-    if (mesh.weights.size() != targets)
-        throw std::runtime_error(fmt::format("{}: {} for {}", who, counted(mesh.weights.size(), "weight"),
-                                             counted(targets, "morph target")));
-    return {mesh.weights.begin(), mesh.weights.end()};
 }
 
 }  // namespace
 
 std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
                              const std::map<std::size_t, std::string>& broken,
-                             std::vector<std::string>& notes, Tally& tally) {
+                             std::vector<std::string>& notes, const std::function<void()>& tally) {
     const std::vector<MeshUse> uses = usesOf(model.meshes.size(), scene);
     std::vector<Mesh> meshes(model.meshes.size());
     std::vector<Task> tasks;
@@ -107,11 +80,14 @@ std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
             continue;
         }
         if (file.primitives.empty()) continue;
-        const std::size_t targets = file.primitives[0].targets.size();
-        try {
-            meshes[m].weights = readWeights(file, targets, fmt::format("mesh {}", m));
-        } catch (const std::runtime_error& e) {
-            notes.push_back(fmt::format("{}: left out", faults.emplace(m, e.what()).first->second));
+        const std::vector<double> none(targetsOf(file));
+        const std::string fault = faultOf([&] {
+            meshes[m].weights = targetWeights(file.weights.empty() ? none : file.weights, none.size(),
+                                              fmt::format("mesh {}", m));
+        });
+        if (!fault.empty()) {
+            faults.emplace(m, fault);
+            notes.push_back(fault + ": left out");
             continue;
         }
         meshes[m].primitives.resize(file.primitives.size());
@@ -127,11 +103,12 @@ std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
         const PrimitiveUse use{scene.materials,        anisotropic,
                                baseMapsThatTurn,       layerMaps,
                                uses[task.mesh].joints, meshes[task.mesh].weights.size()};
-        attempt(task, [&] {
-            meshes[task.mesh].primitives[task.primitive] =
-                readPrimitive(model, fileOf(model, task), task.who(), use, task.notes);
-        });
-        tally.oneMore();
+        if (task.fault.empty())
+            task.fault = faultOf([&] {
+                meshes[task.mesh].primitives[task.primitive] =
+                    readPrimitive(model, fileOf(model, task), task.who(), use, task.notes);
+            });
+        tally();
     });
     bool any = false;
     for (Mesh& mesh : meshes) {
@@ -139,10 +116,16 @@ std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
         any = any || !mesh.primitives.empty();
     }
     for (Task& task : tasks) {
-        if (!task.fault.empty()) faults.emplace(task.mesh, task.fault);
-        std::ranges::move(task.notes, std::back_inserter(notes));
+        if (task.fault.empty()) {
+            std::ranges::move(task.notes, std::back_inserter(notes));
+            continue;
+        }
+        faults.emplace(task.mesh, task.fault);
+        notes.push_back(task.fault.starts_with(task.who())
+                            ? task.fault + ": left out"
+                            : fmt::format("{}: left out, it needs {}", task.who(), task.fault));
     }
-    if (!any && !faults.empty()) throw std::runtime_error(faults.begin()->second);
+    if (!any && !faults.empty()) fail(faults.begin()->second);
     limitNotes(notes, before, "meshes");
     return meshes;
 }

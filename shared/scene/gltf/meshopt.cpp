@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
 namespace diptych::gltf {
 
@@ -44,14 +43,8 @@ std::span<const unsigned char> streamOf(const Model& model, const Json& e, std::
 // Smallest possible stream: a header, the minimum for equal elements, and a tail. Source:
 // EXT_meshopt_compression, appendix A.
 std::size_t shortestStream(const MeshoptView& v) {
-    switch (v.mode) {
-        case Mode::triangles:
-            return 1 + v.count / 3 + 16;
-        case Mode::indices:
-            return 1 + v.count + 4;
-        case Mode::attributes:
-            break;
-    }
+    if (v.mode == Mode::triangles) return 1 + v.count / 3 + 16;
+    if (v.mode == Mode::indices) return 1 + v.count + 4;
     const std::size_t perBlock = std::min<std::size_t>((8192 / v.stride) & ~std::size_t(15), 256);
     const auto headers = [](std::size_t elements) { return ((elements + 15) / 16 + 3) / 4; };  // bytes
     const std::size_t all = v.count / perBlock * headers(perBlock) + headers(v.count % perBlock);
@@ -102,19 +95,9 @@ Bytes decoded(const MeshoptView& v) {
     if (result == -2) failView(v.view, "its data is too short for its elements");
     if (result != 0) failView(v.view, "its data has the wrong length for its elements");
 
-    switch (v.filter) {
-        case Filter::none:
-            break;
-        case Filter::octahedral:
-            meshopt_decodeFilterOct(bytes.data(), v.count, v.stride);
-            break;
-        case Filter::quaternion:
-            meshopt_decodeFilterQuat(bytes.data(), v.count, v.stride);
-            break;
-        case Filter::exponential:
-            meshopt_decodeFilterExp(bytes.data(), v.count, v.stride);
-            break;
-    }
+    if (v.filter == Filter::octahedral) meshopt_decodeFilterOct(bytes.data(), v.count, v.stride);
+    if (v.filter == Filter::quaternion) meshopt_decodeFilterQuat(bytes.data(), v.count, v.stride);
+    if (v.filter == Filter::exponential) meshopt_decodeFilterExp(bytes.data(), v.count, v.stride);
     return bytes;
 }
 
@@ -143,11 +126,9 @@ std::vector<MeshoptView> findMeshopt(const Model& model) {
     for (std::size_t i = 0; i < files.size(); ++i) {
         const Json* e = extension(files[i], meshoptName);
         if (!e) continue;
-        try {
-            views.push_back(viewOf(model, *e, i));
-        } catch (const std::runtime_error& error) {
-            views.push_back({.view = i, .fault = error.what()});
-        }
+        MeshoptView& view = views.emplace_back(MeshoptView{.view = i});
+        if (const std::string fault = faultOf([&] { view = viewOf(model, *e, i); }); !fault.empty())
+            view.fault = fault;
     }
     return views;
 }
@@ -155,12 +136,7 @@ std::vector<MeshoptView> findMeshopt(const Model& model) {
 void decodeMeshopt(Model& model, std::vector<MeshoptView> views, NoteList& notes) {
     std::vector<Bytes> results(views.size());
     forEachInParallel(views.size(), [&](std::size_t i) {
-        if (!views[i].fault.empty()) return;
-        try {
-            results[i] = decoded(views[i]);
-        } catch (const std::runtime_error& e) {
-            views[i].fault = e.what();
-        }
+        if (views[i].fault.empty()) views[i].fault = faultOf([&] { results[i] = decoded(views[i]); });
     });
     for (std::size_t i = 0; i < views.size(); ++i) {
         if (!views[i].fault.empty()) notes.add(views[i].fault + ": the scene does not use it");

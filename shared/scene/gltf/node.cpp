@@ -3,8 +3,8 @@
 
 #include "shared/scene/gltf/extras.h"
 #include "shared/scene/gltf/model.h"
-#include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
+#include "shared/scene/motion/animation.h"
 #include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
 
@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 namespace diptych::gltf {
@@ -31,9 +30,14 @@ std::string nodeName(std::size_t node) {
 
 // ---- transforms --------------------------------------------------------------------------------------
 
+glm::dquat rotationOf(const tinygltf::Node& node) {
+    const std::vector<double>& r = node.rotation;
+    return {r[3], r[0], r[1], r[2]};
+}
+
 glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteList& notes) {
-    glm::dmat4 m(1.0);
     if (!node.matrix.empty()) {
+        glm::dmat4 m(1.0);
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
         // Tolerance of a matrix's last row: exporters multiply matrices in float32.
         constexpr double rounding = 1e-4;
@@ -43,18 +47,9 @@ glm::dmat4 transformOf(const tinygltf::Node& node, const std::string& who, NoteL
         m[3][3] = 1;
         return m;
     }
-    if (!node.rotation.empty()) {
-        const std::vector<double>& r = node.rotation;
-        const glm::dquat q(r[3], r[0], r[1], r[2]);
-        if (glm::length(q) > 0)
-            m = glm::mat4_cast(glm::normalize(q));
-        else
-            notes.add(who + ": rotation 0 0 0 0: no rotation is used");
-    }
-    if (!node.scale.empty())
-        for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
-    if (!node.translation.empty()) m[3] = {node.translation[0], node.translation[1], node.translation[2], 1};
-    return m;
+    if (!node.rotation.empty() && !(glm::length(rotationOf(node)) > 0))
+        notes.add(who + ": rotation 0 0 0 0: no rotation is used");
+    return matrixOf(partsOf(node));
 }
 
 // ---- hierarchy ---------------------------------------------------------------------------------------
@@ -72,19 +67,15 @@ std::vector<int> parentsOf(const Model& model) {
     return parent;
 }
 
-// Throws if the parents form a cycle. Every node has at most one parent, so it is in a cycle exactly if
-// its ancestors lead back to it. A walk ends at a node that an earlier walk visited.
+// Throws if the parents form a cycle: if a walk to the root meets a node that it has visited. It ends at one
+// that an earlier walk visited.
 void refuseCircles(const std::vector<int>& parent) {
-    // Index + 1 of the walk that visited the node; 0: none.
-    std::vector<std::size_t> walk(parent.size(), 0);
-    for (std::size_t start = 0; start < parent.size(); ++start) {
-        for (int n = static_cast<int>(start); n >= 0 && walk[static_cast<std::size_t>(n)] != start + 1;) {
-            if (walk[static_cast<std::size_t>(n)]) break;
-            walk[static_cast<std::size_t>(n)] = start + 1;
-            n = parent[static_cast<std::size_t>(n)];
-            if (n >= 0 && walk[static_cast<std::size_t>(n)] == start + 1)
-                fail(nodeName(static_cast<std::size_t>(n)), "is its own ancestor");
-        }
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> walk(parent.size(), none);  // the first that visited the node
+    for (std::size_t start = 0, n; start < parent.size(); ++start) {
+        for (n = start; n < parent.size() && walk[n] == none; n = static_cast<std::size_t>(parent[n]))
+            walk[n] = start;
+        if (n < parent.size() && walk[n] == start) fail(nodeName(n), "is its own ancestor");
     }
 }
 
@@ -191,6 +182,18 @@ Camera readCamera(const tinygltf::Camera& c, const std::string& who, NoteList& n
 
 }  // namespace
 
+Transform partsOf(const tinygltf::Node& node) {
+    Transform parts;
+    for (int c = 0; c < 3; ++c) {
+        const auto i = static_cast<std::size_t>(c);
+        if (!node.translation.empty()) parts.translation[c] = node.translation[i];
+        if (!node.scale.empty()) parts.scale[c] = node.scale[i];
+    }
+    if (!node.rotation.empty() && glm::length(rotationOf(node)) > 0)
+        parts.rotation = glm::normalize(rotationOf(node));
+    return parts;
+}
+
 int chooseScene(const Model& model, const std::string& choice, std::vector<std::string>& notes) {
     const int count = static_cast<int>(model.scenes.size());
     if (choice.empty()) {
@@ -232,8 +235,8 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
         node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
         node.parent_from_node = transformOf(file, nodeName(n), nodeNotes);
         node.mesh = file.mesh;
-        if (file.camera >= 0) {
-            try {
+        if (file.camera >= 0)
+            readOrNote(notes, [&] {
                 Camera camera = readCamera(model.cameras[static_cast<std::size_t>(file.camera)],
                                            fmt::format("camera {}", file.camera), notes);
                 camera.node_name = file.name;
@@ -241,10 +244,7 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
                 camera.node = place[n];
                 camera.source = file.camera;
                 cameras.emplace_back(file.camera, camera);
-            } catch (const std::runtime_error& e) {
-                notes.add(std::string(e.what()) + ": left out");
-            }
-        }
+            });
         const Json* e = extension(elementOf(nodes, n), "KHR_lights_punctual");
         if (const int index = e ? e->value("light", -1) : -1; index >= 0) {
             const Json& own = lights[static_cast<std::size_t>(index)];

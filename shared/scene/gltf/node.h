@@ -3,6 +3,10 @@
 
 #include "shared/scene/model/scene.h"
 
+namespace tinygltf {
+class Node;
+}
+
 namespace diptych::gltf {
 
 struct Model;
@@ -12,6 +16,9 @@ struct Model;
 // `chosen`: from chooseScene(). Returns for each node of the file its index in Scene::nodes, -1: not in
 // the scene.
 std::vector<int> readNodes(const Model& model, int chosen, Scene& scene);
+
+// The parts of a node's transform; rotation 0 0 0 0 counts as none.
+Transform partsOf(const tinygltf::Node& node);
 
 // Index of the requested scene, given by index or name, or else of the file's default. -1: the file has no
 // scenes.

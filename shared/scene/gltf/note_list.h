@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,15 +41,5 @@ private:
     std::vector<std::string> notes_;
     std::size_t more_ = 0;
 };
-
-// Calls `read`. If it throws, a note says so, and the scene lacks what `read` had not yet read.
-template <class Read>
-void readOrNote(NoteList& notes, const Read& read) {
-    try {
-        read();
-    } catch (const std::runtime_error& e) {
-        notes.add(std::string(e.what()) + ": left out");
-    }
-}
 
 }  // namespace diptych::gltf

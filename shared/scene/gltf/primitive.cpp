@@ -3,7 +3,6 @@
 
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/attributes.h"
-#include "shared/scene/gltf/deformation.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
@@ -35,16 +34,14 @@ std::size_t widthOf(const std::string& attribute) {
                                                             : 0;
 }
 
-class PrimitiveReader {
+class PrimitiveReader : AttributeReader {
 public:
-    PrimitiveReader(const Model& model, const tinygltf::Primitive& file, const std::string& who,
-                    const PrimitiveUse& use, std::vector<std::string>& notes)
-        : model_(model), file_(file), who_(who), use_(use), notes_(notes) {}
+    PrimitiveReader(const AttributeReader& all, const PrimitiveUse& use) : AttributeReader(all), use_(use) {}
 
-    Primitive read() {
-        if (!drawsTriangles(file_.mode)) return nothing("points or lines");
-        if (!file_.attributes.contains("POSITION")) return nothing("has no POSITION");
-        result_.material = file_.material;
+    Primitive result() {
+        if (!drawsTriangles(file.mode)) return nothing("points or lines");
+        if (!file.attributes.contains("POSITION")) return nothing("has no POSITION");
+        result_.material = file.material;
         if (result_.material < 0) result_.material = static_cast<int>(use_.materials.size()) - 1;
         countVertices();
         readTriangles();
@@ -52,73 +49,59 @@ public:
         keepTouched();
         readPositions();
         readAttributes();
-        const AttributeReader reader = attributes();
-        if (use_.joints > 0) readJointSets(reader, use_.joints, touched_, result_);
-        readTargets(reader, use_.targets, result_);
+        if (use_.joints > 0) readJointSets(*this, use_.joints, touched_, result_);
+        readTargets(*this, use_.targets, result_);
         finishNormals();
         finishTangents();
         return std::move(result_);
     }
 
 private:
-    const Model& model_;
-    const tinygltf::Primitive& file_;
-    const std::string& who_;
     const PrimitiveUse& use_;
-    std::vector<std::string>& notes_;
     Primitive result_;
     std::size_t count_ = 0;               // vertices in the file
     std::vector<std::uint32_t> touched_;  // vertices that triangles use, ascending
-    bool all_ = false;                    // whether triangles use all vertices
-
-    template <class... Args>
-    void note(fmt::format_string<Args...> text, Args&&... args) {
-        notes_.push_back(who_ + ": " + fmt::format(text, std::forward<Args>(args)...));
-    }
 
     Primitive nothing(const char* why) {
         note("{}, left out", why);
         return {};
     }
 
-    Selection which() const { return all_ ? Selection() : Selection(touched_); }
-    AttributeReader attributes() const { return {model_, file_, who_, which(), notes_}; }
-
     // ---- triangles -----------------------------------------------------------------------------------
 
     // Checks that all attributes have as many elements as POSITION.
     void countVertices() {
-        count_ = soundCount(model_, file_.attributes.at("POSITION"), who_ + ": POSITION", "vertices", 3);
+        count_ = soundCount(model, file.attributes.at("POSITION"), who + ": POSITION", "vertices", 3);
         if (count_ > std::numeric_limits<std::uint32_t>::max() / 4)
-            fail(who_, "has more vertices than 32 bits can index");
+            fail(who, "has more vertices than 32 bits can index");
         const auto check = [&](const std::string& name, int accessor, std::size_t width) {
-            const std::string who = fmt::format("{}: {}", who_, name);
-            const std::size_t count = soundCount(model_, accessor, who, "vertices", width);
-            if (count != count_) fail(who, fmt::format("has {} elements for {} positions", count, count_));
+            const std::string asks = fmt::format("{}: {}", who, name);
+            const std::size_t count = soundCount(model, accessor, asks, "vertices", width);
+            if (count != count_) fail(asks, fmt::format("has {} elements for {} positions", count, count_));
         };
-        for (const auto& [name, accessor] : file_.attributes)
+        for (const auto& [name, accessor] : file.attributes)
             if (!name.starts_with('_')) check(name, accessor, widthOf(name));
-        for (std::size_t t = 0; t < file_.targets.size(); ++t)
-            for (const auto& [name, accessor] : file_.targets[t])
+        for (std::size_t t = 0; t < file.targets.size(); ++t)
+            for (const auto& [name, accessor] : file.targets[t])
                 if (!name.starts_with('_')) check(fmt::format("target {}: {}", t, name), accessor, 0);
     }
 
     // Converts the indices to a triangle list in draw order.
     void readTriangles() {
         std::vector<std::uint32_t> order;
-        if (file_.indices == -1) {
+        if (file.indices == -1) {
             order.resize(count_);
             std::iota(order.begin(), order.end(), 0u);
         } else {
-            order = readIndices(model_, file_.indices, who_ + ": indices");
+            order = readIndices(model, file.indices, who + ": indices");
         }
         for (std::size_t i = 0; i < order.size(); ++i)
             if (order[i] >= count_)
-                fail(who_,
+                fail(who,
                      fmt::format("index {} of its indices is {}, past its {} vertices", i, order[i], count_));
 
         std::vector<std::uint32_t>& out = result_.indices;
-        if (file_.mode == TINYGLTF_MODE_TRIANGLES) {
+        if (file.mode == TINYGLTF_MODE_TRIANGLES) {
             if (order.size() % 3)
                 note("the last {} cannot form a triangle", counted(order.size() % 3, "index", "indices"));
             order.resize(order.size() - order.size() % 3);
@@ -127,7 +110,7 @@ private:
         }
         if (order.size() >= 3) out.reserve(3 * (order.size() - 2));
         for (std::size_t i = 0; i + 2 < order.size(); ++i) {
-            if (file_.mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            if (file.mode == TINYGLTF_MODE_TRIANGLE_FAN)
                 out.insert(out.end(), {order[i + 1], order[i + 2], order[0]});
             else  // strips: every other triangle is reversed
                 out.insert(out.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
@@ -142,10 +125,10 @@ private:
             touched_ = indices;
             std::sort(touched_.begin(), touched_.end());
             touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-            all_ = false;
             for (std::uint32_t& i : indices)
                 i = static_cast<std::uint32_t>(std::lower_bound(touched_.begin(), touched_.end(), i) -
                                                touched_.begin());
+            which = touched_;
             return;
         }
         constexpr std::uint32_t untouched = ~0u;
@@ -157,15 +140,13 @@ private:
                 place[v] = static_cast<std::uint32_t>(touched_.size());
                 touched_.push_back(v);
             }
-        all_ = touched_.size() == count_;
+        which = touched_.size() == count_ ? Selection() : Selection(touched_);
         for (std::uint32_t& i : indices) i = place[i];
     }
 
     void readPositions() {
-        const int accessor = file_.attributes.at("POSITION");
-        const std::string who = who_ + ": POSITION";
         std::vector<glm::vec3>& positions = result_.positions;
-        positions = readVectors<glm::vec3>(model_, accessor, who, which());
+        positions = read<glm::vec3>("POSITION", readVectors<glm::vec3>);
         if (std::all_of(positions.begin(), positions.end(), isUsable<glm::vec3>)) return;
         std::vector<std::uint32_t> sound;
         for (std::size_t i = 0; i + 2 < result_.indices.size(); i += 3) {
@@ -177,27 +158,26 @@ private:
              (result_.indices.size() - sound.size()) / 3, result_.indices.size() / 3, maxCoordinate);
         result_.indices = std::move(sound);
         if (result_.indices.empty())
-            fail(who_, fmt::format("every triangle has a vertex that is not finite or beyond {:g} m",
-                                   maxCoordinate));
+            fail(who, fmt::format("every triangle has a vertex that is not finite or beyond {:g} m",
+                                  maxCoordinate));
         keepTouched();
-        positions = readVectors<glm::vec3>(model_, accessor, who, which());
+        positions = read<glm::vec3>("POSITION", readVectors<glm::vec3>);
     }
 
     // ---- attributes ----------------------------------------------------------------------------------
 
     void readAttributes() {
-        const AttributeReader reader = attributes();
-        result_.normals = reader.read<glm::vec3>("NORMAL", readVectors<glm::vec3>);
-        result_.tangents = reader.read<glm::vec4>("TANGENT", readVectors<glm::vec4>);
-        result_.colors = reader.read<glm::vec4>("COLOR_0", readColors);
+        result_.normals = read<glm::vec3>("NORMAL", readVectors<glm::vec3>);
+        result_.tangents = read<glm::vec4>("TANGENT", readVectors<glm::vec4>);
+        result_.colors = read<glm::vec4>("COLOR_0", readColors);
         for (std::size_t set = 0; set < 2; ++set) {
             const std::string name = fmt::format("TEXCOORD_{}", set);
-            result_.texcoords[set] = reader.read<glm::vec2>(name, readVectors<glm::vec2>);
-            reader.repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
+            result_.texcoords[set] = read<glm::vec2>(name, readVectors<glm::vec2>);
+            repair(result_.texcoords[set], glm::vec2(0), name, "0, 0");
             if (result_.texcoords[set].empty() && materialReads(set))
                 note("its material reads {}, which it lacks: 0, 0 is used", name);
         }
-        reader.repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
+        repair(result_.colors, glm::vec4(1), "COLOR_0", "white");
         for (glm::vec4& color : result_.colors) color = glm::clamp(color, 0.0f, 1.0f);
     }
 
@@ -274,14 +254,14 @@ private:
             return makeTangents(result_, map, use_.maps_that_turn[material],
                                 turned.layers != 0 ? &turned.map : nullptr);
         }
-        std::vector<glm::vec4> read = std::move(result_.tangents);
+        const std::vector<glm::vec4> own = std::move(result_.tangents);
         makeAnyTangents(result_);  // fallback for the file's tangents without a direction
         std::size_t broken = 0;
-        for (std::size_t v = 0; v < read.size(); ++v) {
-            const glm::dvec3 t(read[v]);
+        for (std::size_t v = 0; v < own.size(); ++v) {
+            const glm::dvec3 t(own[v]);
             const double length = glm::length(t);
             if (length > 0 && std::isfinite(length))
-                result_.tangents[v] = glm::vec4(glm::vec3(t / length), read[v].w < 0 ? -1 : 1);
+                result_.tangents[v] = glm::vec4(glm::vec3(t / length), own[v].w < 0 ? -1 : 1);
             else
                 ++broken;
         }
@@ -295,7 +275,7 @@ private:
 
 Primitive readPrimitive(const Model& model, const tinygltf::Primitive& file, const std::string& who,
                         const PrimitiveUse& use, std::vector<std::string>& notes) {
-    return PrimitiveReader(model, file, who, use, notes).read();
+    return PrimitiveReader({model, file, who, {}, notes}, use).result();
 }
 
 std::size_t decodedBytes(const Model& model, const tinygltf::Primitive& file, const std::string& who) {

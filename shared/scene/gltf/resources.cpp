@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 #include <system_error>
 
@@ -99,24 +99,17 @@ void checkRelative(const std::string& name) {
         fail(oneLine(name) + ": an absolute path leaves the scene's folder");
 }
 
-}  // namespace
-
-Resources::Resources(const fs::path& folder) {
-    if (!folder.empty()) folder_ = fs::canonical(folder);
-}
-
-namespace {
-
 // Candidate files for a uri, most likely first, each with the note to add if it is used.
 struct Candidate {
     std::string name, note;
 };
 
+std::string withSlashes(std::string name) {
+    std::ranges::replace(name, '\\', '/');
+    return name;
+}
+
 std::vector<Candidate> candidates(const std::string& uri) {
-    const auto withSlashes = [](std::string name) {
-        std::ranges::replace(name, '\\', '/');
-        return name;
-    };
     const std::string decoded = percentDecoded(uri);
     std::vector<Candidate> all{{decoded, ""}};
     if (uri != decoded) all.push_back({uri, "its uri is read without percent-decoding"});
@@ -128,6 +121,10 @@ std::vector<Candidate> candidates(const std::string& uri) {
 
 }  // namespace
 
+Resources::Resources(const fs::path& folder) {
+    if (!folder.empty()) folder_ = fs::canonical(folder);
+}
+
 std::filesystem::path Resources::find(const std::string& uri, std::vector<std::string>& notes) const {
     const std::vector<Candidate> all = candidates(uri);
     const std::string shown = oneLine(all.front().name);
@@ -137,11 +134,9 @@ std::filesystem::path Resources::find(const std::string& uri, std::vector<std::s
     const auto inside = [&](const fs::path& path) {
         return std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first == folder_.end();
     };
-    for (const Candidate& c : all) {
-        std::string slashes = c.name;
-        std::ranges::replace(slashes, '\\', '/');
-        if (!inside((folder_ / slashes).lexically_normal())) fail(shown + ": leaves the scene's folder");
-    }
+    for (const Candidate& c : all)
+        if (!inside((folder_ / withSlashes(c.name)).lexically_normal()))
+            fail(shown + ": leaves the scene's folder");
     std::error_code first;
     for (const Candidate& c : all) {
         std::error_code error;
@@ -172,18 +167,13 @@ std::string uriName(const std::string& uri) {
 }
 
 std::string percentDecoded(std::string_view uri) {
-    const auto isHex = [&](std::size_t i) {
-        return i < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i]));
-    };
-    const auto digit = [&](std::size_t i) {
-        return std::isdigit(static_cast<unsigned char>(uri[i]))
-                   ? uri[i] - '0'
-                   : std::tolower(static_cast<unsigned char>(uri[i])) - 'a' + 10;
-    };
     std::string result;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && isHex(i + 1) && isHex(i + 2)) {
-            result += static_cast<char>(digit(i + 1) * 16 + digit(i + 2));
+        const std::string_view digits = uri.substr(i + 1, 2);
+        std::uint8_t byte = 0;
+        if (uri[i] == '%' && digits.size() == 2 &&
+            std::from_chars(digits.data(), digits.data() + 2, byte, 16).ptr == digits.data() + 2) {
+            result += static_cast<char>(byte);
             i += 2;
         } else {
             result += uri[i];

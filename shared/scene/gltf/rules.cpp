@@ -2,6 +2,7 @@
 #include "shared/scene/gltf/rules.h"
 
 #include "shared/scene/gltf/properties.h"
+#include "shared/scene/gltf/value.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"
 
@@ -9,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -22,9 +23,8 @@ namespace {
 using Json = nlohmann::json;
 
 void checkAccessor(const Json& accessor, const std::string& who) {
-    constexpr std::array types{5120, 5121, 5122, 5123, 5125, 5126};
     const auto type = accessor["componentType"].get<std::int64_t>();
-    if (std::ranges::find(types, type) == types.end())
+    if (type < 5120 || type > 5126 || type == 5124)
         fail(who, fmt::format("componentType {} does not exist", type));
     if (accessor.contains("sparse") && accessor["sparse"]["count"] > accessor["count"])
         fail(who, fmt::format("{} sparse elements for {} elements", accessor["sparse"]["count"].dump(),
@@ -38,6 +38,12 @@ void leaveOutZero(Json& item, const char* key, const std::string& who, NoteList&
     item.erase(key);
 }
 
+// A whole number in an object that may be broken, and so not what the schema says.
+std::optional<std::int64_t> wholeOf(const Json& object, std::string_view key) {
+    const Json* value = memberOf(object, key);
+    return value && value->is_number_integer() ? std::optional(value->get<std::int64_t>()) : std::nullopt;
+}
+
 // The accessors that read a bufferView.
 struct Readers {
     std::set<std::int64_t> index_bytes;  // component sizes of its index accessors
@@ -48,30 +54,20 @@ struct Readers {
 std::map<std::size_t, Readers> readersOf(const Json& document,
                                          const std::map<std::size_t, std::int64_t>& strides) {
     std::map<std::size_t, Readers> readers;
-    if (!document.contains("accessors")) return readers;
-    const Json& accessors = document["accessors"];
+    const Json& accessors = arrayAt(document, "/accessors");
     std::vector<bool> isIndices(accessors.size(), false);
-    // Meshes are not validated yet.
-    const auto mark = [&](const Json& mesh) {
-        if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) return;
-        for (const Json& primitive : mesh["primitives"]) {
-            if (!primitive.is_object()) continue;
-            const auto at = primitive.find("indices");
-            if (at != primitive.end() && at->is_number_integer() && *at >= 0 && *at < accessors.size())
-                isIndices[at->get<std::size_t>()] = true;
-        }
-    };
-    if (document.contains("meshes"))
-        for (const Json& mesh : document["meshes"]) mark(mesh);
+    for (const Json& mesh : arrayAt(document, "/meshes"))
+        for (const Json& primitive : arrayAt(mesh, "/primitives"))
+            if (const auto index = wholeOf(primitive, "indices");
+                index && static_cast<std::size_t>(*index) < accessors.size())
+                isIndices[static_cast<std::size_t>(*index)] = true;
     for (std::size_t i = 0; i < accessors.size(); ++i) {
-        const Json& a = accessors[i];
-        if (!a.is_object() || !a.contains("bufferView") || !a["bufferView"].is_number_integer()) continue;
-        const auto view = a["bufferView"].get<std::int64_t>();
-        if (view < 0 || !strides.contains(static_cast<std::size_t>(view))) continue;
-        Readers& r = readers[static_cast<std::size_t>(view)];
-        const Json type = a.value("componentType", Json());
-        if (isIndices[i] && type.is_number_integer())
-            r.index_bytes.insert(type == 5125 ? 4 : type == 5123 ? 2 : 1);
+        const auto view = wholeOf(accessors[i], "bufferView");
+        if (!view || !strides.contains(static_cast<std::size_t>(*view))) continue;
+        Readers& r = readers[static_cast<std::size_t>(*view)];
+        const auto type = wholeOf(accessors[i], "componentType");
+        if (isIndices[i] && type)
+            r.index_bytes.insert(*type == 5125 ? 4 : *type == 5123 ? 2 : 1);
         else
             r.others = true;
     }
@@ -99,14 +95,13 @@ void checkRules(std::string_view collection, Json& item, const std::string& who,
 
 // Source: Khronos, glTF 2.0 Specification, 2021, 5.11.4 and 3.6.2.4.
 void checkStrides(Json& document, References& references, NoteList& notes) {
-    if (!document.contains("bufferViews")) return;
-    Json& views = document["bufferViews"];
     std::map<std::size_t, std::int64_t> strides;
-    for (std::size_t i = 0; i < views.size(); ++i)
-        if (views[i].is_object() && views[i].contains("byteStride") &&
-            views[i]["byteStride"].is_number_integer())
-            strides[i] = views[i]["byteStride"].get<std::int64_t>();
+    for (std::size_t i = 0; const Json& view : arrayAt(document, "/bufferViews")) {
+        if (const auto stride = wholeOf(view, "byteStride")) strides[i] = *stride;
+        ++i;
+    }
     if (strides.empty()) return;
+    Json& views = document["bufferViews"];
     const std::map<std::size_t, Readers> readers = readersOf(document, strides);
     for (const auto& [view, stride] : strides) {
         const std::string who = fmt::format("bufferView {}", view);
@@ -153,27 +148,25 @@ Json emptyItem(std::string_view collection) {
 
 std::map<std::size_t, std::string> leaveOutUnusable(Json& document, const References& references,
                                                     NoteList& notes) {
-    std::set<std::int64_t> cameras, skins;
+    std::map<std::string, std::set<std::size_t>> gone;  // by collection
     std::map<std::size_t, std::string> meshes;
     for (const References::Fault& fault : references.unusable()) {
         const bool light = fault.collection == "KHR_lights_punctual";
         Json& items = light ? document["extensions"][fault.collection]["lights"]
                             : document[std::string(fault.collection)];
         items[fault.item] = emptyItem(fault.collection);
-        if (fault.collection == "cameras") cameras.insert(static_cast<std::int64_t>(fault.item));
-        if (fault.collection == "skins") skins.insert(static_cast<std::int64_t>(fault.item));
+        gone[std::string(fault.collection)].insert(fault.item);
         if (fault.collection == "meshes") meshes.emplace(fault.item, fault.line);
         notes.add(fault.cause ? fault.line + ": left out"
                               : fmt::format("{} {}: left out, it needs {}",
                                             light ? "light" : schema::itemOf(fault.collection), fault.item,
                                             fault.line));
     }
-    if ((cameras.empty() && skins.empty()) || !document.contains("nodes")) return meshes;
-    for (Json& node : document["nodes"]) {
-        if (node.contains("camera") && cameras.contains(node["camera"].get<std::int64_t>()))
-            node.erase("camera");
-        if (node.contains("skin") && skins.contains(node["skin"].get<std::int64_t>())) node.erase("skin");
-    }
+    for (const auto& [key, collection] : {std::pair("camera", "cameras"), {"skin", "skins"}})
+        if (gone.contains(collection) && document.contains("nodes"))
+            for (Json& node : document["nodes"])
+                if (node.contains(key) && gone[collection].contains(node[key].get<std::size_t>()))
+                    node.erase(key);
     return meshes;
 }
 

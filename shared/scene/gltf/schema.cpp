@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/schema.h"
 
-#include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/properties.h"
 #include "shared/scene/gltf/references.h"
 #include "shared/scene/gltf/rules.h"
@@ -12,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -43,23 +41,24 @@ struct Where {
     }
 };
 
-[[noreturn]] void failAt(const Where& where, const std::string& why) {
+std::string lineAt(const Where& where, const std::string& what) {
     const std::string words = where.words();
-    throw std::runtime_error(words.empty() ? why : words + ": " + why);
+    return words.empty() ? what : words + ": " + what;
+}
+[[noreturn]] void failAt(const Where& where, const std::string& why) {
+    throw std::runtime_error(lineAt(where, why));
+}
+
+bool isWhole(const Json& value) {
+    return value.is_number() && value.get<double>() == std::floor(value.get<double>());
 }
 
 // Formats a value for messages.
 std::string quoted(const Json& value) {
-    switch (value.type()) {
-        case Json::value_t::object:
-            return "an object";
-        case Json::value_t::array:
-            return "an array";
-        case Json::value_t::string:
-            return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
-        default:
-            return value.dump();
-    }
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "an array";
+    if (value.is_string()) return fmt::format("\"{}\"", oneLine(value.get_ref<const std::string&>()));
+    return value.dump();
 }
 
 class Walk {
@@ -74,25 +73,29 @@ public:
     // Removes unsupported members and checks the others.
     void object(Json& value, std::span<const Property> properties, const Where& where) {
         if (!value.is_object()) failAt(where, fmt::format("is {}, not an object", quoted(value)));
-        for (auto at = value.begin(); at != value.end();) {
-            const auto property = std::ranges::find(properties, at.key(), &Property::key);
-            if (property == properties.end() && at.key() == "extensions") leaveOut(at.value(), where);
-            if (property == properties.end() || isAbsent(at.value(), *property, where)) {
-                at = value.erase(at);
-                continue;
-            }
-            check(at.value(), *property, where);
-            ++at;
-        }
+        members(value, properties, where, [&](const auto& at, bool known) {
+            if (!known && at.key() == "extensions") leaveOut(at.value(), where);
+        });
         for (const Property& property : properties)
             if (property.required && !value.contains(property.key))
                 failAt(where, fmt::format("has no {}", property.key));
     }
 
 private:
-    void note(const Where& where, const std::string& what) {
-        const std::string words = where.words();
-        notes.add(words.empty() ? what : words + ": " + what);
+    // Calls meet(member, whether it is supported) for each.
+    template <class Meet>
+    void members(Json& value, std::span<const Property> properties, const Where& where, const Meet& meet) {
+        for (auto at = value.begin(); at != value.end();) {
+            const auto property = std::ranges::find(properties, at.key(), &Property::key);
+            const bool known = property != properties.end();
+            meet(at, known);
+            if (!known || isAbsent(at.value(), *property, where)) {
+                at = value.erase(at);
+                continue;
+            }
+            check(at.value(), *property, where);
+            ++at;
+        }
     }
 
     // Notes the extensions of an object that supports none.
@@ -111,11 +114,11 @@ private:
     bool isAbsent(const Json& value, const Property& p, const Where& where) {
         if (p.kind == Kind::extras) return !memberOf(value, "diptych");
         if (value.is_null()) {
-            note(where, fmt::format("{} is null: ignored", p.key));
+            notes.add(lineAt(where, fmt::format("{} is null: ignored", p.key)));
             return true;
         }
         if (p.kind != Kind::name || p.required || value.is_string()) return false;
-        note(where, fmt::format("{} is {}, not text: left out", p.key, quoted(value)));
+        notes.add(lineAt(where, fmt::format("{} is {}, not text: left out", p.key, quoted(value))));
         return true;
     }
 
@@ -174,12 +177,11 @@ private:
             }
             const Where here{p.of == "light" ? nullptr : &where, p.of, i};
             references.enter(collection, i);
-            try {
+            const std::string fault = faultOf([&] {
                 object(value[i], p.properties, here);
                 checkRules(collection, value[i], here.words(), notes);
-            } catch (const std::runtime_error& e) {
-                references.broken(collection, i, e.what());
-            }
+            });
+            if (!fault.empty()) references.broken(collection, i, fault);
             references.leave();
         }
     }
@@ -212,11 +214,9 @@ private:
     }
 
     static void whole(Json& value, const Property& p, const Where& where) {
-        if (!value.is_number()) wrong(value, p.key, "a whole number", where);
-        const double v = value.get<double>();
-        if (v != std::floor(v)) wrong(value, p.key, "a whole number", where);
+        if (!isWhole(value)) wrong(value, p.key, "a whole number", where);
         range(value, p.key, p, where);
-        value = static_cast<std::int64_t>(v);
+        value = static_cast<std::int64_t>(value.get<double>());
     }
 
     static void text(const Json& value, const Property& p, const Where& where) {
@@ -243,8 +243,7 @@ private:
     // Checks that an index refers to an existing item; without a collection any index is valid. A broken
     // mesh, skin or camera is only removed from its node.
     void index(Json& value, std::string_view key, std::string_view of, const Where& where) {
-        if (!value.is_number() || value.get<double>() != std::floor(value.get<double>()))
-            wrong(value, key, "an index", where);
+        if (!isWhole(value)) wrong(value, key, "an index", where);
         const double v = value.get<double>();
         const std::size_t count = of.empty() ? std::numeric_limits<int>::max() : references.count(of);
         if (!(v >= 0 && v < static_cast<double>(count))) {
@@ -264,7 +263,7 @@ private:
             const std::string name = oneLine(at.key());
             if (name != at.key()) failAt(where, fmt::format("{} is not an attribute name", name));
             if (at.value().is_null()) {
-                note(where, name + " is null: ignored");
+                notes.add(lineAt(where, name + " is null: ignored"));
                 at = value.erase(at);
                 continue;
             }
@@ -275,16 +274,7 @@ private:
 
     void extensions(Json& value, const Property& p, const Where& where) {
         if (!value.is_object()) wrong(value, p.key, "an object", where);
-        for (auto at = value.begin(); at != value.end();) {
-            const auto property = std::ranges::find(p.properties, at.key(), &Property::key);
-            met(at.key(), property != p.properties.end(), where);
-            if (property == p.properties.end() || isAbsent(at.value(), *property, where)) {
-                at = value.erase(at);
-                continue;
-            }
-            check(at.value(), *property, where);
-            ++at;
-        }
+        members(value, p.properties, where, [&](const auto& at, bool known) { met(at.key(), known, where); });
     }
 };
 

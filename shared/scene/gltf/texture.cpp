@@ -5,7 +5,6 @@
 #include "shared/image/picture_file.h"
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/model.h"
-#include "shared/scene/gltf/tally.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/image/decode.h"
 #include "shared/scene/image/radiance_layer.h"
@@ -41,21 +40,13 @@ Sampler readSampler(const Json& file, const std::string& who) {
     if (magnify != TINYGLTF_TEXTURE_FILTER_NEAREST && magnify != TINYGLTF_TEXTURE_FILTER_LINEAR)
         fail(who, fmt::format("{} is not a magFilter", magnify));
     sampler.magnify_linear = magnify == TINYGLTF_TEXTURE_FILTER_LINEAR;
-    struct MinFilter {
-        int file;
-        bool linear, mipmaps, mipmaps_linear;
-    };
-    constexpr MinFilter filters[] = {{TINYGLTF_TEXTURE_FILTER_NEAREST, false, false, false},
-                                     {TINYGLTF_TEXTURE_FILTER_LINEAR, true, false, false},
-                                     {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST, false, true, false},
-                                     {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST, true, true, false},
-                                     {TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR, false, true, true},
-                                     {TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR, true, true, true}};
-    const auto filter = std::ranges::find(filters, minify, &MinFilter::file);
-    if (filter == std::end(filters)) fail(who, fmt::format("{} is not a minFilter", minify));
-    sampler.minify_linear = filter->linear;
-    sampler.mipmaps = filter->mipmaps;
-    sampler.mipmaps_linear = filter->mipmaps_linear;
+    // NEAREST and LINEAR follow each other, and so do the four with mipmaps: ..._NEAREST, then ..._LINEAR.
+    const int plain = minify - TINYGLTF_TEXTURE_FILTER_NEAREST,
+              mipmapped = minify - TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST;
+    sampler.mipmaps = mipmapped >= 0 && mipmapped < 4;
+    if (!sampler.mipmaps && plain != 0 && plain != 1) fail(who, fmt::format("{} is not a minFilter", minify));
+    sampler.minify_linear = minify % 2 == 1;
+    sampler.mipmaps_linear = sampler.mipmaps && mipmapped >= 2;
     return sampler;
 }
 
@@ -94,15 +85,12 @@ std::vector<std::string> readTextures(const Json& document, Scene& scene) {
         texture.image = file.value("source", -1);
         if (const Json* webp = extension(file, "EXT_texture_webp"))
             texture.image = webp->value("source", texture.image);
-        std::string& fault = faults.emplace_back();
         const int sampler = file.value("sampler", -1);
-        try {
+        faults.push_back(faultOf([&] {
             if (sampler >= 0)
                 texture.sampler = readSampler(samplers[static_cast<std::size_t>(sampler)],
                                               fmt::format("sampler {}", sampler));
-        } catch (const std::runtime_error& e) {
-            fault = e.what();
-        }
+        }));
     }
     return faults;
 }
@@ -115,7 +103,7 @@ const char* otherImageOf(const Json& texture) {
 
 std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageOf,
                               const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
-                              std::vector<std::string>& notes, Tally& tally) {
+                              std::vector<std::string>& notes, const std::function<void()>& tally) {
     struct Encoded {
         std::string file, who;
         std::span<const unsigned char> bytes;
@@ -138,8 +126,7 @@ std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageO
         all[i].file = image.uri.empty() ? image.name : image.uri;
         all[i].who =
             fmt::format("image {}{}", imageOf[i], all[i].file.empty() ? "" : " (" + all[i].file + ")");
-        all[i].bytes =
-            image.bufferView >= 0 ? viewBytes(model, image.bufferView, all[i].who) : std::span(image.image);
+        all[i].bytes = image.bufferView >= 0 ? viewBytes(model, image.bufferView) : std::span(image.image);
         if (image.bufferView >= 0) all[i].cut = cutOf(model, image.bufferView);
         if (all[i].bytes.empty())
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
@@ -168,7 +155,7 @@ std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageO
     ofEach([&](std::size_t i, const Encoded& image) {
         if (!image.radiance) images[i] = decodeImage(image.bytes);
         images[i].name = image.file;
-        tally.oneMore();
+        tally();
     });
     return claims;
 }

@@ -6,13 +6,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace diptych::gltf {
 
 struct Model;
-class Tally;
 
 // Reads the document's textures and samplers in the file's order; image indices are the file's. Returns the
 // fault of each texture, such as "sampler 0: 1 is no wrap mode", or an empty string. A fault matters only to
@@ -23,9 +23,10 @@ std::vector<std::string> readTextures(const nlohmann::json& document, Scene& sce
 const char* otherImageOf(const nlohmann::json& texture);
 
 // Decodes images[i], the file's image imageOf[i], on all cores. Images flagged in `lightmaps` may also be
-// OpenEXR, Radiance HDR or PFM; `notes` receives repairs of these. Returns the images' claims.
+// OpenEXR, Radiance HDR or PFM; `notes` receives repairs of these. `tally` is called for each image, from any
+// thread. Returns the images' claims.
 std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageOf,
                               const std::vector<bool>& lightmaps, std::vector<TextureImage>& images,
-                              std::vector<std::string>& notes, Tally& tally);
+                              std::vector<std::string>& notes, const std::function<void()>& tally);
 
 }  // namespace diptych::gltf

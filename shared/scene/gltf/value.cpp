@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/value.h"
 
-#include "shared/scene/gltf/note_list.h"
 #include "shared/text/fail.h"
 
 #include <fmt/format.h>
@@ -57,12 +56,6 @@ std::string firstLine(std::string_view text) {
     while (line.size() <= longest && !line.empty() && (line.back() == ' ' || line.back() == '.'))
         line.pop_back();
     return line;
-}
-
-int checkedIndex(int index, std::size_t count, const std::string& who, const char* what) {
-    if (index < -1 || (index >= 0 && static_cast<std::size_t>(index) >= count))
-        fail(who, fmt::format("{} {}, but the file has {}", what, index, count));
-    return index;
 }
 
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what) {

@@ -2,12 +2,15 @@
 // Helpers for reading the document's JSON, also if it is not yet checked against the schema, and its indices.
 #pragma once
 
+#include "shared/scene/gltf/note_list.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,12 +37,25 @@ int indexBelow(const nlohmann::json& value, std::size_t count, const std::string
 
 std::string firstLine(std::string_view text);
 
-// Returns `index` if it is -1 or below `count`; otherwise throws std::runtime_error: "WHO: WHAT 7, but the
-// file has 3".
-int checkedIndex(int index, std::size_t count, const std::string& who, const char* what);
-
 // Applies NoteList's limit to the notes from `first` on: keeps the first ones and counts the rest.
 void limitNotes(std::vector<std::string>& notes, std::size_t first, const std::string& what);
+
+// Calls `run`. The message of its std::runtime_error; empty if there is none.
+template <class Run>
+std::string faultOf(const Run& run) {
+    try {
+        run();
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return {};
+}
+
+// Calls `read`. If it throws, a note says so, and the scene lacks what `read` had not yet read.
+template <class Read>
+void readOrNote(NoteList& notes, const Read& read) {
+    if (const std::string fault = faultOf(read); !fault.empty()) notes.add(fault + ": left out");
+}
 
 // Calls run(i) for i below `count` on all cores, then rethrows the exception with the lowest index.
 template <class Run>

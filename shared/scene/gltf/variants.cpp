@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/variants.h"
 
-#include "shared/scene/gltf/note_list.h"
 #include "shared/scene/gltf/value.h"
 #include "shared/text/fail.h"
 #include "shared/text/indexed_names.h"
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <map>
 #include <string_view>
 

@@ -3,12 +3,12 @@
 
 #include "shared/image/limits.h"
 #include "shared/scene/image/codecs.h"
+#include "shared/text/fail.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -56,9 +56,8 @@ ImageHeader uncheckedHeader(std::span<const unsigned char> encoded) {
     if (beginsWith(encoded, jpeg)) return codec::readJpegHeader(encoded);
     if (isWebp(textOf(encoded))) return codec::readWebpHeader(encoded);
     const std::string_view kind = otherKind(textOf(encoded));
-    throw std::runtime_error(kind.empty()
-                                 ? "is not PNG, JPEG or WebP"
-                                 : fmt::format("is {}; only PNG, JPEG and WebP are supported", kind));
+    fail(kind.empty() ? "is not PNG, JPEG or WebP"
+                      : fmt::format("is {}; only PNG, JPEG and WebP are supported", kind));
 }
 
 }  // namespace
@@ -67,11 +66,9 @@ ImageHeader imageHeader(std::span<const unsigned char> encoded) {
     const ImageHeader header = uncheckedHeader(encoded);
     const std::int64_t width = header.width, height = header.height;
     if (width < 1 || height < 1 || width > maxSide || height > maxSide)
-        throw std::runtime_error(
-            fmt::format("has {} x {} pixels; each side must be 1 to {}", width, height, maxSide));
+        fail(fmt::format("has {} x {} pixels; each side must be 1 to {}", width, height, maxSide));
     if (width * height / header.pixels_per_byte > static_cast<std::int64_t>(encoded.size()))
-        throw std::runtime_error(
-            fmt::format("claims {} x {} pixels, too many for its {} bytes", width, height, encoded.size()));
+        fail(fmt::format("claims {} x {} pixels, too many for its {} bytes", width, height, encoded.size()));
     return header;
 }
 
@@ -88,17 +85,10 @@ TextureImage decodeImage(std::span<const unsigned char> encoded) {
         image.rgba.resize(header.bytes());
         pixels = image.rgba.data();
     }
-    switch (header.kind) {
-        case ImageHeader::Kind::png:
-            codec::decodePng(encoded, header, pixels);
-            break;
-        case ImageHeader::Kind::jpeg:
-            codec::decodeJpeg(encoded, header, pixels);
-            break;
-        case ImageHeader::Kind::webp:
-            codec::decodeWebp(encoded, header, pixels);
-            break;
-    }
+    const auto decode = header.kind == ImageHeader::Kind::png    ? codec::decodePng
+                        : header.kind == ImageHeader::Kind::jpeg ? codec::decodeJpeg
+                                                                 : codec::decodeWebp;
+    decode(encoded, header, pixels);
     return image;
 }
 

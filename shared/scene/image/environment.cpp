@@ -4,13 +4,13 @@
 #include "shared/image/picture_file.h"
 #include "shared/scene/image/radiance_layer.h"
 #include "shared/text/counted.h"
+#include "shared/text/fail.h"
 #include "shared/text/named.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace diptych {
 
@@ -31,7 +31,7 @@ Environment readEnvironment(const std::filesystem::path& file, std::vector<std::
     const PictureFile picture = readPicture(file);
     const std::string name = file.string();
     if (picture.display_referred)
-        throw std::runtime_error(
+        fail(
             fmt::format("{}: is a {} with display colours, but an environment needs radiance; give an "
                         "OpenEXR or Radiance HDR file",
                         name, picture.format));

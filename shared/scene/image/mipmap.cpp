@@ -178,17 +178,7 @@ auto decodedRows(const std::vector<Code>& codes, std::size_t width, bool srgb) {
 }  // namespace
 
 std::size_t bytesPerTexel(Texels texels) {
-    switch (texels) {
-        case Texels::srgb8:
-        case Texels::linear8:
-            return 4;
-        case Texels::linear16:
-        case Texels::float16:
-            return 8;
-        case Texels::float32:
-            break;
-    }
-    return 16;
+    return texels == Texels::srgb8 || texels == Texels::linear8 ? 4 : texels == Texels::float32 ? 16 : 8;
 }
 
 int MipChain::width(std::size_t level) const {
@@ -202,7 +192,7 @@ MipChain::MipChain(const TextureImage& image, bool srgb, Texels texels)
     : name_(image.name), texels_(texels), width_(image.width), height_(image.height), levels_(1) {
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     const bool deep = image.deep(), floats = !image.rgba32.empty();
-    const bool eight = texels == Texels::srgb8 || texels == Texels::linear8;
+    const bool eight = bytesPerTexel(texels) == 4;
     if ((deep && eight) || (floats && texels == Texels::linear16) ||
         image.components() != 4 * width * height || width * height == 0)
         throw std::logic_error("MipChain: " + name_ + " has not the texels that are asked for");

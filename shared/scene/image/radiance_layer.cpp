@@ -2,7 +2,7 @@
 #include "shared/scene/image/radiance_layer.h"
 
 #include "shared/text/counted.h"
-
+#include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
 namespace diptych {
@@ -85,7 +84,7 @@ bool isRadiancePicture(std::span<const std::byte> bytes) {
 
 Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes) {
     const PictureLayer* layer = layerOf(picture);
-    if (!layer) throw std::runtime_error("has no layer with R, G and B");
+    if (!layer) fail("has no layer with R, G and B");
     for (const auto* said : {&picture.notes.lines, &picture.notes.not_applied, &picture.notes.in_part})
         for (const std::string& line : *said) notes.push_back(where + ": " + line);
     if (!layer->name.empty())

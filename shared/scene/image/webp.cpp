@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/codecs.h"
 
+#include "shared/text/fail.h"
+
 #include <webp/decode.h>
 
 #include <limits>
@@ -27,8 +29,7 @@ void check(VP8StatusCode status) {
 ImageHeader readWebpHeader(Bytes encoded) {
     WebPBitstreamFeatures found{};
     check(WebPGetFeatures(encoded.data(), encoded.size(), &found));
-    if (found.has_animation)
-        throw std::runtime_error("is an animated WebP, which is not supported; use a still image");
+    if (found.has_animation) fail("is an animated WebP, which is not supported; use a still image");
     constexpr int lossless = 2;
     return {ImageHeader::Kind::webp, found.width, found.height, false,
             found.format == lossless ? losslessPixelsPerByte : lossyPixelsPerByte};

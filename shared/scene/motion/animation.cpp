@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <stdexcept>
 
 namespace diptych {
 
@@ -62,6 +61,13 @@ double spline(double from, double out, double in, double to, double u, double in
 }
 
 }  // namespace
+
+glm::dmat4 matrixOf(const Transform& transform) {
+    glm::dmat4 m = glm::mat4_cast(transform.rotation);
+    for (int c = 0; c < 3; ++c) m[c] *= transform.scale[c];
+    m[3] = glm::dvec4(transform.translation, 1);
+    return m;
+}
 
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds) {
     const bool cubic = keyframes.interpolation == Interpolation::cubic_spline;
@@ -159,12 +165,8 @@ NodeMotion motionAt(const Scene& scene, double seconds, const std::string& choic
                     glm::dvec3(values[0], values[1], values[2]);
         }
     }
-    for (const auto& [node, t] : moved) {
-        glm::dmat4& m = motion.parent_from_node[static_cast<std::size_t>(node)];
-        m = glm::mat4_cast(t.rotation);
-        for (int c = 0; c < 3; ++c) m[c] *= t.scale[c];
-        m[3] = glm::dvec4(t.translation, 1);
-    }
+    for (const auto& [node, transform] : moved)
+        motion.parent_from_node[static_cast<std::size_t>(node)] = matrixOf(transform);
     return motion;
 }
 

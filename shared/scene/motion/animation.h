@@ -11,6 +11,9 @@
 
 namespace diptych {
 
+// translation * rotation * scale
+glm::dmat4 matrixOf(const Transform& transform);
+
 // Evaluates `keyframes.width` values at `seconds`, clamped to the first and last key. A rotation (x, y, z,
 // w) has unit length; interpolation takes the shorter way.
 std::vector<double> sampled(const Keyframes& keyframes, AnimatedPart part, double seconds);

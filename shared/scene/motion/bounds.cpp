@@ -26,8 +26,7 @@ Bounds worldBounds(const Scene& scene, const Pose& pose) {
                 if (!std::isnan(p.x)) add(p);
             continue;
         }
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        for (const glm::vec3& p : mesh.primitives[static_cast<std::size_t>(instance.primitive)].positions)
+        for (const glm::vec3& p : primitiveOf(scene, instance).positions)
             add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
     }
     return bounds;

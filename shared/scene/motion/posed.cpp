@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace diptych {
@@ -39,8 +40,7 @@ glm::dmat3 inverseTranspose(const glm::dmat3& m) {
 class Posing {
 public:
     Posing(const Scene& scene, const Pose& pose, const Instance& instance)
-        : primitive_(scene.meshes[static_cast<std::size_t>(instance.mesh)]
-                         .primitives[static_cast<std::size_t>(instance.primitive)]),
+        : primitive_(primitiveOf(scene, instance)),
           world_from_object_(instance.world_from_object),
           world_from_mesh_(instance.skin < 0 ? nullptr
                                              : &pose.skins[static_cast<std::size_t>(instance.skin)]),
@@ -49,37 +49,32 @@ public:
 
     const Primitive& primitive() const { return primitive_; }
 
-    // A vertex attribute plus its weighted morph deltas, in object space. deltasOf(target) may be empty.
-    template <class Sum, class T, class DeltasOf>
-    Sum morphed(const std::vector<T>& base, const DeltasOf& deltasOf, std::size_t vertex) const {
+    // A vertex attribute plus its weighted morph deltas, in object space. `deltas` of a target may be empty.
+    template <class Sum, class T, class Deltas>
+    Sum morphed(const std::vector<T>& base, const Deltas& deltas, std::size_t vertex) const {
         Sum sum(base[vertex]);
         if (!weights_) return sum;
         for (std::size_t t = 0; t < primitive_.targets.size(); ++t) {
-            const auto& delta = deltasOf(primitive_.targets[t]);
+            const auto& delta = std::invoke(deltas, primitive_.targets[t]);
             if (!delta.empty()) sum += (*weights_)[t] * Sum(delta[vertex]);
         }
         return sum;
     }
     glm::dvec3 position(std::size_t v) const {
-        return morphed<glm::dvec3>(
-            primitive_.positions, [](const MorphTarget& t) -> auto& { return t.positions; }, v);
+        return morphed<glm::dvec3>(primitive_.positions, &MorphTarget::positions, v);
     }
     glm::dvec3 normal(std::size_t v) const {
-        return morphed<glm::dvec3>(
-            primitive_.normals, [](const MorphTarget& t) -> auto& { return t.normals; }, v);
+        return morphed<glm::dvec3>(primitive_.normals, &MorphTarget::normals, v);
     }
     glm::dvec3 tangent(std::size_t v) const {
-        return morphed<glm::dvec3>(
-            primitive_.tangents, [](const MorphTarget& t) -> auto& { return t.tangents; }, v);
+        return morphed<glm::dvec3>(primitive_.tangents, &MorphTarget::tangents, v);
     }
     glm::dvec2 texcoord(int set, std::size_t v) const {
         return morphed<glm::dvec2>(
             primitive_.texcoords[set], [set](const MorphTarget& t) -> auto& { return t.texcoords[set]; }, v);
     }
     glm::dvec4 color(std::size_t v) const {
-        return glm::clamp(morphed<glm::dvec4>(
-                              primitive_.colors, [](const MorphTarget& t) -> auto& { return t.colors; }, v),
-                          0.0, 1.0);
+        return glm::clamp(morphed<glm::dvec4>(primitive_.colors, &MorphTarget::colors, v), 0.0, 1.0);
     }
 
     // Whether a target of non-zero weight satisfies `moves`.

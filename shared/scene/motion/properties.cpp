@@ -6,12 +6,10 @@
 #include "shared/scene/motion/animation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <compare>
 #include <limits>
 #include <map>
 #include <optional>
-#include <utility>
 
 namespace diptych {
 
@@ -91,24 +89,20 @@ void move(Camera& camera, const Values& values) {
 
 std::vector<Material> movedMaterials(const Scene& scene, const Values& values) {
     std::vector<Material> materials;
-    // Properties of one material are consecutive.
-    for (auto at = values.begin(); at != values.end();) {
-        const int object = at->first.object;
-        MaterialParts parts;
-        bool moved = false;
-        for (; at != values.end() && at->first.object == object; ++at) {
-            if (!isMaterialPart(at->first.part)) continue;
-            if (materials.empty()) materials = scene.materials;
-            Material& material = materials[static_cast<std::size_t>(object)];
-            if (!std::exchange(moved, true)) {
-                const auto found = scene.material_parts.find(object);
-                if (found != scene.material_parts.end())
-                    parts = found->second;
-                else
-                    parts.emissive = glm::dvec3(material.emissive);
-            }
-            setPart(material, parts, at->first.part, static_cast<std::size_t>(at->first.element), at->second);
+    std::map<int, MaterialParts> parts;
+    for (const auto& [property, value] : values) {
+        if (!isMaterialPart(property.part)) continue;
+        if (materials.empty()) materials = scene.materials;
+        Material& material = materials[static_cast<std::size_t>(property.object)];
+        const auto [own, isNew] = parts.try_emplace(property.object);
+        if (isNew) {
+            const auto found = scene.material_parts.find(property.object);
+            if (found != scene.material_parts.end())
+                own->second = found->second;
+            else
+                own->second.emissive = glm::dvec3(material.emissive);
         }
+        setPart(material, own->second, property.part, static_cast<std::size_t>(property.element), value);
     }
     return materials;
 }
