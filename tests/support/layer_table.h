@@ -9,7 +9,13 @@
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/motion.h"
 
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <variant>
@@ -23,7 +29,8 @@ struct LayerFactor {
     std::variant<float Material::*, glm::vec3 Material::*> member;
     AnimatedPart part;
     glm::vec3 initial, typical;
-    double least, most;  // values beyond are clamped
+    double least, most;                   // values beyond are clamped
+    std::optional<Channel> channel = {};  // of factors without a texture
 
     std::size_t width() const { return member.index() == 0 ? 1 : 3; }
     glm::vec3 of(const Material& m) const {
@@ -38,16 +45,25 @@ struct LayerFactor {
     }
 };
 
-// A texture of KHR_materials_<extension>: `channel` is its factor times these components of its texel, or
-// has them otherwise.
+// A texture of KHR_materials_<extension>, and the channel that shows it.
 struct LayerTexture {
     const char *extension, *key;
     gpu::uint slot;
     Channel channel;
-    const char* components;  // of r, g, b, a; empty: a direction, or between two lengths
+    std::string components;  // of r, g, b, a; rgb: a colour; empty: a direction
+    std::size_t factor = 0;  // its index in the row
+    bool between = false;    // the texel mixes this factor and the next one, which is alone without a texture
 
     TextureSlot& of(Material& m) const { return m.*materialSlots[slot].texture; }
     const TextureSlot& of(const Material& m) const { return m.*materialSlots[slot].texture; }
+    // The texel's components, 0 to 1, as the channel has them; colours are sRGB.
+    glm::dvec3 read(const glm::dvec4& texel) const {
+        const auto linear = [](double code) {
+            return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        };
+        if (components == "rgb") return {linear(texel.r), linear(texel.g), linear(texel.b)};
+        return {texel[static_cast<int>(std::string("rgba").find(components))], 0, 0};
+    }
 };
 
 struct TestedLayer {
@@ -66,6 +82,11 @@ struct TestedLayer {
         for (const LayerTexture& t : textures) t.of(m).texture = texture;
         factors[0].set(m, glm::vec3(0));
         return m;
+    }
+    // What a texture's channel shows by a texel, where the layer is.
+    glm::dvec3 shown(const LayerTexture& t, const Material& m, const glm::dvec4& texel) const {
+        const glm::dvec3 factor(factors[t.factor].of(m)), read = t.read(texel);
+        return t.between ? glm::mix(factor, glm::dvec3(factors[t.factor + 1].of(m)), read.x) : factor * read;
     }
     // Channels of surfaces that are 0 without the layer.
     std::vector<Channel> channels() const {
@@ -93,7 +114,7 @@ inline const std::vector<TestedLayer>& testedLayers() {
           {coat, "clearcoatRoughnessFactor", &M::clearcoat_roughness, P::clearcoat_roughness, none,
            number(0.8f), 0, 1}},
          {{coat, "clearcoatTexture", gpu::SLOT_clearcoat, C::clearcoat, "r"},
-          {coat, "clearcoatRoughnessTexture", gpu::SLOT_clearcoat_roughness, C::clearcoat_roughness, "g"},
+          {coat, "clearcoatRoughnessTexture", gpu::SLOT_clearcoat_roughness, C::clearcoat_roughness, "g", 1},
           {coat, "clearcoatNormalTexture", gpu::SLOT_clearcoat_normal, C::clearcoat_normal, ""}}},
         {"anisotropy", gpu::LAYER_ANISOTROPY,
          {{brushed, "anisotropyStrength", &M::anisotropy, P::anisotropy, none, number(0.6f), 0, 1},
@@ -104,11 +125,11 @@ inline const std::vector<TestedLayer>& testedLayers() {
          {{sheen, "sheenColorFactor", &M::sheen_color, P::sheen_color, none, color, 0, 1},
           {sheen, "sheenRoughnessFactor", &M::sheen_roughness, P::sheen_roughness, none, number(0.7f), 0, 1}},
          {{sheen, "sheenColorTexture", gpu::SLOT_sheen_color, C::sheen_color, "rgb"},
-          {sheen, "sheenRoughnessTexture", gpu::SLOT_sheen_roughness, C::sheen_roughness, "a"}}},
+          {sheen, "sheenRoughnessTexture", gpu::SLOT_sheen_roughness, C::sheen_roughness, "a", 1}}},
         {"iridescence", gpu::LAYER_IRIDESCENCE,
          {{film, "iridescenceFactor", &M::iridescence, P::iridescence, none, number(0.8f), 0, 1},
           {film, "iridescenceIor", &M::iridescence_ior, P::iridescence_ior, number(1.3f), number(1.6f), 1,
-           large},
+           large, C::iridescence_ior},
           // The minimum may be above the maximum.
           {film, "iridescenceThicknessMinimum", &M::iridescence_thickness_least,
            P::iridescence_thickness_least, number(100), number(600), 0, 65504},
@@ -116,17 +137,17 @@ inline const std::vector<TestedLayer>& testedLayers() {
            number(400), number(200), 0, 65504}},
          {{film, "iridescenceTexture", gpu::SLOT_iridescence, C::iridescence, "r"},
           {film, "iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness, C::iridescence_thickness,
-           ""}}},
+           "g", 2, true}}},
         {"transmission", gpu::LAYER_TRANSMISSION,
          {{glass, "transmissionFactor", &M::transmission, P::transmission, none, number(0.5f), 0, 1},
           {volume, "thicknessFactor", &M::thickness, P::thickness, none, number(2), 0, large},
           // 0: infinite, which files express by leaving it out.
           {volume, "attenuationDistance", &M::attenuation_distance, P::attenuation_distance, none,
-           number(0.5f), 1e-12, large},
-          {volume, "attenuationColor", &M::attenuation_color, P::attenuation_color, white, color, 0, 1},
-          {"dispersion", "dispersion", &M::dispersion, P::dispersion, none, number(5), 0, large}},
+           number(0.5f), 1e-12, large, C::attenuation_distance},
+          {volume, "attenuationColor", &M::attenuation_color, P::attenuation_color, white, color, 0, 1, C::attenuation_color},
+          {"dispersion", "dispersion", &M::dispersion, P::dispersion, none, number(5), 0, large, C::dispersion}},
          {{glass, "transmissionTexture", gpu::SLOT_transmission, C::transmission, "r"},
-          {volume, "thicknessTexture", gpu::SLOT_thickness, C::transmission_thickness, "g"}}},
+          {volume, "thicknessTexture", gpu::SLOT_thickness, C::transmission_thickness, "g", 1}}},
         {"diffuse_transmission", gpu::LAYER_DIFFUSE_TRANSMISSION,
          {{leaf, "diffuseTransmissionFactor", &M::diffuse_transmission, P::diffuse_transmission, none,
            number(0.6f), 0, 1},
@@ -134,9 +155,15 @@ inline const std::vector<TestedLayer>& testedLayers() {
            P::diffuse_transmission_color, white, color, 0, 1}},
          {{leaf, "diffuseTransmissionTexture", gpu::SLOT_diffuse_transmission, C::diffuse_transmission, "a"},
           {leaf, "diffuseTransmissionColorTexture", gpu::SLOT_diffuse_transmission_color,
-           C::diffuse_transmission_color, "rgb"}}}};
+           C::diffuse_transmission_color, "rgb", 1}}}};
     // clang-format on
     return all;
+}
+
+inline std::vector<TestedLayer> testedLayers(gpu::uint bits) {
+    std::vector<TestedLayer> some = testedLayers();
+    std::erase_if(some, [&](const TestedLayer& layer) { return (layer.bit & bits) == 0; });
+    return some;
 }
 
 // The name of a row, for INSTANTIATE_TEST_SUITE_P.
