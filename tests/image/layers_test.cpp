@@ -2,10 +2,10 @@
 // Clear coats, anisotropy, sheens and thin films (builtin:layers) in both paths: bit for bit with a float32
 // G-buffer under every kind of light, within their bits when packed, and as the reference integrates them. A
 // material whose factors are 0 is the base to the bit.
-#include "compare/verdict/pair_reports.h"
 #include "shared/material/gbuffer_layout.h"
 #include "tests/bench/environment_errors.h"
 #include "tests/image/square.h"
+#include "tests/image/verdicts.h"
 #include "tests/support/layer_table.h"
 
 #include <fmt/format.h>
@@ -107,19 +107,11 @@ TEST(Layers, BothPathsAreBitEqualWithSamples) {
     expectBitEqual(renderer, settings);
 }
 
-void expectPass(const Scene& scene, const std::vector<Frame>& frames) {
-    const DeviceInfo& info = device().info();
-    const Report report =
-        makeReport({{frames, requirements(scene, poseAt(scene, 0))}}, {info.name, info.driver, info.type});
-    for (const ChannelDiff& channel : report.comparisons[0].channels)
-        EXPECT_NE(channel.verdict, Verdict::fail) << channel.mode->name << ": " << channel.reason;
-}
-
 TEST(Layers, PackedPassesByItsBits) {
     const Scene scene = litByAll();
     Renderer renderer(device(), scene, pipelines());
     for (const GBufferEncoding gbuffer : {GBufferEncoding::standard, GBufferEncoding::compact})
-        expectPass(scene, bothPaths(renderer, inAllLight(gbuffer)));
+        EXPECT_EQ(failuresOf(verdictOn(bothPaths(renderer, inAllLight(gbuffer)), scene)), "");
 }
 
 // Surfaces with layers that the forward shader draws after deferred lighting equal forward+'s, whatever the
@@ -150,7 +142,7 @@ void expectExactByForward(int msaa) {
     if (msaa == 1) {
         EXPECT_EQ(differing, 0u);
     }
-    expectPass(scene, packed);
+    EXPECT_EQ(failuresOf(verdictOn(packed, scene)), "");
 }
 
 TEST(Layers, DrawnByTheForwardShaderTheyAreExact) {
