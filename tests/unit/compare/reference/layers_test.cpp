@@ -219,13 +219,17 @@ TEST_P(ReferenceLayer, LightAndViewerMayChangePlaces) {
         }
 }
 
-TEST_P(ReferenceLayer, ReflectanceIsThatOfASun) {
+TEST_P(ReferenceLayer, ReflectanceIsThatOfASunAlsoUnderACoat) {
     const Light sun = lightOf(LightKind::directional, {0, 0, 0}, {0.6, 0, -0.8});
-    const Surface s = layered(0.5);
-    const Shading shading = shadedBy(std::span(&sun, 1), s);
-    const Reflected factor = Lighting({}).reflectance(s, {-0.6, 0, 0.8});
-    expectColor(factor.diffuse, shading.reflected.diffuse, 1e-9);
-    expectColor(factor.specular, shading.reflected.specular, 1e-9);
+    Surface s = layered(0.5);
+    for (const double coat : {s.clearcoat, 0.75}) {
+        s.clearcoat = coat;
+        s.clearcoat_normal = s.normal;
+        const Shading shading = shadedBy(std::span(&sun, 1), s);
+        const Reflected factor = Lighting({}).reflectance(s, {-0.6, 0, 0.8});
+        expectColor(factor.diffuse, shading.reflected.diffuse, 1e-9);
+        expectColor(factor.specular, shading.reflected.specular, 1e-9);
+    }
 }
 
 TEST_P(ReferenceLayer, AnEvenSkyIsAmbientLight) {

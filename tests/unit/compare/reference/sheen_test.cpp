@@ -20,20 +20,6 @@ Surface velvet(const glm::dvec3& color, double roughness, double angle) {
     s.sheen_roughness = roughness;
     return s;
 }
-// A glossy dielectric under it.
-Surface satin(double angle) {
-    Surface s = velvet({0.3, 0.4, 0.2}, 0.4, angle);
-    s.albedo = glm::dvec3(0.5);
-    s.roughness = 0.5;
-    s.dielectric_f0 = glm::dvec3(0.04);
-    s.dielectric_f90 = 1;
-    return s;
-}
-Surface bare(Surface s) {
-    s.sheen_color = glm::dvec3(0);
-    return s;
-}
-
 // ---- the lobe ----------------------------------------------------------------------------------------
 
 TEST(ReferenceSheen, TheLobeIsEstevezAndKullas) {
@@ -80,8 +66,6 @@ TEST(ReferenceSheen, SamplesFollowTheirDensity) {
         }
 }
 
-// ---- layers ------------------------------------------------------------------------------------------
-
 // Under a white sheen a white base reflects the rest, unless the sheen alone exceeds 1.
 TEST(ReferenceSheen, TheWhiteFurnace) {
     for (const double angle : {0.0, 0.8, 1.3, 1.55})
@@ -98,36 +82,6 @@ TEST(ReferenceSheen, TheWhiteFurnace) {
     const Surface shining = velvet(glm::dvec3(1), 0.1, std::acos(0.01));
     EXPECT_EQ(keptUnderSheen(shining), 0);
     EXPECT_NEAR(underAmbient(shining).ambient.g, sheenAlbedo(0.1, 0.01), 1e-12) << "above 1";
-}
-
-// f n.l of every layer.
-TEST(ReferenceSheen, TheReflectanceOfASun) {
-    const Light sun = lightOf(LightKind::directional, {0, 0, 0}, {0.6, 0, -0.8});
-    const Surface s = velvet({0.5, 1, 0.25}, 0.6, 0.5);
-    const glm::dvec3 l(-0.6, 0, 0.8), h = glm::normalize(l + s.to_viewer);
-    const double lobe = estevezKulla(0.6, 0.8, std::cos(0.5), h.z),
-                 kept = 1 - denseSheenAlbedo(0.6, std::cos(0.5));
-    const Shading shading = shadedBy(std::span(&sun, 1), s);
-    EXPECT_NEAR(shading.reflected.specular.r, lobe / 2, 1e-9);
-    EXPECT_NEAR(shading.sheen.b, lobe / 4, 1e-9);
-    EXPECT_NEAR(shading.reflected.diffuse.g, kept * 0.8 / pi, 1e-5);
-}
-
-TEST(ReferenceSheen, ACoatLiesOverIt) {
-    Surface s = satin(0.8);
-    const Shading under = underAmbient(s);
-    s.clearcoat = 0.75;
-    s.clearcoat_roughness = 0.3;
-    s.clearcoat_normal = s.normal;
-    const double w = coatWeight(s), coat = specularAlbedo(mirror(0.3, 0.8)).g;
-    const Shading all = underAmbient(s);
-    EXPECT_NEAR(all.sheen.g, (1 - w) * under.sheen.g, 1e-12);
-    EXPECT_NEAR(all.clearcoat.g, w * coat, 1e-12);
-    EXPECT_NEAR(all.ambient.g, w * coat + (1 - w) * under.ambient.g, 1e-12);
-    const Lighting lighting({});
-    const glm::dvec3 l = polar(0.5, 1);
-    EXPECT_NEAR(lighting.reflectance(s, l).diffuse.g,
-                (1 - w) * keptUnderSheen(s) * Brdf(bare(s))(l).diffuse.g, 1e-12);
 }
 
 // ---- large lights ------------------------------------------------------------------------------------
