@@ -91,23 +91,28 @@ const Image& wallOf(Path path) {
                                 : walls[path] = litOf(path, paneBeforeWall({}, true), picture());
 }
 
-// The largest difference between a picture and the wall where rays leave a slab, one index for each
-// component. `kept`: what passes; a pane with `specular` reflects by Schlick's term.
+// The largest difference to expected(x, y, component), right of the columns before `first`.
+template <class F>
+double largestDifference(const Image& made, const F& expected, int first = 0) {
+    double most = 0;
+    for (int y = 0; y < made.height; ++y)
+        for (int x = first; x < made.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                most = std::max(most, std::abs(double{made.at(x, y, c)} - expected(x, y, c)));
+    return most;
+}
+
+// The same to the wall where rays leave a slab, one index for each component. `kept`: what passes; a pane
+// with `specular` reflects by Schlick's term.
 double largestError(const Image& made, const Image& wall, double thickness, const glm::dvec3& iors,
                     const glm::dvec3& kept, bool specular = true) {
-    double most = 0;
     const double scale = 2 * std::tan(20 * std::numbers::pi / 180) / made.height;
-    for (int y = 0; y < made.height; ++y)
-        for (int x = 0; x < made.width; ++x) {
-            const glm::dvec2 p(x + 0.5, y + 0.5),
-                offset = (p - glm::dvec2(0.5 * made.width, 0.5 * made.height)) * scale;
-            const double passes = specular ? 1 - schlick(1 / std::sqrt(1 + glm::dot(offset, offset))) : 1;
-            for (int c = 0; c < 3; ++c) {
-                const glm::dvec2 at = thickness > 0 ? pixelBehind(p, thickness, iors[c], made) : p;
-                most = std::max(most, std::abs(made.at(x, y, c) - passes * kept[c] * bilinear(wall, at, c)));
-            }
-        }
-    return most;
+    return largestDifference(made, [&](int x, int y, int c) {
+        const glm::dvec2 p(x + 0.5, y + 0.5),
+            offset = (p - glm::dvec2(0.5 * made.width, 0.5 * made.height)) * scale;
+        const double passes = specular ? 1 - schlick(1 / std::sqrt(1 + glm::dot(offset, offset))) : 1;
+        return passes * kept[c] * bilinear(wall, pixelBehind(p, thickness, iors[c], made), c);
+    });
 }
 void expectThrough(const Material& glass, const glm::dvec3& iors, const glm::dvec3& kept, double most) {
     for (const Path path : drawn_paths) {
@@ -221,15 +226,11 @@ TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
         for (const Path path : drawn_paths) {
             const Image made = litOf(path, paneBeforeWall(glass), picture());
             const double level = std::log2(made.width) * double{of.roughness} * narrower;
-            double most = 0;
-            for (int y = 0; y < made.height; ++y)
-                for (int x = 0; x < made.width; ++x)
-                    for (int c = 0; c < 3; ++c) {
-                        const glm::dvec2 p(x + 0.5, y + 0.5),
-                            at = of.thickness > 0 ? pixelBehind(p, double{of.thickness}, double{of.ior}, made)
-                                                  : p;
-                        most = std::max(most, std::abs(made.at(x, y, c) - blurred(levels, at, level, c)));
-                    }
+            const double most = largestDifference(made, [&](int x, int y, int c) {
+                return blurred(levels,
+                               pixelBehind({x + 0.5, y + 0.5}, double{of.thickness}, double{of.ior}, made),
+                               level, c);
+            });
             EXPECT_LT(most, rounding) << of.roughness << " " << of.ior << " " << nameOf(path);
         }
     }
@@ -253,14 +254,11 @@ TEST(Refraction, AnOrthographicCameraSeesASlabsShiftEverywhere) {
         const Image behind = litOf(path, wall, picture()), made = litOf(path, scene, picture());
         const double refracted = std::asin(std::sin(turn) / 1.5),
                      pixels = 0.5 * std::sin(turn - refracted) * made.height / 0.8;
-        double most = 0;
         // The normal leans to the right (+X), and with it the ray's way inside to the left.
-        for (int y = 0; y < made.height; ++y)
-            for (int x = 8; x < made.width; ++x)
-                for (int c = 0; c < 3; ++c)
-                    most = std::max(
-                        most, std::abs(made.at(x, y, c) - bilinear(behind, {x + 0.5 - pixels, y + 0.5}, c)));
-        EXPECT_LT(most, rounding) << nameOf(path);
+        const auto expected = [&](int x, int y, int c) {
+            return bilinear(behind, {x + 0.5 - pixels, y + 0.5}, c);
+        };
+        EXPECT_LT(largestDifference(made, expected, 8), rounding) << nameOf(path);
     }
 }
 
@@ -274,11 +272,8 @@ TEST(Refraction, ABallOfIndexOneIsInvisible) {
     b.add("ball", sphere(0.8, 48, 24), static_cast<int>(b.scene.materials.size()), glm::dvec3(0.0));
     b.scene.materials.push_back(glass);
     for (const Path path : drawn_paths) {
-        const Image &behind = wallOf(path), made = litOf(path, b.scene, picture());
-        double most = 0;
-        for (std::size_t i = 0; i < made.data.size(); ++i)
-            most = std::max(most, std::abs(double{made.data[i]} - double{behind.data[i]}));
-        EXPECT_LT(most, rounding) << nameOf(path);
+        const auto behind = [&](int x, int y, int c) { return double{wallOf(path).at(x, y, c)}; };
+        EXPECT_LT(largestDifference(litOf(path, b.scene, picture()), behind), rounding) << nameOf(path);
     }
 }
 
