@@ -317,8 +317,8 @@ TEST_P(EachLayer, ATexelOfZeroIsTheBaseToTheBit) {
     for (const Channel mode : GetParam().channels()) own.push_back(mode);
     std::vector<Channel> channels = own;
     channels.push_back(Channel::lit);
-    const std::vector<Frame> with = bothPaths(layered, settings, channels),
-                             without = bothPaths(plain, settings, {Channel::lit});
+    static const std::vector<Frame> without = bothPaths(plain, settings, {Channel::lit});
+    const std::vector<Frame> with = bothPaths(layered, settings, channels);
     for (std::size_t path = 0; path < 2; ++path)
         for (const int x : {0, 1, 2, 3}) {
             const bool there =

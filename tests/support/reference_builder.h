@@ -93,6 +93,12 @@ inline const Environment& whiteSky() {
 inline Shading underAmbient(const Surface& surface, Multiscatter multiscatter = Multiscatter::off) {
     return Lighting({.ambient = glm::dvec3(1), .multiscatter = multiscatter})(surface, {}, 1);
 }
+// With the costs of the sky's approximations.
+inline Shading withCosts(const Environment& sky, const Surface& surface) {
+    Lighting lighting({.environment = &sky});
+    lighting.takeCosts();
+    return lighting(surface, {}, 5);
+}
 // Every kind of light at once; the environment's costs and surroundings too.
 inline Shading underAllLights(const Surface& surface) {
     Light point = lightOf(LightKind::point, {0.5, 0, 2}), rect = lightOf(LightKind::rect, {-1, 0, 1});

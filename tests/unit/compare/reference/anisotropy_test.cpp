@@ -163,14 +163,6 @@ TEST(ReferenceAnisotropy, ALongLightMayHideInTheNarrowWidth) {
 
 // ---- what the split sum costs ------------------------------------------------------------------------
 
-EnvironmentCosts splitCosts(const Environment& sky, const Surface& s, double& exact) {
-    Lighting lighting({.environment = &sky});
-    lighting.takeCosts();
-    const Shading shading = lighting(s, {}, 5);
-    exact = shading.reflected.specular.g;
-    return shading.costs;
-}
-
 // The isotropic lobe whose albedo the split sum takes.
 Surface asSeen(const Surface& s) {
     return isotropic(s, widthTowards(widthsOf(s), s.to_viewer));
@@ -179,10 +171,9 @@ Surface asSeen(const Surface& s) {
 TEST(ReferenceAnisotropy, UnderAnEvenSkyTheSplitSumIsOffByTheAlbedo) {
     const Environment sky{"sky", Image(32, 16, 3, 3.0f)};
     const Surface s = stretchedMirror(0.3, 1, 0.5, 0.5);
-    double exact = 0;
     const double apart = 3 * std::abs(specularAlbedo(asSeen(s)).g - specularAlbedo(s).g);
     EXPECT_GT(apart, 0.3);
-    EXPECT_NEAR(splitCosts(sky, s, exact).split[0], apart, 0.15);
+    EXPECT_NEAR(withCosts(sky, s).costs.split[0], apart, 0.15);
 }
 
 // The lobe is stretched in the plane of the viewer, so that the normal bends toward the viewer: the paths
@@ -194,11 +185,11 @@ TEST(ReferenceAnisotropy, TheSplitSumLooksAboutTheBentNormal) {
             if (EnvironmentLight(sky, 1).directionOf(x + 0.5, y + 0.5).x > 0)
                 for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 1;
     const Surface s = stretchedMirror(0.1, 0.5, 1, 0), across = stretchedMirror(0.1, 0.5, 1, pi / 2);
-    double exact = 0;
-    const double split = splitCosts(sky, s, exact).split[0];
+    const Shading shading = withCosts(sky, s);
+    const double exact = shading.reflected.specular.g, split = shading.costs.split[0];
     EXPECT_LT(exact, 0.3);
     EXPECT_NEAR(split, specularAlbedo(asSeen(s)).g - exact, 0.05);
-    EXPECT_LT(splitCosts(sky, across, exact).split[0], 0.1) << "the plane's own normal";
+    EXPECT_LT(withCosts(sky, across).costs.split[0], 0.1) << "the plane's own normal";
 }
 
 // ---- reading -----------------------------------------------------------------------------------------

@@ -198,9 +198,7 @@ TEST(ReferenceIridescence, UnderAnEvenSkyTheSplitSumIsOffByItsCosine) {
     dark.albedo = glm::dvec3(0);
     bright.albedo = glm::dvec3(1);
     const double all = specularAlbedo(bright).r, cosine = 1 - std::pow(specularAlbedo(dark).r / all, 0.2);
-    Lighting lighting({.environment = &sky});
-    lighting.takeCosts();
-    const Shading shading = lighting(s, {}, 5);
+    const Shading shading = withCosts(sky, s);
     const glm::dvec3 integral = 3.0 * specularAlbedo(s),
                      taken = 3.0 * all * ThinFilm{1, 1.3, 600}.reflected(cosine, s.albedo);
     expectColor(shading.environment.specular, integral, 2 * samplingError * largestOf(integral));

@@ -258,22 +258,21 @@ TEST_P(ReferenceLayer, OcclusionDimsItsAmbientLightAndLightmapsAreUnderIt) {
 
 TEST_P(ReferenceLayer, GrazingAnglesAreFinite) {
     const double grazing = glm::radians(89.99);
-    for (const double angle : {grazing, pi - grazing})
-        for (const double roughness : {0.0, 1.0}) {
-            const Surface s = layered(angle, 1, roughness), own = lobeOf(s);
-            const Shading shading = underAllLights(s);
-            EXPECT_TRUE(std::isfinite(shading.all().g));
-            EXPECT_TRUE(std::isfinite(partOf(shading).g));
-            EXPECT_GE(keptUnder(s), 0);
-            EXPECT_GE(transmitted(s).g, 0);
-            const LobeSampler lobe{Brdf(own)};
-            for (const double turn : {0.0, 0.7, 2.0, pi}) {
-                const glm::dvec3 l = polar(grazing, turn);
-                EXPECT_TRUE(std::isfinite(Brdf(own)(l).size()));
-                EXPECT_TRUE(std::isfinite(lobe.density(l)));
-                EXPECT_NEAR(glm::length(lobe({0.999999, turn / 7})), 1, 1e-12);
-            }
+    for (const auto& [angle, roughness] : {std::pair(grazing, 1.0), {pi - grazing, 0.0}}) {
+        const Surface s = layered(angle, 1, roughness), own = lobeOf(s);
+        const Shading shading = underAllLights(s);
+        EXPECT_TRUE(std::isfinite(shading.all().g));
+        EXPECT_TRUE(std::isfinite(partOf(shading).g));
+        EXPECT_GE(keptUnder(s), 0);
+        EXPECT_GE(transmitted(s).g, 0);
+        const LobeSampler lobe{Brdf(own)};
+        for (const double turn : {0.0, 0.7, 2.0, pi}) {
+            const glm::dvec3 l = polar(grazing, turn);
+            EXPECT_TRUE(std::isfinite(Brdf(own)(l).size()));
+            EXPECT_TRUE(std::isfinite(lobe.density(l)));
+            EXPECT_NEAR(glm::length(lobe({0.999999, turn / 7})), 1, 1e-12);
         }
+    }
 }
 
 TEST_P(ReferenceLayerAbove, UnderItEveryPartKeepsTheSameFraction) {

@@ -106,18 +106,11 @@ TEST(ReferenceSheen, ARectangleNearTheHorizon) {
 
 // ---- costs of approximations -------------------------------------------------------------------------
 
-EnvironmentCosts costsOf(const Environment& sky, const Surface& s, double& integral) {
-    Lighting lighting({.environment = &sky});
-    lighting.takeCosts();
-    const Shading shading = lighting(s, {}, 5);
-    integral = shading.environment.specular.g;
-    return shading.costs;
-}
-
 TEST(ReferenceSheen, AnEvenSkyCostsNothing) {
     const Environment sky{"sky", Image(32, 16, 3, 1.0f)};
-    double integral = 0;
-    const EnvironmentCosts costs = costsOf(sky, sheenOf(velvet(glm::dvec3(1), 0.5, 1)), integral);
+    const Shading shading = withCosts(sky, sheenOf(velvet(glm::dvec3(1), 0.5, 1)));
+    const EnvironmentCosts& costs = shading.costs;
+    const double integral = shading.environment.specular.g;
     for (const double cost : costs.split) EXPECT_LE(cost, 0.1 * integral);
     EXPECT_LE(costs.sampled, 0.1 * integral);
 }
@@ -136,8 +129,9 @@ TEST(ReferenceSheen, LightFromOneSideCostsTheDifference) {
                           (std::cos(pi * y / 32) - std::cos(pi * (y + 1) / 32)) / pi;
         }
     const Surface s = sheenOf(velvet(glm::dvec3(1), 0.3, 1.4));
-    double integral = 0;
-    const EnvironmentCosts costs = costsOf(sky, s, integral);
+    const Shading shading = withCosts(sky, s);
+    const EnvironmentCosts& costs = shading.costs;
+    const double integral = shading.environment.specular.g;
     const double taken = sheenAlbedo(0.3, std::cos(1.4)) * irradiance;
     EXPECT_GT(std::abs(taken - integral), 0.1 * integral);
     EXPECT_NEAR(costs.split[2], std::abs(taken - integral), 0.1 * integral + 0.03 * taken);
