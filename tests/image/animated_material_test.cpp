@@ -2,6 +2,7 @@
 // Materials animated to a time: both paths match a scene with those static materials bit for bit. The
 // textures are uploaded once.
 #include "tests/image/square.h"
+#include "tests/support/layer_table.h"
 
 #include "shared/scene/motion/pose.h"
 
@@ -92,6 +93,17 @@ const std::vector<MovingMaterial>& movingMaterials() {
          [](Scene& s) {
              s.materials[0].metallic = 0;
              moveMaterial(s, AnimatedPart::transmission, {0, 0.5f});
+         }},
+        {"layers begin",
+         [](Scene& s) {
+             for (const TestedLayer& layer : testedLayers(~gpu::LAYER_TRANSMISSION)) {
+                 const LayerFactor& first = layer.factors[0];
+                 s.materials[0] = layer.off(s.materials[0], 0);
+                 std::vector<float> keys(2 * first.width(), 0);
+                 for (std::size_t i = 0; i < first.width(); ++i)
+                     keys[first.width() + i] = first.typical[static_cast<int>(i)];
+                 moveMaterial(s, first.part, keys);
+             }
          }},
     };
     return all;

@@ -2,6 +2,7 @@
 // Light of sheens and thin films in one pixel of a tilted square, compared with the definitions of
 // KHR_materials_sheen and KHR_materials_iridescence.
 #include "tests/image/square.h"
+#include "tests/support/layer_formulas.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -9,7 +10,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -55,53 +55,6 @@ void expectLight(const Frame& frame, Channel mode, const glm::dvec3& expected, d
 
 // ---- sheen -------------------------------------------------------------------------------------------
 
-// Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF".
-class Fibres {
-public:
-    explicit Fibres(double roughness) : alpha_(roughness * roughness) {
-        constexpr std::array rough{21.5473, 3.82987, 0.19823, -1.97760, -4.32054};
-        constexpr std::array smooth{25.3245, 3.32435, 0.16801, -1.27393, -4.85967};
-        const double t = (1 - alpha_) * (1 - alpha_);
-        for (std::size_t i = 0; i < fit_.size(); ++i) fit_[i] = (1 - t) * rough[i] + t * smooth[i];
-    }
-
-    // D V.
-    double lobe(const glm::dvec3& n, const glm::dvec3& v, const glm::dvec3& l) const {
-        const double n_dot_h = glm::dot(n, glm::normalize(l + v)), n_dot_v = glm::dot(n, v),
-                     n_dot_l = glm::dot(n, l), sine = std::sqrt(1 - n_dot_h * n_dot_h);
-        const double d = (2 + 1 / alpha_) * std::pow(sine, 1 / alpha_) / (2 * std::numbers::pi);
-        return d / ((1 + lambda(n_dot_v) + lambda(n_dot_l)) * 4 * n_dot_v * n_dot_l);
-    }
-
-    // The lobe's integral over the hemisphere with the cosine, by midpoints that are dense at the horizon.
-    double albedo(double n_dot_v) const {
-        constexpr int count = 300;
-        const glm::dvec3 v(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-        double sum = 0;
-        for (int i = 0; i < count; ++i) {
-            const double root = (i + 0.5) / count, cosine = root * root,
-                         across = std::sqrt(1 - cosine * cosine);
-            for (int j = 0; j < count; ++j) {
-                const double azimuth = std::numbers::pi * (j + 0.5) / count;
-                const glm::dvec3 l(across * std::cos(azimuth), across * std::sin(azimuth), cosine);
-                sum += lobe({0, 0, 1}, v, l) * cosine * 2 * root;
-            }
-        }
-        return sum * 2 * std::numbers::pi / (count * count);
-    }
-
-private:
-    double curve(double x) const {
-        return fit_[0] / (1 + fit_[1] * std::pow(x, fit_[2])) + fit_[3] * x + fit_[4];
-    }
-    double lambda(double cosine) const {
-        return std::exp(cosine < 0.5 ? curve(cosine) : 2 * curve(0.5) - curve(1 - cosine));
-    }
-
-    double alpha_;
-    std::array<double, 5> fit_{};
-};
-
 Material wovenCloth(float roughness) {
     Material m;
     m.base_color = {0.6f, 0.4f, 0.2f, 1};
@@ -120,9 +73,10 @@ TEST(LayerValues, ASheenIsItsFormula) {
             Material bare = cloth;
             bare.sheen_color = {};
             const glm::dvec3 n = tiltedNormal(degrees), color(cloth.sheen_color);
-            const Fibres fibres(double{roughness});
-            const double direct = sunlight * fibres.lobe(n, toViewer, slanted) * glm::dot(n, slanted),
-                         all = fibres.albedo(n.z), left = 1 - 0.9 * all;
+            const double n_dot_h = glm::dot(n, glm::normalize(slanted + toViewer)),
+                         direct =
+                             sunlight * estevezKulla(double{roughness}, glm::dot(n, slanted), n.z, n_dot_h),
+                         all = denseSheenAlbedo(double{roughness}, n.z), left = 1 - 0.9 * all;
             const std::vector<Frame> dark = bothPaths(tiltedSquare(cloth, degrees, slanted), onePixel()),
                                      bright = bothPaths(tiltedSquare(cloth, degrees, slanted), onePixel(3)),
                                      base = bothPaths(tiltedSquare(bare, degrees, slanted), onePixel(3));
@@ -148,7 +102,7 @@ TEST(LayerValues, ACoatLiesAboveASheen) {
     Material coated = cloth;
     coated.clearcoat = 1;
     const glm::dvec3 n = tiltedNormal(50);
-    const double left = 1 - (0.04 + 0.96 * std::pow(1 - n.z, 5));
+    const double left = 1 - schlick(n.z);
     const std::vector<Frame> bare = bothPaths(tiltedSquare(cloth, 50, slanted), onePixel(1)),
                              under = bothPaths(tiltedSquare(coated, 50, slanted), onePixel(1));
     for (std::size_t path = 0; path < 2; ++path)
@@ -158,47 +112,23 @@ TEST(LayerValues, ACoatLiesAboveASheen) {
 
 // ---- iridescence -------------------------------------------------------------------------------------
 
-double schlicks(double f0, double f90, double cosine) {
-    return f0 + (f90 - f0) * std::pow(1 - cosine, 5);
-}
-
-// Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying
-// Iridescence": X, Y and Z of a path difference in m, each with its phase, by Gaussians; then linear Rec.709.
-glm::dvec3 interferenceColor(double difference, const glm::dvec3& phase) {
-    struct Gaussian {
-        int component;
-        double value, position, variance;
-    };
-    const double k = 2 * std::numbers::pi * difference;
-    glm::dvec3 xyz(0);
-    for (const Gaussian& g :
-         {Gaussian{0, 5.4856e-13, 1.6810e6, 4.3278e9}, Gaussian{0, 9.7470e-14, 2.2399e6, 4.5282e9},
-          Gaussian{1, 4.4201e-13, 1.7953e6, 9.3046e9}, Gaussian{2, 5.2481e-13, 2.2084e6, 6.6121e9}})
-        xyz[g.component] += g.value * std::sqrt(2 * std::numbers::pi * g.variance) *
-                            std::cos(g.position * k + phase[g.component]) * std::exp(-g.variance * k * k) /
-                            1.0685e-7;
-    const glm::dmat3 rows(3.2404542, -1.5371385, -0.4985314, -0.9692660, 1.8760108, 0.0415560, 0.0556434,
-                          -0.2040259, 1.0572252);
-    return xyz * rows;
-}
-
 // Fraction that a film of `ior` and `nm` reflects over a material of `f0`: both faces, and two orders of
 // interference.
 glm::dvec3 filmReflectance(double cosine, const glm::dvec3& f0, double ior, double nm) {
     const double inner = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior)),
-                 front = schlicks(std::pow((ior - 1) / (ior + 1), 2), 1, cosine),
+                 front = schlick(cosine, std::pow((ior - 1) / (ior + 1), 2)),
                  difference = 2 * ior * nm * 1e-9 * inner;
     glm::dvec3 back, through, phase;
     for (int c = 0; c < 3; ++c) {
         const double index = (1 + std::sqrt(f0[c])) / (1 - std::sqrt(f0[c]));
-        back[c] = schlicks(std::pow((index - ior) / (index + ior), 2), 1, inner);
+        back[c] = schlick(inner, std::pow((index - ior) / (index + ior), 2));
         through[c] = (1 - front) * (1 - front) * back[c] / (1 - front * back[c]);
         phase[c] = index < ior ? 2 * std::numbers::pi : std::numbers::pi;
     }
     glm::dvec3 reflected = front + through;
     for (const double order : {1.0, 2.0})
         reflected += 2.0 * (through - (1 - front)) * glm::pow(front * back, glm::dvec3(order / 2)) *
-                     interferenceColor(order * difference, order * phase);
+                     spectralSum(order * difference, order * phase);
     return glm::max(reflected, glm::dvec3(0));
 }
 
@@ -224,8 +154,7 @@ TEST(LayerValues, AFilmIsItsFormula) {
             const glm::dvec3 l = degrees > 0 ? slanted : n;
             const double cosine = glm::dot(toViewer, glm::normalize(l + toViewer)), n_dot_l = glm::dot(n, l);
             const auto filmed = [&](const glm::dvec3& f0) {
-                return glm::mix(glm::dvec3(schlicks(f0.r, 1, cosine), schlicks(f0.g, 1, cosine),
-                                           schlicks(f0.b, 1, cosine)),
+                return glm::mix(glm::mix(f0, glm::dvec3(1), schlick(cosine, 0)),
                                 filmReflectance(cosine, f0, double{film.ior}, double{film.nm}),
                                 double{film.weight});
             };

@@ -253,42 +253,6 @@ TEST(Panes, AreOffWithWhatIsBlended) {
     }
 }
 
-// Textures that are black where a material's weight is read.
-TEST(Panes, AWeightOfZeroIsTheBaseToTheBit) {
-    Scene plain = paneOf({0.5f, 0.8f, 0.3f}, 0);
-    plain.lights[0].direction = {0.2, -0.1, -1};
-    Scene zero = plain;
-    Builder b;
-    b.scene = std::move(zero);
-    const TextureSlot black = b.texture(checker("black", 8, 2, {0, 255, 255, 0}, {0, 128, 0, 0}), 2);
-    Material& m = b.scene.materials.back();
-    Scene through = b.scene, leafy = b.scene;
-    Material &glass = through.materials.back(), &leaf = leafy.materials.back();
-    glass.transmission = glass.thickness = 1;
-    glass.attenuation_distance = 0.1f;
-    glass.attenuation_color = {0, 0.5f, 1};
-    glass.dispersion = 2;
-    glass.transmission_texture = glass.thickness_texture = black;
-    leaf.diffuse_transmission = 1;
-    leaf.diffuse_transmission_texture = leaf.diffuse_transmission_color_texture = black;
-    EXPECT_EQ(m.transmission, 0);
-    Settings settings = blendedPicture();
-    settings.ambient = {0.1f, 0.2f, 0.3f};
-    const std::vector<Channel> light{Channel::lit, Channel::lit_transmission, Channel::attenuation_color};
-    const std::vector<Frame> base = bothPaths(plain, settings, {Channel::lit});
-    for (const Scene* scene : {&through, &leafy})
-        for (std::size_t path = 0; path < 2; ++path) {
-            const Frame frame = bothPaths(*scene, settings, light)[path];
-            EXPECT_EQ(differingPixels(frame.channels.at(Channel::lit), base[path].channels.at(Channel::lit)),
-                      0u)
-                << frame.name;
-            for (const Channel mode : {Channel::lit_transmission, Channel::attenuation_color}) {
-                if (!frame.channels.contains(mode)) continue;
-                for (const float v : frame.channels.at(mode).data) EXPECT_EQ(v, 0) << frame.name;
-            }
-        }
-}
-
 // Neighbouring triangles that differ in the weight of diffuse transmission alone, in pixels that show both.
 TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     Builder b;

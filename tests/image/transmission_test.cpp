@@ -6,6 +6,7 @@
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"
 #include "tests/image/scenes.h"
+#include "tests/support/layer_formulas.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -81,96 +83,88 @@ glm::dvec2 pixelBehind(const glm::dvec2& p, double thickness, double ior, const 
     return glm::dvec2(exit) / (-exit.z * scale) + middle;
 }
 
-double schlick(double cosine) {
-    return 0.04 + 0.96 * std::pow(1 - cosine, 5);
+// The wall without the pane.
+const Image& wallOf(Path path) {
+    static std::map<Path, Image> walls;
+    const auto found = walls.find(path);
+    return found != walls.end() ? found->second
+                                : walls[path] = litOf(path, paneBeforeWall({}, true), picture());
 }
 
-double largestError(const Image& made, const Image& wall, double thickness, const glm::dvec3& iors,
-                    const glm::dvec3& kept) {
+// The largest difference to expected(x, y, component), right of the columns before `first`.
+template <class F>
+double largestDifference(const Image& made, const F& expected, int first = 0) {
     double most = 0;
-    const double scale = 2 * std::tan(20 * std::numbers::pi / 180) / made.height;
     for (int y = 0; y < made.height; ++y)
-        for (int x = 0; x < made.width; ++x) {
-            const glm::dvec2 p(x + 0.5, y + 0.5),
-                offset = (p - glm::dvec2(0.5 * made.width, 0.5 * made.height)) * scale;
-            const double passes = 1 - schlick(1 / std::sqrt(1 + glm::dot(offset, offset)));
-            for (int c = 0; c < 3; ++c) {
-                const glm::dvec2 at = thickness > 0 ? pixelBehind(p, thickness, iors[c], made) : p;
-                most = std::max(most, std::abs(made.at(x, y, c) - passes * kept[c] * bilinear(wall, at, c)));
-            }
-        }
+        for (int x = first; x < made.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                most = std::max(most, std::abs(double{made.at(x, y, c)} - expected(x, y, c)));
     return most;
+}
+
+// The same to the wall where rays leave a slab, one index for each component. `kept`: what passes; a pane
+// with `specular` reflects by Schlick's term.
+double largestError(const Image& made, const Image& wall, double thickness, const glm::dvec3& iors,
+                    const glm::dvec3& kept, bool specular = true) {
+    const double scale = 2 * std::tan(20 * std::numbers::pi / 180) / made.height;
+    return largestDifference(made, [&](int x, int y, int c) {
+        const glm::dvec2 p(x + 0.5, y + 0.5),
+            offset = (p - glm::dvec2(0.5 * made.width, 0.5 * made.height)) * scale;
+        const double passes = specular ? 1 - schlick(1 / std::sqrt(1 + glm::dot(offset, offset))) : 1;
+        return passes * kept[c] * bilinear(wall, pixelBehind(p, thickness, iors[c], made), c);
+    });
+}
+void expectThrough(const Material& glass, const glm::dvec3& iors, const glm::dvec3& kept, double most) {
+    for (const Path path : drawn_paths) {
+        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        EXPECT_LT(largestError(made, wallOf(path), double{glass.thickness}, iors, kept, glass.specular > 0),
+                  most)
+            << nameOf(path) << " " << glass.ior;
+    }
 }
 
 // A texel's step of 1 times a pixel's rounding, 1e-4, and its light.
 constexpr double rounding = 1e-3;
 
 TEST(Refraction, AThinWallShowsWhatIsStraightBehind) {
-    for (const Path path : drawn_paths) {
-        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
-        const Image made = litOf(path, paneBeforeWall(glassOf(0)), picture());
-        EXPECT_LT(largestError(made, wall, 0, glm::dvec3(1.5), glm::dvec3(1)), 1e-5) << nameOf(path);
-    }
+    expectThrough(glassOf(0), glm::dvec3(1.5), glm::dvec3(1), 1e-5);
 }
 
 TEST(Refraction, ASlabMovesThePictureBySnellsLaw) {
-    for (const Path path : drawn_paths)
-        for (const float ior : {1.0f, 1.33f, 2.4f}) {
-            Material glass = glassOf(0.7f, ior);
-            glass.specular = 0;  // no reflection, whose F0 follows the index
-            const Image wall = litOf(path, paneBeforeWall({}, true), picture());
-            const Image made = litOf(path, paneBeforeWall(glass), picture());
-            double most = 0;
-            for (int y = 0; y < made.height; ++y)
-                for (int x = 0; x < made.width; ++x)
-                    for (int c = 0; c < 3; ++c)
-                        most = std::max(most, std::abs(made.at(x, y, c) -
-                                                       bilinear(wall,
-                                                                pixelBehind({x + 0.5, y + 0.5}, double{0.7f},
-                                                                            double{ior}, made),
-                                                                c)));
-            EXPECT_LT(most, rounding) << ior << " " << nameOf(path);
-        }
+    for (const float ior : {1.0f, 1.33f, 2.4f}) {
+        Material glass = glassOf(0.7f, ior);
+        glass.specular = 0;  // no reflection, whose F0 follows the index
+        expectThrough(glass, glm::dvec3(double{ior}), glm::dvec3(1), rounding);
+    }
 }
 
 TEST(Refraction, ColoursBendApartByDispersion) {
     Material glass = glassOf(0.7f);
     glass.dispersion = 8;
     const double half = 0.5 * 0.025 * 8;
-    for (const Path path : drawn_paths) {
-        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
-        const Image made = litOf(path, paneBeforeWall(glass), picture());
-        EXPECT_LT(largestError(made, wall, double{0.7f}, {1.5 - half, 1.5, 1.5 + half}, glm::dvec3(1)),
-                  rounding)
-            << nameOf(path);
-    }
+    expectThrough(glass, {1.5 - half, 1.5, 1.5 + half}, glm::dvec3(1), rounding);
 }
 
 TEST(Refraction, ASlabAbsorbsByItsThickness) {
     Material glass = glassOf(0.5f);
     glass.attenuation_color = {0.5f, 0.25f, 0};
     glass.attenuation_distance = 0.25f;
-    for (const Path path : drawn_paths) {
-        const Image wall = litOf(path, paneBeforeWall({}, true), picture());
-        const Image made = litOf(path, paneBeforeWall(glass), picture());
-        EXPECT_LT(largestError(made, wall, 0.5, glm::dvec3(1.5), {0.25, 0.0625, 0}), rounding)
-            << nameOf(path);
-    }
+    expectThrough(glass, glm::dvec3(1.5), {0.25, 0.0625, 0}, rounding);
 }
 
 // The node's scale is the slab's.
 TEST(Refraction, ThicknessIsInTheSpaceOfTheMesh) {
     Scene scene = paneBeforeWall(glassOf(0.1f));
     scene.nodes.back().parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(5));
-    const Image wall = litOf(Path::deferred, paneBeforeWall({}, true), picture());
     const Image made = litOf(Path::deferred, scene, picture());
-    EXPECT_LT(largestError(made, wall, double{0.1f} * 5, glm::dvec3(1.5), glm::dvec3(1)), rounding);
+    EXPECT_LT(largestError(made, wallOf(Path::deferred), double{0.1f} * 5, glm::dvec3(1.5), glm::dvec3(1)),
+              rounding);
 }
 
 TEST(Refraction, RoughGlassShowsTheMeanOfWhatIsBehind) {
     Material glass = glassOf(0);
     glass.roughness = 1;
-    const Image wall = litOf(Path::deferred, paneBeforeWall({}, true), picture());
+    const Image& wall = wallOf(Path::deferred);
     glm::dvec3 mean(0);
     for (std::size_t i = 0; i < wall.pixels(); ++i)
         mean += glm::dvec3(wall.pixel(i)[0], wall.pixel(i)[1], wall.pixel(i)[2]) /
@@ -222,7 +216,7 @@ TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
     struct Case {
         float roughness, thickness, ior;
     };
-    const std::vector<Image> levels = meansOf(litOf(Path::deferred, paneBeforeWall({}, true), picture()));
+    const std::vector<Image> levels = meansOf(wallOf(Path::deferred));
     for (const Case& of : {Case{0.3f, 0, 1.5f}, Case{0.65f, 0, 1.1f}, Case{0.4f, 0.7f, 1.25f},
                            Case{0.4f, 0.7f, 2}, Case{1, 0.7f, 1}}) {
         Material glass = glassOf(of.thickness, of.ior);
@@ -232,15 +226,11 @@ TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
         for (const Path path : drawn_paths) {
             const Image made = litOf(path, paneBeforeWall(glass), picture());
             const double level = std::log2(made.width) * double{of.roughness} * narrower;
-            double most = 0;
-            for (int y = 0; y < made.height; ++y)
-                for (int x = 0; x < made.width; ++x)
-                    for (int c = 0; c < 3; ++c) {
-                        const glm::dvec2 p(x + 0.5, y + 0.5),
-                            at = of.thickness > 0 ? pixelBehind(p, double{of.thickness}, double{of.ior}, made)
-                                                  : p;
-                        most = std::max(most, std::abs(made.at(x, y, c) - blurred(levels, at, level, c)));
-                    }
+            const double most = largestDifference(made, [&](int x, int y, int c) {
+                return blurred(levels,
+                               pixelBehind({x + 0.5, y + 0.5}, double{of.thickness}, double{of.ior}, made),
+                               level, c);
+            });
             EXPECT_LT(most, rounding) << of.roughness << " " << of.ior << " " << nameOf(path);
         }
     }
@@ -264,33 +254,26 @@ TEST(Refraction, AnOrthographicCameraSeesASlabsShiftEverywhere) {
         const Image behind = litOf(path, wall, picture()), made = litOf(path, scene, picture());
         const double refracted = std::asin(std::sin(turn) / 1.5),
                      pixels = 0.5 * std::sin(turn - refracted) * made.height / 0.8;
-        double most = 0;
         // The normal leans to the right (+X), and with it the ray's way inside to the left.
-        for (int y = 0; y < made.height; ++y)
-            for (int x = 8; x < made.width; ++x)
-                for (int c = 0; c < 3; ++c)
-                    most = std::max(
-                        most, std::abs(made.at(x, y, c) - bilinear(behind, {x + 0.5 - pixels, y + 0.5}, c)));
-        EXPECT_LT(most, rounding) << nameOf(path);
+        const auto expected = [&](int x, int y, int c) {
+            return bilinear(behind, {x + 0.5 - pixels, y + 0.5}, c);
+        };
+        EXPECT_LT(largestDifference(made, expected, 8), rounding) << nameOf(path);
     }
 }
 
 // A ball without boundary, absorption and reflection.
 TEST(Refraction, ABallOfIndexOneIsInvisible) {
-    Scene wall = paneBeforeWall({}, true), scene = wall;
     Builder b;
-    b.scene = std::move(scene);
+    b.scene = paneBeforeWall({}, true);
     Material glass = glassOf(0.5f, 1);
     glass.specular = 0;
     glass.roughness = 1;
     b.add("ball", sphere(0.8, 48, 24), static_cast<int>(b.scene.materials.size()), glm::dvec3(0.0));
     b.scene.materials.push_back(glass);
     for (const Path path : drawn_paths) {
-        const Image behind = litOf(path, wall, picture()), made = litOf(path, b.scene, picture());
-        double most = 0;
-        for (std::size_t i = 0; i < made.data.size(); ++i)
-            most = std::max(most, std::abs(double{made.data[i]} - double{behind.data[i]}));
-        EXPECT_LT(most, rounding) << nameOf(path);
+        const auto behind = [&](int x, int y, int c) { return double{wallOf(path).at(x, y, c)}; };
+        EXPECT_LT(largestDifference(litOf(path, b.scene, picture()), behind), rounding) << nameOf(path);
     }
 }
 

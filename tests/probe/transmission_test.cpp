@@ -148,41 +148,5 @@ TEST(DiffuseTransmissionProbe, IsTheReferences) {
     EXPECT_GT(passing, rows / 10);
 }
 
-// Without a layer it is Lambert's law in a mirror.
-TEST(DiffuseTransmissionProbe, IsLambertsLawBehind) {
-    Probes probes;
-    std::vector<float> input;
-    for (const double angle : {0.0, 0.7, edge_on_angle})
-        addLeaf(input, {0, 0, 1}, -tilted(angle, 1), {0, 0, 1}, {0.75, 0.5, 1, 0, 0, 0});
-    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, {leafy});
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double cosine = -double{input[i * leaf_width + 5]};
-        EXPECT_NEAR(double{out[3 * i + 1]}, 0.75 * 0.5 / std::numbers::pi * cosine, 1e-7);
-        EXPECT_NEAR(double{out[3 * i + 2]}, 0.75 * 0.5, 1e-6) << "of uniform light";
-    }
-}
-
-// f(v, l) of light from behind is f(l, v) of the surface seen from its other side.
-TEST(DiffuseTransmissionProbe, IsReciprocal) {
-    Probes probes;
-    std::mt19937 random(9);
-    std::uniform_real_distribution<double> unit(0.02, 1), angle(0, 6.28);
-    std::vector<float> input;
-    constexpr std::size_t pairs = 1000;
-    for (std::size_t i = 0; i < pairs; ++i) {
-        const glm::dvec3 n(0, 0, 1), v = tilted(std::acos(unit(random)), angle(random)),
-                                     l = -tilted(std::acos(unit(random)), angle(random));
-        const double weight = unit(random), f0 = 0.5 * unit(random);
-        addLeaf(input, v, l, n, {weight, 0.8, 1, 0.25, f0, 1});
-        addLeaf(input, l, v, -n, {weight, 0.8, 1, 0.25, f0, 1});
-    }
-    const std::vector<float> out = probes.run("diffuse_transmission", input, leaf_width, 3, {leafy});
-    for (std::size_t i = 0; i < pairs; ++i) {
-        const double n_dot_l = -double{input[2 * i * leaf_width + 5]},
-                     n_dot_v = double{input[2 * i * leaf_width + 2]};
-        EXPECT_NEAR(double{out[6 * i + 1]} / n_dot_l, double{out[6 * i + 4]} / n_dot_v, 1e-5) << i;
-    }
-}
-
 }  // namespace
 }  // namespace diptych

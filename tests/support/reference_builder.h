@@ -40,6 +40,21 @@ inline Surface mirror(double roughness, double angle) {
     return s;
 }
 
+// A glossy dielectric of a third of white, likewise.
+inline Surface lacquer(double angle) {
+    Surface s = mirror(0.5, angle);
+    s.metallic = 0;
+    s.albedo = glm::dvec3(1.0 / 3);
+    s.dielectric_f0 = glm::dvec3(0.04);
+    s.dielectric_f90 = 1;
+    return s;
+}
+
+// A unit vector by its angles from +Z and +X.
+inline glm::dvec3 polar(double angle, double azimuth) {
+    return {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)};
+}
+
 inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec3& direction = {0, 0, -1}) {
     Light light;
     light.kind = kind;
@@ -68,6 +83,43 @@ inline double reflectedBy(const Light& light, const Surface& surface) {
 }
 inline double irradianceBy(const Light& light, const Surface& surface) {
     return reflectedBy(light, surface) * pi;
+}
+
+// Radiance 1 from everywhere.
+inline const Environment& whiteSky() {
+    static const Environment sky{"sky", Image(8, 4, 3, 1.0f)};
+    return sky;
+}
+inline Shading underAmbient(const Surface& surface, Multiscatter multiscatter = Multiscatter::off) {
+    return Lighting({.ambient = glm::dvec3(1), .multiscatter = multiscatter})(surface, {}, 1);
+}
+// With the costs of the sky's approximations.
+inline Shading withCosts(const Environment& sky, const Surface& surface) {
+    Lighting lighting({.environment = &sky});
+    lighting.takeCosts();
+    return lighting(surface, {}, 5);
+}
+// Every kind of light at once; the environment's costs and surroundings too.
+inline Shading underAllLights(const Surface& surface) {
+    Light point = lightOf(LightKind::point, {0.5, 0, 2}), rect = lightOf(LightKind::rect, {-1, 0, 1});
+    rect.width = rect.height = 1;
+    const std::vector<Light> lights{point, rect};
+    Lighting lighting({.lights = lights, .environment = &whiteSky(), .ambient = glm::dvec3(0.5)});
+    lighting.takeCosts();
+    lighting.takeSurroundings();
+    return lighting(
+        surface, [](const glm::dvec3& l, double) { return l.x > 0; }, 7);
+}
+
+// The integral of f(u, v) over 0 to 1 in both, by Simpson's rule with even numbers of steps.
+template <class F>
+double simpson(int across, int up, const F& f) {
+    const auto weight = [](int i, int steps) { return i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0; };
+    double sum = 0;
+    for (int i = 0; i <= across; ++i)
+        for (int j = 0; j <= up; ++j)
+            sum += weight(i, across) * weight(j, up) * f(double(i) / across, double(j) / up);
+    return sum / (9.0 * across * up);
 }
 
 // Lambert's formula for the irradiance of a polygon of radiance 1 seen from the origin, clipped to the

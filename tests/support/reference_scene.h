@@ -92,4 +92,27 @@ inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, i
     return result;
 }
 
+// The same view in mode surface, from `surfaces` as if a path had captured them.
+inline Picture shadedAgain(const Scene& scene, const View& view, const Drawn& traced,
+                           const std::map<Channel, Image>& surfaces, bool shadows = false,
+                           const std::optional<Air>& air = {}) {
+    return draw({.scene = scene,
+                 .pose = traced.pose,
+                 .view = view,
+                 .lights = traced.pose.lights,
+                 .air = air,
+                 .casters = shadows ? everyLight(traced.pose.lights) : std::vector<std::size_t>{},
+                 .mode = ReferenceMode::surface,
+                 .surfaces = &surfaces});
+}
+
+inline glm::dvec3 pixelOf(const Image& image, int x = 0, int y = 0) {
+    glm::dvec3 value(0);
+    for (int c = 0; c < std::min(image.components, 3); ++c) value[c] = double{image.at(x, y, c)};
+    return value;
+}
+inline void expectColor(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], tolerance) << c;
+}
+
 }  // namespace diptych::reference

@@ -17,9 +17,7 @@ Environment evenSky(float radiance, int width = 32, int height = 16) {
 }
 
 EnvironmentCosts costsUnder(const Environment& sky, const Surface& s) {
-    Lighting lighting({.environment = &sky});
-    lighting.takeCosts();
-    return lighting(s, {}, 5).costs;
+    return withCosts(sky, s).costs;
 }
 
 TEST(ReferenceEnvironmentCosts, ItsHarmonicsAreThePaths) {

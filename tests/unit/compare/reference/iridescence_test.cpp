@@ -2,13 +2,13 @@
 // The reference's thin films (KHR_materials_iridescence), compared with Airy's sum and with integrals.
 #include "compare/reference/thin_film.h"
 
+#include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
 #include "compare/reference/ambient.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/microsurface.h"
 #include "compare/reference/multiscatter.h"
-#include "shared/frame/debug_modes.h"
 
 #include <complex>
 
@@ -31,35 +31,9 @@ Surface beetle(double metallic, double angle, double roughness = 0.4) {
     return s;
 }
 
-double schlicksWeight(double cosine) {
-    return std::pow(1 - cosine, 5);
-}
 double largestOf(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
-void expectColor(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], tolerance) << c;
-}
-
-// Linear Rec. 709 of cos(2 pi wavenumber path), path in m, by the paper's Gaussians over wavenumbers. Their
-// variances are twice those of the transforms, which glTF's text has.
-glm::dvec3 spectralSum(double path) {
-    const auto integral = [&](double value, double middle, double variance) {
-        constexpr int steps = 2000;
-        const double reach = 10 * std::sqrt(2 * variance);
-        double sum = 0;
-        for (int i = 0; i < steps; ++i) {
-            const double x = reach * ((2 * i + 1.0) / steps - 1);
-            sum += std::exp(-x * x / (4 * variance)) * std::cos(2 * pi * (middle + x) * path);
-        }
-        return value / std::sqrt(2.0) * sum * 2 * reach / steps / 1.0685e-7;
-    };
-    const double x = integral(5.4856e-13, 1.6810e6, 4.3278e9) + integral(9.7470e-14, 2.2399e6, 4.5282e9),
-                 y = integral(4.4201e-13, 1.7953e6, 9.3046e9), z = integral(5.2481e-13, 2.2084e6, 6.6121e9);
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z, -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
-}
-
 // Fourier coefficients, up to the second, of the reflectance of a film by its phase: |r|^2 with Fresnel's
 // amplitudes at normal incidence (Airy 1833).
 std::array<double, 3> airys(double film, double base) {
@@ -96,10 +70,9 @@ TEST(ReferenceIridescence, AtNormalIncidenceItIsAirysSum) {
 TEST(ReferenceIridescence, AThickFilmIsATwoFacedPlate) {
     for (const double cosine : {1.0, 0.7, 0.3, 0.05}) {
         const double ior = 1.5, inner = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
-        const double top = 0.04 + 0.96 * schlicksWeight(cosine);
+        const double top = schlick(cosine);
         const double base = (1 + std::sqrt(0.3)) / (1 - std::sqrt(0.3)),
-                     normal = std::pow((base - ior) / (base + ior), 2),
-                     bottom = normal + (1 - normal) * schlicksWeight(inner);
+                     normal = std::pow((base - ior) / (base + ior), 2), bottom = schlick(inner, normal);
         expectColor(ThinFilm{1, ior, 1e5}.reflected(cosine, glm::dvec3(0.3)),
                     glm::dvec3(top + (1 - top) * (1 - top) * bottom / (1 - top * bottom)), 1e-9);
     }
@@ -109,7 +82,7 @@ TEST(ReferenceIridescence, WithoutThicknessItIsTheBase) {
     for (const double f0 : {0.0, 0.04, 0.3, 0.9}) {
         for (const double cosine : {0.0, 0.3, 0.7, 1.0})
             expectColor(ThinFilm{1, 1.8, 0}.reflected(cosine, glm::dvec3(f0)),
-                        glm::dvec3(f0 + (1 - f0) * schlicksWeight(cosine)), 1e-12);
+                        glm::dvec3(schlick(cosine, f0)), 1e-12);
         expectColor(ThinFilm{1, 1, 400}.reflected(1, glm::dvec3(f0)), glm::dvec3(f0), 1e-12);
     }
 }
@@ -141,18 +114,6 @@ TEST(ReferenceIridescence, ItIsFiniteAndBounded) {
 
 // ---- the BRDF ----------------------------------------------------------------------------------------
 
-TEST(ReferenceIridescence, AWeightOfZeroIsTheBaseBitForBit) {
-    const Surface plain = beetle(0.3, 0.8), none = filmed(plain, 0);
-    for (const double x : {-0.6, 0.0, 0.8}) {
-        const glm::dvec3 l(x, 0, std::sqrt(1 - x * x));
-        EXPECT_EQ(Brdf(plain)(l).specular, Brdf(none)(l).specular);
-        EXPECT_EQ(Brdf(plain)(l).diffuse, Brdf(none)(l).diffuse);
-    }
-    EXPECT_EQ(specularAlbedo(plain), specularAlbedo(none));
-    EXPECT_EQ(diffuseAlbedo(plain), diffuseAlbedo(none));
-    EXPECT_EQ(transmitted(plain), transmitted(none));
-}
-
 // By v.h, for the dielectric and the metal apart; the base below the dielectric loses the largest component.
 TEST(ReferenceIridescence, ItReplacesFresnelByItsWeight) {
     for (const double metallic : {0.0, 0.4, 1.0})
@@ -162,7 +123,7 @@ TEST(ReferenceIridescence, ItReplacesFresnelByItsWeight) {
             const double cosine = glm::dot(s.to_viewer, glm::normalize(l + s.to_viewer)),
                          lobe = Brdf(mirror(0.4, 0.8)).lobe(l).g;
             const auto f = [&](const glm::dvec3& f0, double f90) {
-                return glm::mix(glm::mix(f0, glm::dvec3(f90), schlicksWeight(cosine)),
+                return glm::mix(glm::mix(f0, glm::dvec3(f90), schlick(cosine, 0)),
                                 ThinFilm{1, 1.4, 380}.reflected(cosine, f0), weight);
             };
             const glm::dvec3 layer = f(s.dielectric_f0, 0.9), metal = f(s.albedo, 1);
@@ -206,14 +167,6 @@ TEST(ReferenceIridescence, AlbedosAreTheBrdfsIntegrals) {
         }
 }
 
-TEST(ReferenceIridescence, AnEvenSkyIsAmbientLight) {
-    const Environment sky{"sky", Image(8, 4, 3, 1.0f)};
-    const Surface s = filmed(beetle(0.5, 0.9), 1);
-    const Shading shading = Lighting({.environment = &sky})(s, {}, 3),
-                  ambient = Lighting({.ambient = glm::dvec3(1)})(s, {}, 3);
-    expectColor(shading.all(), ambient.all(), 2 * samplingError * largestOf(ambient.all()));
-}
-
 // ---- multiple scattering -----------------------------------------------------------------------------
 
 TEST(ReferenceIridescence, CompensationsAreThoseOfTheSurfaceWithoutIt) {
@@ -245,75 +198,11 @@ TEST(ReferenceIridescence, UnderAnEvenSkyTheSplitSumIsOffByItsCosine) {
     dark.albedo = glm::dvec3(0);
     bright.albedo = glm::dvec3(1);
     const double all = specularAlbedo(bright).r, cosine = 1 - std::pow(specularAlbedo(dark).r / all, 0.2);
-    Lighting lighting({.environment = &sky});
-    lighting.takeCosts();
-    const Shading shading = lighting(s, {}, 5);
+    const Shading shading = withCosts(sky, s);
     const glm::dvec3 integral = 3.0 * specularAlbedo(s),
                      taken = 3.0 * all * ThinFilm{1, 1.3, 600}.reflected(cosine, s.albedo);
     expectColor(shading.environment.specular, integral, 2 * samplingError * largestOf(integral));
     EXPECT_NEAR(shading.costs.split[0], largestOf(glm::abs(taken - integral)), 0.06 * largestOf(integral));
-}
-
-// ---- reading -----------------------------------------------------------------------------------------
-
-// A floor under a film, with texture 0 of one pixel.
-Scene oilyFloor() {
-    Scene scene = floorScene();
-    scene.images = {{"texel", 1, 1, {51, 102, 204, 255}}};
-    scene.textures = {{0, {}}};
-    scene.materials[0].iridescence = 0.5f;
-    scene.materials[0].iridescence_ior = 1.5f;
-    scene.materials[0].iridescence_thickness_least = 200;
-    scene.materials[0].iridescence_thickness_most = 700;
-    return scene;
-}
-// Weight, index and thickness.
-glm::dvec3 filmOn(const Scene& scene) {
-    const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01));
-    return {d[Channel::iridescence].at(0, 0, 0), d[Channel::iridescence_ior].at(0, 0, 0),
-            d[Channel::iridescence_thickness].at(0, 0, 0)};
-}
-
-TEST(ReferenceIridescence, FactorsAndTextures) {
-    Scene scene = oilyFloor();
-    EXPECT_EQ(filmOn(scene), glm::dvec3(0.5, 1.5, 700)) << "the most without a texture";
-    scene.materials[0].iridescence_texture.texture = 0;
-    scene.materials[0].iridescence_thickness_texture.texture = 0;
-    expectColor(filmOn(scene), {0.5 * 0.2, 1.5, 200 + 0.4 * 500}, 1e-4);
-}
-
-TEST(ReferenceIridescence, WithoutOneItsChannelsAreZero) {
-    Scene texture = oilyFloor(), factor = texture, unlit = texture;
-    texture.images[0].rgba = {0, 255, 255, 255};
-    texture.materials[0].iridescence_texture.texture = 0;
-    factor.materials[0].iridescence = 0;
-    unlit.materials[0].unlit = true;
-    for (const Scene& scene : {texture, factor, unlit}) EXPECT_EQ(filmOn(scene), glm::dvec3(0));
-}
-
-TEST(ReferenceIridescence, CapturedFilmsAreShadedAgain) {
-    Scene scene = oilyFloor();
-    scene.materials[0].metallic = 1;
-    scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
-    scene.materials[0].roughness = 0.5f;
-    scene.lights = {lightOf(LightKind::point, {0.5, 0.2, 2})};
-    const View view = viewFrom({1, 0, 3}, {0, 0, 0}, 2, 2, 0.05);
-    const Drawn traced = drawn(scene, view);
-    const auto lit = [&](const std::map<Channel, Image>& surfaces) {
-        const Picture picture = draw({.scene = scene,
-                                      .pose = traced.pose,
-                                      .view = view,
-                                      .lights = traced.pose.lights,
-                                      .mode = ReferenceMode::surface,
-                                      .surfaces = &surfaces});
-        return double{picture.channels.at(Channel::lit).at(0, 0, 2)};
-    };
-    const double expected = double{traced[Channel::lit].at(0, 0, 2)};
-    EXPECT_NEAR(lit(traced.picture.channels), expected, 1e-4 * expected);
-    // A capture of a scene without layers lacks their channels.
-    std::map<Channel, Image> plain = traced.picture.channels;
-    std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
-    EXPECT_GT(std::abs(lit(plain) - expected), 0.01 * expected);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of panes and slabs: what is seen through them, in which order, through haze, and in furnaces.
 #include "compare/reference/haze.h"
-#include "shared/frame/debug_modes.h"
+#include "tests/support/layer_table.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {
@@ -48,27 +48,15 @@ glm::dvec3 onFloor(const glm::dvec3& from) {
     return from + obliqueRay() * ((-2 - from.z) / obliqueRay().z);
 }
 
-glm::dvec3 centreOf(const Image& image) {
-    const int x = image.width / 2, y = image.height / 2;
-    glm::dvec3 value(0);
-    for (int c = 0; c < image.components; ++c) value[c] = double{image.at(x, y, c)};
-    return value;
-}
 void expectCentre(const Image& image, const glm::dvec3& expected, double relative, const char* what) {
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(centreOf(image)[c], expected[c], relative * std::abs(expected[c]) + 1e-9) << what << c;
+        EXPECT_NEAR(pixelOf(image)[c], expected[c], relative * std::abs(expected[c]) + 1e-9) << what << c;
 }
 
 // Mode surface, with the opaque surfaces as captured.
 Picture captured(const Scene& scene, const View& view, const std::optional<Air>& air = {}) {
     const Drawn traced = drawn(scene, view);
-    return draw({.scene = scene,
-                 .pose = traced.pose,
-                 .view = view,
-                 .lights = traced.pose.lights,
-                 .air = air,
-                 .mode = ReferenceMode::surface,
-                 .surfaces = &traced.picture.channels});
+    return shadedAgain(scene, view, traced, traced.picture.channels, false, air);
 }
 const Image& litOf(const Picture& picture) {
     return picture.channels.at(Channel::lit);
@@ -112,7 +100,7 @@ TEST(ReferenceTransmission, TheNodeScalesTheThickness) {
     for (const glm::dvec3& scale : {glm::dvec3(2), glm::dvec3(-8, 1, 1)}) {
         scene.nodes[1].parent_from_node = glm::scale(glm::dmat4(1), scale);
         scene.materials[1].double_sided = true;
-        EXPECT_NEAR(centreOf(drawn(scene, oblique())[Channel::transmission_thickness]).x, 0.5, 1e-6);
+        EXPECT_NEAR(pixelOf(drawn(scene, oblique())[Channel::transmission_thickness]).x, 0.5, 1e-6);
     }
 }
 
@@ -125,14 +113,14 @@ TEST(ReferenceTransmission, ComponentsRefractApart) {
         const double index = 1.5 + (c - 1) * 0.5 * 0.025 * 4, inside = 2 / std::sqrt(13.0) / index;
         const glm::dvec3 refracted(inside, 0, -std::sqrt(1 - inside * inside));
         const double expected = floorAt(onFloor(refracted * 0.5));
-        EXPECT_NEAR(centreOf(lit)[c], expected, 1e-5 * expected) << c;
+        EXPECT_NEAR(pixelOf(lit)[c], expected, 1e-5 * expected) << c;
     }
-    EXPECT_GT(std::abs(centreOf(lit).r / centreOf(lit).b - 1), 1e-3);
+    EXPECT_GT(std::abs(pixelOf(lit).r / pixelOf(lit).b - 1), 1e-3);
     m.dispersion = 0;
     const Image without = litOf(captured(windowScene(m), oblique()));
     EXPECT_EQ(without.data[0], without.data[1]);
     EXPECT_EQ(without.data[0], without.data[2]);
-    EXPECT_NEAR(double{without.data[1]}, centreOf(lit).g, 1e-7) << "green has the index itself";
+    EXPECT_NEAR(double{without.data[1]}, pixelOf(lit).g, 1e-7) << "green has the index itself";
 }
 
 // A texture of 0 leaves the base, bit for bit.
@@ -150,7 +138,7 @@ TEST(ReferenceTransmission, WithoutTransmissionItIsTheBase) {
     pane.materials[1].thickness = 1;
     pane.materials[1].transmission_texture.texture = 0;
     EXPECT_EQ(drawn(pane, oblique())[Channel::lit].data, drawn(opaque, oblique())[Channel::lit].data);
-    EXPECT_EQ(centreOf(drawn(pane, oblique())[Channel::lit_transmission]), glm::dvec3(0));
+    EXPECT_EQ(pixelOf(drawn(pane, oblique())[Channel::lit_transmission]), glm::dvec3(0));
 }
 
 // The share of transmission scales the diffuse lobe down: here the sun lights the pane and, because neither
@@ -199,51 +187,20 @@ TEST(ReferenceTransmission, AlphaCoversAndMasksCut) {
                  1e-6, "of what it covers");
     m.alpha_mode = AlphaMode::mask;
     expectCentre(drawn(windowScene(m), oblique())[Channel::lit], glm::dvec3(behind), 1e-6, "MASK");
-    EXPECT_EQ(centreOf(drawn(windowScene(m), oblique())[Channel::transmission]).x, 0);
+    EXPECT_EQ(pixelOf(drawn(windowScene(m), oblique())[Channel::transmission]).x, 0);
 }
 
 TEST(ReferenceTransmission, ItsChannelsAreOfTheNearestPane) {
-    Material m = clearPane();
-    m.transmission = 0.5f;
-    m.thickness = 0.25f;
-    m.attenuation_color = {0.5f, 0.25f, 0.125f};
-    m.attenuation_distance = 3;
-    m.dispersion = 2;
-    Scene scene = windowScene(m);
-    scene.images = {{"texel", 1, 1, {51, 102, 0, 255}}};
-    scene.textures = {{0, {}}};
-    scene.materials[1].transmission_texture.texture = scene.materials[1].thickness_texture.texture = 0;
-    const Drawn d = drawn(scene, oblique());
-    EXPECT_NEAR(centreOf(d[Channel::transmission]).x, 0.5 * 0.2, 1e-7) << "red";
-    EXPECT_NEAR(centreOf(d[Channel::transmission_thickness]).x, 0.25 * 0.4, 1e-7) << "green";
-    EXPECT_EQ(centreOf(d[Channel::attenuation_color]), glm::dvec3(0.5, 0.25, 0.125));
-    EXPECT_EQ(centreOf(d[Channel::attenuation_distance]).x, 3);
-    EXPECT_EQ(centreOf(d[Channel::dispersion]).x, 2);
-    EXPECT_EQ(centreOf(d[Channel::material_id]).x, 0) << "other channels are of the floor";
+    const Scene scene = windowScene(testedLayers(gpu::LAYER_TRANSMISSION)[0].typical(clearPane()));
+    EXPECT_EQ(pixelOf(drawn(scene, oblique())[Channel::material_id]).x, 0)
+        << "other channels are of the floor";
     Scene behind = scene;
     for (glm::vec3& p : behind.meshes[0].primitives[1].positions) p.z = -3;
     for (const Scene& none : {withoutPane(scene), behind})
         for (const DebugMode& mode : debugModes())
             if (layerOf(mode.channel) == gpu::LAYER_TRANSMISSION) {
-                EXPECT_EQ(centreOf(drawn(none, oblique())[mode.channel]), glm::dvec3(0)) << mode.name;
+                EXPECT_EQ(pixelOf(drawn(none, oblique())[mode.channel]), glm::dvec3(0)) << mode.name;
             }
-}
-
-TEST(ReferenceTransmission, ItsChannelsAreZeroWhereATextureRemovesIt) {
-    Material m = clearPane();
-    m.thickness = 0.25f;
-    m.attenuation_color = {0.5f, 0.25f, 0.125f};
-    m.attenuation_distance = 3;
-    m.dispersion = 2;
-    Scene scene = windowScene(m);
-    scene.images = {{"black", 1, 1, {0, 255, 0, 255}}};
-    scene.textures = {{0, {}}};
-    scene.materials[1].transmission_texture.texture = 0;
-    const Drawn d = drawn(scene, oblique());
-    for (const DebugMode& mode : debugModes())
-        if (layerOf(mode.channel) == gpu::LAYER_TRANSMISSION) {
-            EXPECT_EQ(centreOf(d[mode.channel]), glm::dvec3(0)) << mode.name;
-        }
 }
 
 // Textures with a transform and the second set of coordinates.
@@ -258,7 +215,7 @@ TEST(ReferenceTransmission, TexturesFollowTheirCoordinates) {
     m.transmission_texture = {0, 0, {0, 0, 0.25}, {0, 0, 0.5}};
     m.thickness_texture = {0, 1, {1, 0, 0}, {0, 1, 0}};
     scene.meshes[0].primitives[1].texcoords[1].assign(4, {0.25f, 0.5f});
-    const auto shown = [&](Channel mode) { return centreOf(drawn(scene, oblique())[mode]).x; };
+    const auto shown = [&](Channel mode) { return pixelOf(drawn(scene, oblique())[mode]).x; };
     EXPECT_NEAR(shown(Channel::transmission), 0.2, 1e-7);
     EXPECT_EQ(shown(Channel::transmission_thickness), 1);
     m.transmission_texture.u.z = 0.75;
@@ -290,8 +247,7 @@ TEST(ReferenceTransmission, AWhiteFurnaceGainsNothing) {
             const Drawn traced = drawn(scene, oblique());
             const Picture slab = captured(scene, oblique());
             for (const Picture* picture : {&traced.picture, &slab}) {
-                const double lit = centreOf(litOf(*picture)).g,
-                             open = 0.02 + centreOf(picture->uncertainty).x;
+                const double lit = pixelOf(litOf(*picture)).g, open = 0.02 + pixelOf(picture->uncertainty).x;
                 EXPECT_LT(lit, 1 + open) << roughness << " " << thickness;
                 if (roughness == 0) {
                     EXPECT_GT(lit, 1 - open) << thickness;
@@ -308,8 +264,8 @@ TEST(ReferenceTransmission, RoughnessKeepsAnEvenBackground) {
         m.roughness = roughness;
         const Drawn d = drawn(paneInFurnace(m), oblique());
         expectCentre(d[Channel::lit_transmission], {0.5, 1, 0.25}, 0.02, "even");
-        EXPECT_NEAR(centreOf(d.picture.blended).y, 1, 1e-6) << "the share that passes, of its component";
-        EXPECT_NEAR(centreOf(d.picture.blended).z, 1, 0.02) << "and its light";
+        EXPECT_NEAR(pixelOf(d.picture.blended).y, 1, 1e-6) << "the share that passes, of its component";
+        EXPECT_NEAR(pixelOf(d.picture.blended).z, 1, 0.02) << "and its light";
     }
 }
 
@@ -324,8 +280,8 @@ TEST(ReferenceTransmission, RoughnessBlursAnEdgeEvenly) {
     scene.materials.push_back(bright);
     add(scene, quad({0, -10, -1.9f}, {10, 0, 0}, {0, 20, 0}, 2));
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.001));
-    EXPECT_NEAR(centreOf(d[Channel::lit]).g, 0.5, 0.02);
-    EXPECT_GT(centreOf(d.picture.uncertainty).x, 0);
+    EXPECT_NEAR(pixelOf(d[Channel::lit]).g, 0.5, 0.02);
+    EXPECT_GT(pixelOf(d.picture.uncertainty).x, 0);
 }
 
 // ---- haze --------------------------------------------------------------------------------------------

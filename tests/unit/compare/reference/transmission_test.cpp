@@ -2,6 +2,7 @@
 // Transmission through a surface: Snell's law, absorption, the lobe.
 #include "compare/reference/transmission.h"
 
+#include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
 #include <utility>
@@ -129,16 +130,6 @@ TEST(ReferenceTransmission, AbsorptionIsBeersAndLamberts) {
 
 // ---- the lobe ----------------------------------------------------------------------------------------
 
-// GGX with height-correlated masking, F = 1, at an angle from the normal; times n.l.
-double ggxReflected(double alpha, const glm::dvec3& v, const glm::dvec3& l) {
-    const glm::dvec3 h = glm::normalize(v + l);
-    const auto lambda = [&](double z) {
-        return (std::sqrt(1 + alpha * alpha * (1 - z * z) / (z * z)) - 1) / 2;
-    };
-    const double a2 = alpha * alpha, d = a2 / (pi * std::pow(h.z * h.z * (a2 - 1) + 1, 2));
-    return d / ((1 + lambda(v.z) + lambda(l.z)) * 4 * v.z);
-}
-
 // The mean of a power of the cosine to the straight direction over the mirrored lobe, as a dense sum.
 std::pair<double, double> lobeMoments(double alpha, const glm::dvec3& v) {
     constexpr int steps = 800;
@@ -147,7 +138,7 @@ std::pair<double, double> lobeMoments(double alpha, const glm::dvec3& v) {
         for (int j = 0; j < steps; ++j) {
             const double z = (i + 0.5) / steps, phi = 2 * pi * (j + 0.5) / steps, r = std::sqrt(1 - z * z);
             const glm::dvec3 l(r * std::cos(phi), r * std::sin(phi), z);
-            const double f = ggxReflected(alpha, v, l);
+            const double f = stretchedLobe(glm::dvec2(alpha), l, v);
             const double cosine = -glm::dot(v, glm::dvec3(l.x, l.y, -l.z));
             whole += f;
             first += f * cosine;

@@ -5,6 +5,7 @@
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
+#include "tests/support/layer_table.h"
 
 #include <gtest/gtest.h>
 
@@ -125,17 +126,15 @@ TEST(LayerTolerance, AThicknessBelowTheLastExponentIsStillBound) {
     EXPECT_NEAR(p.of(Channel::iridescence_thickness).max, 0x1p-25 / (1e-3 * 0x1p-16), 1e-6);
 }
 
-TEST(LayerTolerance, AnAbsentSheenOrFilmIsNotStored) {
-    LayerPair p;
-    p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_SHEEN;
-    EXPECT_GT(p.of(Channel::sheen_roughness).max, 0);
-    for (const Channel mode :
-         {Channel::iridescence, Channel::iridescence_ior, Channel::iridescence_thickness})
-        EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
-    p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
-    EXPECT_GT(p.of(Channel::iridescence_ior).max, 0);
-    for (const Channel mode : {Channel::sheen_color, Channel::sheen_roughness})
-        EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
+TEST(LayerTolerance, AnAbsentLayerIsNotStored) {
+    for (const TestedLayer& layer : testedLayers(~gpu::LAYER_TRANSMISSION))
+        for (const Channel mode : layer.channels()) {
+            LayerPair p;
+            p.encoding(GBufferEncoding::compact).needs.surface_layers = layer.bit;
+            EXPECT_GT(p.of(mode).max, 0) << debugMode(mode).name;
+            p.needs.surface_layers = ~layer.bit;
+            EXPECT_EQ(p.of(mode).max, 0) << debugMode(mode).name;
+        }
 }
 
 TEST(LayerTolerance, ALayerOfGlassAloneIsNotStored) {

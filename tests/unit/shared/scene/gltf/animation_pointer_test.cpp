@@ -3,6 +3,7 @@
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/requirements.h"
+#include "tests/support/layer_table.h"
 #include "tests/unit/shared/scene/gltf/pointer_file.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
     };
     const auto rgb = [](const glm::vec3& c) { return std::vector<double>{c.r, c.g, c.b}; };
     const std::string lights = "/extensions/KHR_lights_punctual/lights/0/", m = "/materials/0/";
-    const std::tuple<std::string, std::size_t, Read> cases[] = {
+    std::vector<std::tuple<std::string, std::size_t, Read>> cases{
         {"/nodes/0/translation", 3,
          [](const Scene&, const Pose& p) {
              const glm::dmat4& w = p.instances.at(0).world_from_object;
@@ -80,35 +81,18 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
         {m + "extensions/KHR_materials_specular/specularFactor", 1, material(&Material::specular)},
         {m + "extensions/KHR_materials_specular/specularColorFactor", 3,
          [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).specular_color); }},
-        {m + "extensions/KHR_materials_transmission/transmissionFactor", 1,
-         material(&Material::transmission)},
-        {m + "extensions/KHR_materials_clearcoat/clearcoatFactor", 1, material(&Material::clearcoat)},
-        {m + "extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 1,
-         material(&Material::clearcoat_roughness)},
         {m + "extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", 1,
          material(&Material::clearcoat_normal_scale)},
-        {m + "extensions/KHR_materials_anisotropy/anisotropyStrength", 1, material(&Material::anisotropy)},
-        {m + "extensions/KHR_materials_anisotropy/anisotropyRotation", 1,
-         material(&Material::anisotropy_rotation)},
-        {m + "extensions/KHR_materials_sheen/sheenColorFactor", 3,
-         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).sheen_color); }},
-        {m + "extensions/KHR_materials_sheen/sheenRoughnessFactor", 1, material(&Material::sheen_roughness)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceFactor", 1, material(&Material::iridescence)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", 1,
-         material(&Material::iridescence_thickness_least)},
-        {m + "extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1,
-         material(&Material::iridescence_thickness_most)},
-        {m + "extensions/KHR_materials_volume/thicknessFactor", 1, material(&Material::thickness)},
-        {m + "extensions/KHR_materials_volume/attenuationDistance", 1,
-         material(&Material::attenuation_distance)},
-        {m + "extensions/KHR_materials_volume/attenuationColor", 3,
-         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).attenuation_color); }},
-        {m + "extensions/KHR_materials_dispersion/dispersion", 1, material(&Material::dispersion)},
-        {m + "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", 1,
-         material(&Material::diffuse_transmission)},
-        {m + "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor", 3,
-         [&](const Scene& s, const Pose& p) { return rgb(materialAt(s, p).diffuse_transmission_color); }},
     };
+    for (const TestedLayer& layer : testedLayers())
+        for (const LayerFactor& f : layer.factors)
+            if (f.least < 0.25)
+                cases.emplace_back(fmt::format("{}extensions/KHR_materials_{}/{}", m, f.extension, f.key),
+                                   f.width(), [&rgb, f](const Scene& s, const Pose& p) {
+                                       std::vector<double> numbers = rgb(f.of(materialAt(s, p)));
+                                       numbers.resize(f.width());
+                                       return numbers;
+                                   });
     for (const auto& [pointer, width, read] : cases) {
         PointerFile f;
         std::vector<float> values(2 * width, 0.25f);
@@ -173,30 +157,18 @@ TEST(GltfAnimationPointer, EmissionIsFactorTimesStrength) {
 
 // Offset, rotation and scale combine as in KHR_texture_transform, whichever are animated.
 TEST(GltfAnimationPointer, TextureTransformsOfEverySlot) {
-    const std::pair<const char*, TextureSlot Material::*> slots[] = {
+    std::vector<std::pair<std::string, TextureSlot Material::*>> slots{
         {"pbrMetallicRoughness/baseColorTexture", &Material::base_color_texture},
         {"pbrMetallicRoughness/metallicRoughnessTexture", &Material::metallic_roughness_texture},
         {"normalTexture", &Material::normal_texture},
         {"occlusionTexture", &Material::occlusion_texture},
         {"emissiveTexture", &Material::emissive_texture},
         {"extensions/KHR_materials_specular/specularTexture", &Material::specular_texture},
-        {"extensions/KHR_materials_specular/specularColorTexture", &Material::specular_color_texture},
-        {"extensions/KHR_materials_clearcoat/clearcoatTexture", &Material::clearcoat_texture},
-        {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture",
-         &Material::clearcoat_roughness_texture},
-        {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", &Material::clearcoat_normal_texture},
-        {"extensions/KHR_materials_anisotropy/anisotropyTexture", &Material::anisotropy_texture},
-        {"extensions/KHR_materials_sheen/sheenColorTexture", &Material::sheen_color_texture},
-        {"extensions/KHR_materials_sheen/sheenRoughnessTexture", &Material::sheen_roughness_texture},
-        {"extensions/KHR_materials_iridescence/iridescenceTexture", &Material::iridescence_texture},
-        {"extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
-         &Material::iridescence_thickness_texture},
-        {"extensions/KHR_materials_transmission/transmissionTexture", &Material::transmission_texture},
-        {"extensions/KHR_materials_volume/thicknessTexture", &Material::thickness_texture},
-        {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture",
-         &Material::diffuse_transmission_texture},
-        {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture",
-         &Material::diffuse_transmission_color_texture}};
+        {"extensions/KHR_materials_specular/specularColorTexture", &Material::specular_color_texture}};
+    for (const TestedLayer& layer : testedLayers())
+        for (const LayerTexture& t : layer.textures)
+            slots.emplace_back(fmt::format("extensions/KHR_materials_{}/{}", t.extension, t.key),
+                               materialSlots[t.slot].texture);
     for (const auto& [slot, member] : slots) {
         const std::string at = fmt::format("/materials/0/{}/extensions/KHR_texture_transform/", slot);
         PointerFile f;

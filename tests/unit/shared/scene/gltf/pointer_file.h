@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/support/gltf_builder.h"
+#include "tests/support/layer_table.h"
 
 #include <string>
 #include <vector>
@@ -31,19 +32,12 @@ struct PointerFile : GltfFile {
              {"occlusionTexture", texture},
              {"emissiveTexture", texture},
              {"extensions",
-              {{"KHR_materials_specular", {{"specularTexture", texture}, {"specularColorTexture", texture}}},
-               {"KHR_materials_clearcoat",
-                {{"clearcoatTexture", texture},
-                 {"clearcoatRoughnessTexture", texture},
-                 {"clearcoatNormalTexture", texture}}},
-               {"KHR_materials_anisotropy", {{"anisotropyTexture", texture}}},
-               {"KHR_materials_sheen", {{"sheenColorTexture", texture}, {"sheenRoughnessTexture", texture}}},
-               {"KHR_materials_iridescence",
-                {{"iridescenceTexture", texture}, {"iridescenceThicknessTexture", texture}}},
-               {"KHR_materials_transmission", {{"transmissionTexture", texture}}},
-               {"KHR_materials_volume", {{"thicknessTexture", texture}}},
-               {"KHR_materials_diffuse_transmission",
-                {{"diffuseTransmissionTexture", texture}, {"diffuseTransmissionColorTexture", texture}}}}}}};
+              {{"KHR_materials_specular",
+                {{"specularTexture", texture}, {"specularColorTexture", texture}}}}}}};
+        for (const TestedLayer& layer : testedLayers())
+            for (const LayerTexture& t : layer.textures)
+                json["materials"][0]["extensions"][std::string("KHR_materials_") + t.extension][t.key] =
+                    texture;
         json["images"] = {{{"uri", pointedPixel}}};
         json["textures"] = {{{"source", 0}}};
         json["cameras"] = {{{"type", "perspective"},
