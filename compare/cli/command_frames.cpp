@@ -109,9 +109,9 @@ private:
     void chooseExposure(const Frame& first) {
         exposure_line_ = exposureLine(first, picture_);
         if (picture_.exposure || picture_.ev100) return;
-        const auto lit = first.channels.find(Channel::lit);
-        if (output_.kind == OutputKind::exr || lit == first.channels.end()) return;
-        picture_.exposure = exposureFor(picture_, &lit->second, coverage(first, first)).factor;
+        const Image* const lit = findChannel(first, Channel::lit);
+        if (output_.kind == OutputKind::exr || !lit) return;
+        picture_.exposure = exposureFor(picture_, lit, coverage(first, first)).factor;
         exposure_line_ += "; chosen from the first image, used for all";
     }
 
