@@ -225,7 +225,7 @@ void noteIgnored(const RenderLine& options) {
 nlohmann::ordered_json resultOf(const ReportDevice& made) {
     return {{"schema", 1},
             {"software", softwareName},
-            {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
+            {"device", jsonOf(made)},
             {"frames", nlohmann::ordered_json::array()}};
 }
 

@@ -62,12 +62,11 @@ std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice
         files.push_back(std::string(mode->name) + ".png");
         writePicture(folder / files.back(), frame, *mode, choice);
     }
-    const nlohmann::ordered_json json{
-        {"schema", 1},
-        {"software", softwareName},
-        {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
-        {"frame", jsonOf(frame)},
-        {"files", files}};
+    const nlohmann::ordered_json json{{"schema", 1},
+                                      {"software", softwareName},
+                                      {"device", jsonOf(device)},
+                                      {"frame", jsonOf(frame)},
+                                      {"files", files}};
     writeFile(folder / files[1], jsonText(json) + "\n");
     return files;
 }
