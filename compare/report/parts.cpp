@@ -295,15 +295,10 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
                    (name == "index.html" || name == "junit.xml" || name == "report.json");
         });
     }
-    std::string junit;
     const ReportLayout named = onDisk(layout);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         writeFile(root / layout.sections[i], sectionScript(report, layout, i));
-        const JunitSuite suite = junitSuite(report, named, std::string(folderLater), i);
-        junit += suite.xml;
-        part.junit.tests += suite.tests;
-        part.junit.failures += suite.failures;
-        part.junit.seconds += suite.seconds;
+        part.junit += junitSuite(report, named, std::string(folderLater), i);
         part.tables.push_back(inText(comparisonBlocks(report, nullptr, i)));
         part.exposures.push_back(exposureOf(report, report.comparisons[i], options.picture));
     }
@@ -311,7 +306,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
         part.closer_tables.push_back(inText(closerPathBlocks(report, nullptr, i, true)));
     const std::string texts_of_part[] = {innerJson(framesJson(report, &layout)),
                                          innerJson(comparisonsJson(report)), innerJson(truthJson(report)),
-                                         junit};
+                                         part.junit.xml};
     for (std::size_t i = 0; i < std::size(partTexts); ++i)
         writeFile(root / (part.scene_folder + partTexts[i]), texts_of_part[i]);
     // Serializes the full report and reads it back, so that both ways give the same result.
