@@ -23,11 +23,8 @@ std::string contentsHash(const fs::path& file) {
 }  // namespace
 
 void addContents(Json& asked, std::initializer_list<std::pair<const char*, fs::path>> files) {
-    for (const auto& [name, file] : files) {
-        std::error_code ignored;
-        const fs::path path = fs::is_directory(file, ignored) ? file / "report.json" : file;
-        if (!file.empty()) asked[name] = contentsHash(path);
-    }
+    for (const auto& [name, file] : files)
+        if (!file.empty()) asked[name] = contentsHash(reportFile(file));
 }
 
 Json askedOf(const ShardedGroup& options, const std::vector<Settings>& settings, const Json& own) {

@@ -277,8 +277,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     makeFolders(root, layout.sections);
     makeFolders(root, part.texts());
     encode(report, layout, root, options.progress);
-    layout.encode_ms = part.encode_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    layout.encode_ms = part.encode_ms = msSince(start);
     const ReportTexts texts = textsOf(report, layout);
     part.report.device = report.device;
     part.report.against = report.against;

@@ -36,8 +36,7 @@ std::string writeReport(const Report& report, const std::filesystem::path& path,
     ReportLayout layout = layoutOf(report, options);
     folder.makeFolders(layout.files());
     encode(report, layout, folder.path(), options.progress);
-    layout.encode_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    layout.encode_ms = msSince(start);
 
     ReportTexts texts = textsOf(report, layout);
     texts.since = options.since;

@@ -83,11 +83,9 @@ void addNoise(EarlierReport& report, const Place& frame) {
 }
 
 EarlierReport readEarlier(const fs::path& where) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
     return named("--since " + where.string(), [&] {
-        const nlohmann::json json =
-            parseJson(textIn(file, json_bytes), [](int, const std::string& key) { return !isLeftOut(key); });
+        const nlohmann::json json = parseJson(textIn(reportFile(where), json_bytes),
+                                              [](int, const std::string& key) { return !isLeftOut(key); });
         const Place top(json);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
             fail("is not a report of compare; give its folder or report.json");
