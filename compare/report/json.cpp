@@ -7,6 +7,9 @@
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 namespace diptych {
 namespace {
 
@@ -173,8 +176,6 @@ std::string textOf(const Json& json) {
     return jsonText(json);
 }
 
-}  // namespace
-
 std::string innerJson(const Json& array) {
     if (array.empty()) return {};
     std::string text, all = textOf(array);
@@ -198,16 +199,17 @@ Json framesJson(const Report& report, const ReportLayout* layout) {
     return frames;
 }
 
-Json comparisonsJson(const Report& report) {
-    return arrayOf(report.comparisons, [&](const Comparison& of) { return jsonOf(report, of); });
-}
+}  // namespace
 
-Json truthJson(const Report& report) {
-    return arrayOf(report.closer_paths, [&](const CloserPath& of) { return jsonOf(report, of); });
+std::string arrayText(const Report& report, const ReportLayout* layout, std::size_t array) {
+    const auto json = [&](const auto& of) { return jsonOf(report, of); };
+    return innerJson(array == 0   ? framesJson(report, layout)
+                     : array == 1 ? arrayOf(report.comparisons, json)
+                                  : arrayOf(report.closer_paths, json));
 }
 
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const Trends* since, const JsonArrays& arrays, const JsonSink& out) {
+                     const Trends* since, const GiveArray& give, const JsonSink& out) {
     // Arrays may be text from another machine.
     const JsonSink sink = [&](std::string_view text) { out(shownText(text)); };
     Json times = Json::array();
@@ -243,12 +245,10 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
     }
     const std::string first = textOf(head), last = textOf(tail);
     sink(first.substr(0, first.size() - 2));
-    for (const auto& [key, write] : {std::pair{"frames", &arrays.frames},
-                                     {"comparisons", &arrays.comparisons},
-                                     {"truth", &arrays.truth}}) {
-        sink(",\n  \"" + std::string(key) + "\": [");
+    for (std::size_t array = 0; array < reportArrays.size(); ++array) {
+        sink(fmt::format(",\n  \"{}\": [", reportArrays.at(array)));
         bool any = false;
-        (*write)([&](std::string_view inner) {
+        give(array, [&](std::string_view inner) {
             if (inner.empty()) return;
             sink(any ? ",\n" : "\n");
             sink(inner);
@@ -261,11 +261,10 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
 
 std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since) {
     std::string text;
-    writeReportJson(report, layout, {drawnOn(report, layout)}, since,
-                    {[&](const JsonSink& add) { add(innerJson(framesJson(report, layout))); },
-                     [&](const JsonSink& add) { add(innerJson(comparisonsJson(report))); },
-                     [&](const JsonSink& add) { add(innerJson(truthJson(report))); }},
-                    [&](std::string_view piece) { text += piece; });
+    writeReportJson(
+        report, layout, {drawnOn(report, layout)}, since,
+        [&](std::size_t array, const JsonSink& add) { add(arrayText(report, layout, array)); },
+        [&](std::string_view piece) { text += piece; });
     return text;
 }
 

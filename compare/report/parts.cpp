@@ -43,7 +43,7 @@ using Place = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
 constexpr int partSchema = 2;  // 2: sections fit this version's style and scripts
-// By PartText.
+// As for readPartText().
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
 
@@ -250,7 +250,7 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
         named((root / part.texts().front()).string() + ": closer_boxes", [&] { page::checkMarkup(box); });
     for (std::size_t i = 0; i < std::size(partTexts); ++i) {
         const std::string name = part.scene_folder + partTexts[i];
-        const std::string inner = readPartText(root, part, static_cast<PartText>(i));
+        const std::string inner = readPartText(root, part, i);
         named((root / name).string(), [&] {
             if (name.ends_with(".json"))
                 checkJson("[" + inner + "]");
@@ -303,11 +303,9 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     }
     for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
         part.closer_tables.push_back(inText(closerPathBlocks(report, nullptr, i, true)));
-    const std::string texts_of_part[] = {innerJson(framesJson(report, &layout)),
-                                         innerJson(comparisonsJson(report)), innerJson(truthJson(report)),
-                                         part.junit.xml};
     for (std::size_t i = 0; i < std::size(partTexts); ++i)
-        writeFile(root / (part.scene_folder + partTexts[i]), texts_of_part[i]);
+        writeFile(root / (part.scene_folder + partTexts[i]),
+                  i == junitText ? part.junit.xml : arrayText(report, &layout, i));
     // Serializes the full report and reads it back, so that both ways give the same result.
     ReportPart whole = part;
     whole.report = report;
@@ -330,8 +328,8 @@ ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
     return part;
 }
 
-std::string readPartText(const fs::path& root, const ReportPart& part, PartText text) {
-    const std::string name = part.scene_folder + partTexts[static_cast<std::size_t>(text)];
+std::string readPartText(const fs::path& root, const ReportPart& part, std::size_t text) {
+    const std::string name = part.scene_folder + partTexts[text];
     return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
 }
 

@@ -134,12 +134,8 @@ void writeWhole(const WholeReport& whole, const ReportPart& all, const fs::path&
     const ReportTexts texts{options.since, devicesOf(whole), all.rows, all.closer_boxes,
                             sectionsOf(whole, all, layout)};
     // Reads one text of each part, one after the other.
-    const auto each = [&](PartText text, const std::function<void(std::string)>& give) {
+    const auto each = [&](std::size_t text, const auto& give) {
         for (const PlacedPart& placed : whole.parts) give(readPartText(placed.root, placed.part, text));
-    };
-    const auto array = [&](PartText text) {
-        return
-            [&each, text](const JsonSink& add) { each(text, [&](const std::string& inner) { add(inner); }); };
     };
 
     OutputFolder folder(path);
@@ -152,15 +148,13 @@ void writeWhole(const WholeReport& whole, const ReportPart& all, const fs::path&
         file.commit();
     };
     write(manifest, [&](const JsonSink& sink) {
-        writeReportJson(all.report, &layout, texts.devices, options.since.get(),
-                        {array(PartText::frames), array(PartText::comparisons), array(PartText::truth)},
-                        sink);
+        writeReportJson(all.report, &layout, texts.devices, options.since.get(), each, sink);
     });
     write("junit.xml", [&](const JsonSink& sink) {
         writeJunit(
             all.report, all.junit,
             [&](const JsonSink& add) {
-                each(PartText::junit, [&](std::string suites) {
+                each(junitText, [&](std::string suites) {
                     replaceAll(suites, folderLater, junitFolder(path));
                     add(suites);
                 });
@@ -169,10 +163,7 @@ void writeWhole(const WholeReport& whole, const ReportPart& all, const fs::path&
     });
     if (!whole.shard.empty()) writeFile(folder / shardManifest, whole.shard);
     writeFile(folder / "index.html", reportHtml(all.report, layout, texts));
-    folder.put(files, [&] {
-        checkReplaceable({OutputKind::folder, path}, manifest, options.force);
-        return manifestFiles(path, manifest);
-    });
+    folder.put(files, [&] { return replaceable(path, manifest, options.force); });
 }
 
 std::string tableOf(const ReportPart& joined, bool all) {
