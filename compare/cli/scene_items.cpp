@@ -3,6 +3,7 @@
 
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
+#include "compare/report/folders.h"
 #include "shared/image/limits.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string contentsHash(const fs::path& file) {
-    return named(file.string(), [&] { return shards::hashOf(textIn(file, limits::imageBytes())); });
+    return named(file.string(), [&] { return hashOf(textIn(file, limits::imageBytes())); });
 }
 
 }  // namespace
