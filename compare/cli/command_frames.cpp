@@ -90,10 +90,7 @@ public:
             manifest["files"] = files_;
             writeFile(*folder_ / several_manifest, jsonText(manifest) + "\n");
             files_.emplace_back(several_manifest);
-            folder_->put(files_, [&] {
-                checkFolder(output_, 1, options_.force);
-                return earlierIn(output_.path);
-            });
+            folder_->put(files_, [&] { return earlierIn(output_, 1, options_.force); });
         }
         if (options_.json) printOut("{}\n", jsonText(result_));
     }

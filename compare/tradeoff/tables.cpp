@@ -23,7 +23,7 @@ using output::Span;
 namespace {
 
 // Measures, and the widths of their columns in a terminal.
-using Shown = std::span<const std::pair<Measure, std::size_t>>;
+using MeasureColumns = std::span<const std::pair<Measure, std::size_t>>;
 
 constexpr std::pair<Measure, std::size_t> sweepMeasures[] = {
     {Measure::ms, 8},     {Measure::ms_min, 8},         {Measure::ms_max, 8},
@@ -37,7 +37,7 @@ std::vector<std::pair<Measure, std::size_t>> figures(Measure first, Measure last
     return shown;
 }
 
-output::Table headOf(Shown shown) {
+output::Table headOf(MeasureColumns shown) {
     output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
     for (const auto& [measure, width] : shown) table.columns.push_back(columnOf(measure, width));
     table.sortable = true;
@@ -45,7 +45,8 @@ output::Table headOf(Shown shown) {
 }
 
 // `words`: its Settings.
-output::Row rowOf(const Tradeoff& tradeoff, std::size_t index, const std::string& words, Shown shown) {
+output::Row rowOf(const Tradeoff& tradeoff, std::size_t index, const std::string& words,
+                  MeasureColumns shown) {
     const TradeoffRow& row = tradeoff.rows[index];
     const output::Text settings{Span("", Span::swatch, nameOf(row.settings.path)), words};
     output::Row cells{{fmt::format("{}", index + 1), settings}, "", index + 1};
