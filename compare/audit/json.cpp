@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "shared/text/json.h"
 #include "compare/audit/report.h"
+#include "compare/files/frame_json.h"
 #include "shared/frame/debug_modes.h"
 
 #include <cmath>
@@ -18,11 +18,10 @@ Json numberOf(double value) {
 
 // Scene, camera, Settings, device and notes.
 void addAudited(Json& json, const Audited& audited) {
-    const ReportDevice& device = audited.device;
     json["scene"] = audited.scene;
     json["camera"] = audited.camera;
-    json["settings"] = parseOrderedJson(diptych::toJson(audited.settings));
-    json["device"] = {{"name", device.name}, {"driver", device.driver}, {"type", device.type}};
+    json["settings"] = diptych::jsonOf(audited.settings);
+    json["device"] = diptych::jsonOf(audited.device);
     json["notes"] = audited.notes;
 }
 
@@ -33,7 +32,7 @@ Json jsonOf(const Series& series) {
     return {{"path", nameOf(series.path)}, {"settings", changes}};
 }
 
-Json jsonOf(const Outcome& outcome) {
+Json outcomeJson(const Outcome& outcome) {
     Json json = experiment::jsonOf(outcome);
     json["error"] = numberOf(outcome.error());
     json["worst"] = {outcome.worst_x, outcome.worst_y};
@@ -49,7 +48,7 @@ Json jsonOf(const ValidRange& range) {
     return {{"down", jsonOf(range.down)}, {"up", jsonOf(range.up)}};
 }
 
-Json jsonOf(const QuantityAudit& audit) {
+Json quantityJson(const QuantityAudit& audit) {
     const Quantity& quantity = *audit.quantity;
     Json json{{"quantity", quantity.name}, {"unit", quantity.unit}, {"what", quantity.what}};
     if (!audit.lacks.empty()) {
@@ -65,21 +64,18 @@ Json jsonOf(const QuantityAudit& audit) {
         for (std::size_t c = 0; c < audit.predicted.size(); ++c) {
             const Predicted& predicted = audit.predicted[c][s];
             if (predicted.because.empty()) continue;
-            const std::optional<bool> agree = agrees(audit, c, s);
-            series["predicted"][std::string(criteria[c].name)] = {
-                {"down", predicted.down},
-                {"up", numberOf(predicted.up)},
-                {"because", predicted.because},
-                {"at_most", predicted.at_most},
-                {"agrees", agree ? Json(*agree) : Json(nullptr)}};
+            series["predicted"][std::string(criteria[c].name)] = {{"down", predicted.down},
+                                                                  {"up", numberOf(predicted.up)},
+                                                                  {"because", predicted.because},
+                                                                  {"at_most", predicted.at_most},
+                                                                  {"agrees", orNull(agrees(audit, c, s))}};
         }
         json["series"].push_back(std::move(series));
     }
     json["left_out"] = audit.left_out;
-    json["failures"] = Json::array();
-    for (const Failure& failure : audit.failures)
-        json["failures"].push_back(
-            {{"words", failure.words}, {"scene", failure.scene}, {"command", failure.command}});
+    json["failures"] = arrayOf(audit.failures, [](const Failure& failure) -> Json {
+        return {{"words", failure.words}, {"scene", failure.scene}, {"command", failure.command}};
+    });
     return json;
 }
 
@@ -97,14 +93,11 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
                       {"most_set_aside", of.comparison.most_aside},
                       {"filtered_otherwise", of.comparison.filtered},
                       {"most_filtered_otherwise", of.comparison.most_filtered}};
-    json["channels"] = Json::array();
-    for (const ChannelResult& channel : of.comparison.channels)
-        json["channels"].push_back({{"name", debugMode(channel.mode).name},
-                                    {"error", numberOf(channel.error)},
-                                    {"allowed", numberOf(channel.allowed)},
-                                    {"used", numberOf(channel.used)},
-                                    {"worst_pixel", {channel.x, channel.y}},
-                                    {"pixels_beyond", channel.beyond}});
+    json["channels"] = arrayOf(of.comparison.channels, [](const ChannelResult& channel) -> Json {
+        return {{"name", debugMode(channel.mode).name},  {"error", numberOf(channel.error)},
+                {"allowed", numberOf(channel.allowed)},  {"used", numberOf(channel.used)},
+                {"worst_pixel", {channel.x, channel.y}}, {"pixels_beyond", channel.beyond}};
+    });
     if (of.changed)
         for (const char* shown : {"given", "changed", "used"})
             json["pictures"].push_back(pictureName(relation, of.series, shown));
@@ -114,9 +107,7 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
 }  // namespace
 
 Json toJson(const Step& step) {
-    Json json{{"magnitude", step.magnitude}, {"rows", Json::array()}};
-    for (const Outcome& outcome : step.outcomes) json["rows"].push_back(jsonOf(outcome));
-    return json;
+    return {{"magnitude", step.magnitude}, {"rows", arrayOf(step.outcomes, outcomeJson)}};
 }
 
 Step stepFromJson(const Json& given) {
@@ -135,19 +126,19 @@ Json toJson(const Audit& audit) {
     addAudited(json, audit);
     json["steps_kept"] = audit.kept;
     json["to_come"] = audit.to_come;
-    for (const char* key : {"quantities", "requirements"}) json[key] = Json::array();
-    for (const QuantityAudit& quantity : audit.quantities) json["quantities"].push_back(jsonOf(quantity));
-    for (const Requirement& requirement : audit.requirements)
-        json["requirements"].push_back({{"quantity", requirement.quantity},
-                                        {"magnitude", requirement.magnitude},
-                                        {"met", requirement.met},
-                                        {"because", requirement.because}});
+    json["quantities"] = arrayOf(audit.quantities, quantityJson);
+    json["requirements"] = arrayOf(audit.requirements, [](const Requirement& requirement) -> Json {
+        return {{"quantity", requirement.quantity},
+                {"magnitude", requirement.magnitude},
+                {"met", requirement.met},
+                {"because", requirement.because}};
+    });
     // A row has the Settings that differ from the audit's.
     json["rows"] = Json::array();
     for (const QuantityAudit& quantity : audit.quantities)
         for (const Step& step : quantity.steps)
             for (const Outcome& outcome : step.outcomes) {
-                Json& row = json["rows"].emplace_back(jsonOf(outcome));
+                Json& row = json["rows"].emplace_back(outcomeJson(outcome));
                 Json differing = Json::object();
                 for (const auto& [key, value] : row["settings"].items())
                     if (json["settings"].value(key, Json()) != value) differing[key] = value;
@@ -169,8 +160,8 @@ Json toJson(const RelationAudit& audit) {
                  {"verdict", verdictOf(of)}};
         if (!of.lacks.empty()) one["lacks"] = of.lacks;
         if (const std::string blame = blameInWords(of, audit.device); !blame.empty()) one["blame"] = blame;
-        one["series"] = Json::array();
-        for (const SeriesResult& series : of.series) one["series"].push_back(jsonOf(series, relation));
+        one["series"] =
+            arrayOf(of.series, [&](const SeriesResult& series) { return jsonOf(series, relation); });
         json["relations"].push_back(std::move(one));
     }
     return json;

@@ -65,15 +65,13 @@ std::string summaryOf(const RelationResult& of, const ReportDevice& device) {
     return (worst.comparison.used() > 0 ? worst.series.words() + ": " : "") + worstInWords(worst);
 }
 
-output::Drawing picturesOf(const RelationResult& of, const SeriesResult& series) {
-    if (!series.changed) return {};
-    std::string out = "<div class=\"related\">";
+output::Box picturesOf(const RelationResult& of, const SeriesResult& series) {
+    output::Box box{"related", {}};
     for (const auto& [shown, words] :
          {std::pair{"given", "original"}, {"changed", "changed"}, {"used", "error / allowed"}})
-        out += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}, {2}</figcaption></figure>",
-                           pictureName(*of.relation, series.series, shown), words,
-                           page::markup(series.series.words()));
-    return {out + "</div>"};
+        box.blocks.emplace_back(output::Picture{pictureName(*of.relation, series.series, shown), words,
+                                                fmt::format("{}, {}", words, series.series.words())});
+    return box;
 }
 
 // Broken relations come first.
@@ -199,7 +197,8 @@ std::vector<Block> blocksOf(const RelationResult& of, const ReportDevice& device
                     fmt::format("{}, {}: {} out of tolerance, the worst at {},{}: {}, allowed {}", name,
                                 debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                                 channel.y, number(channel.error), number(channel.allowed)));
-        blocks.insert(blocks.end(), {list, picturesOf(of, series)});
+        blocks.emplace_back(list);
+        if (series.changed) blocks.emplace_back(picturesOf(of, series));
     }
     return blocks;
 }

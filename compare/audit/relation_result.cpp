@@ -387,9 +387,9 @@ Frame mappedBack(const Frame& changed, const PictureMap& map) {
     back.settings.size.height -= 2 * map.border;
     back.background = changed.background;
     for (const Channel mode : relatedChannels()) {
-        const auto found = changed.channels.find(mode);
-        if (found == changed.channels.end()) continue;
-        Image image = cut(found->second, map);
+        const Image* const its = findChannel(changed, mode);
+        if (!its) continue;
+        Image image = cut(*its, map);
         if (mode == Channel::lit || mode == Channel::emission) divide(image, map.light);
         if (mode == Channel::depth) divide(image, map.length);
         if (mode == Channel::normals || mode == Channel::geometric_normal ||

@@ -16,7 +16,7 @@ Json timesOf(const BenchRow& row) {
     return {{"median", row[Measure::ms]}, {"min", row[Measure::ms_min]}, {"max", row[Measure::ms_max]}};
 }
 
-Json jsonOf(const BenchRow& row) {
+Json rowJson(const BenchRow& row) {
     Json json = experiment::jsonOf(row);
     json.update({{"name", row.name()},
                  {"assign", nameOf(row.settings.assign)},
@@ -39,7 +39,7 @@ Json skipJson(const BenchRow& skip) {
             {"reason", skip.failed}};
 }
 
-Json jsonOf(const Conclusion& c) {
+Json conclusionJson(const Conclusion& c) {
     return {{"size", jsonOf(c.faster->settings.size)},
             {"lights", c.faster->whole(Measure::lights)},
             {"faster", c.faster->name()},
@@ -55,94 +55,81 @@ Json jsonOf(const Conclusion& c) {
 }
 
 Json samplesJson(const Bench& bench) {
-    Json all = Json::array();
-    for (const SampleTable& table : sampleTables(bench)) {
-        Json lines = Json::array();
-        for (const SampleTable::Line& line : table.lines) {
-            Json cells = Json::array();
-            for (const auto& [samples, row] : line.cells)
-                cells.push_back({{"samples", samples},
-                                 {"ms", timesOf(*row)},
-                                 {"lighting_ms", passMs(*row, "shade")},
-                                 {"image_mib", imageMib(*row)},
-                                 {"bytes_per_pixel", row->whole(Measure::gbuffer_bytes)},
-                                 {"bytes_per_sample", bytesPerSample(*row)}});
-            lines.push_back({{"name", line.name()},
-                             {"path", nameOf(line.path)},
-                             {"transparency", nameOf(line.transparency)},
-                             {"cells", cells}});
-        }
-        all.push_back({{"scene", table.scene},
-                       {"size", jsonOf(table.size)},
-                       {"lights", table.lights},
-                       {"columns", table.columns},
-                       {"rows", lines},
-                       {"memory", memoryInWords(table)}});
-    }
-    return all;
+    const auto cellOf = [](const auto& cell) -> Json {
+        const BenchRow& row = *cell.second;
+        return {{"samples", cell.first},
+                {"ms", timesOf(row)},
+                {"lighting_ms", passMs(row, "shade")},
+                {"image_mib", imageMib(row)},
+                {"bytes_per_pixel", row.whole(Measure::gbuffer_bytes)},
+                {"bytes_per_sample", bytesPerSample(row)}};
+    };
+    const auto lineOf = [&](const SampleTable::Line& line) -> Json {
+        return {{"name", line.name()},
+                {"path", nameOf(line.path)},
+                {"transparency", nameOf(line.transparency)},
+                {"cells", arrayOf(line.cells, cellOf)}};
+    };
+    return arrayOf(sampleTables(bench), [&](const SampleTable& table) -> Json {
+        return {{"scene", table.scene},
+                {"size", jsonOf(table.size)},
+                {"lights", table.lights},
+                {"columns", table.columns},
+                {"rows", arrayOf(table.lines, lineOf)},
+                {"memory", memoryInWords(table)}};
+    });
 }
 
 Json growthJson(const Bench& bench) {
-    Json lines = Json::array();
-    for (const GrowthLine& line : growthLines(bench)) {
-        Json points = Json::array();
-        for (const BenchRow* row : line.rows)
-            points.push_back(
-                {{"value", row->growth->value}, {"ms", timesOf(*row)}, {"mib", memoryMib(*row)}});
-        lines.push_back({{"axis", nameOf(line.axis)},
-                         {"unit", line.axis == GrowthAxis::textures ? "MiB of textures" : nameOf(line.axis)},
-                         {"path", nameOf(line.path)},
-                         {"points", points}});
-    }
-    return {{"lines", lines}, {"words", growthInWords(bench)}};
+    const auto pointOf = [](const BenchRow* row) -> Json {
+        return {{"value", row->growth->value}, {"ms", timesOf(*row)}, {"mib", memoryMib(*row)}};
+    };
+    const auto lineOf = [&](const GrowthLine& line) -> Json {
+        return {{"axis", nameOf(line.axis)},
+                {"unit", line.axis == GrowthAxis::textures ? "MiB of textures" : nameOf(line.axis)},
+                {"path", nameOf(line.path)},
+                {"points", arrayOf(line.rows, pointOf)}};
+    };
+    return {{"lines", arrayOf(growthLines(bench), lineOf)}, {"words", growthInWords(bench)}};
 }
 
 Json layersJson(const Bench& bench) {
-    Json rows = Json::array();
-    for (const LayerRow& row : layerRows(bench)) {
+    const auto registersOf = [](const PassRegisters& pass) -> Json {
+        return {{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}};
+    };
+    const auto rowOf = [&](const LayerRow& row) -> Json {
         Json ways = Json::array();
-        for (std::size_t i = 0; i < row.ways.size(); ++i) {
-            const BenchRow* const way = row.ways.at(i);
-            if (way == nullptr) continue;
-            Json registers = Json::array();
-            for (const PassRegisters& pass : way->registers)
-                registers.push_back({{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}});
-            ways.push_back({{"name", layerWays.at(i).name()},
-                            {"ms", timesOf(*way)},
-                            {"bytes_per_pixel", way->whole(Measure::gbuffer_bytes)},
-                            {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
-                            {"registers", registers}});
-        }
-        rows.push_back({{"covered", row.cover.kind},
-                        {"percent", row.cover.percent},
-                        {"lights", row.lights},
-                        {"ways", ways},
-                        {"fastest", row.fastestNames()},
-                        {"lead", row.lead}});
-    }
-    return {{"compiler", bench.compiler}, {"rows", rows}, {"words", layersInWords(bench)}};
+        for (std::size_t i = 0; i < row.ways.size(); ++i)
+            if (const BenchRow* const way = row.ways.at(i))
+                ways.push_back({{"name", layerWays.at(i).name()},
+                                {"ms", timesOf(*way)},
+                                {"bytes_per_pixel", way->whole(Measure::gbuffer_bytes)},
+                                {"image_bytes_per_pixel", imageBytesPerPixel(*way)},
+                                {"registers", arrayOf(way->registers, registersOf)}});
+        return {{"covered", row.cover.kind},     {"percent", row.cover.percent},
+                {"lights", row.lights},          {"ways", ways},
+                {"fastest", row.fastestNames()}, {"lead", row.lead}};
+    };
+    return {{"compiler", bench.compiler},
+            {"rows", arrayOf(layerRows(bench), rowOf)},
+            {"words", layersInWords(bench)}};
 }
 
 }  // namespace
 
 Json benchJson(const Bench& bench) {
-    Json rows = Json::array(), skips = Json::array();
-    for (const BenchRow& row : bench.rows) rows.push_back(jsonOf(row));
-    for (const BenchRow& skip : bench.skips) skips.push_back(skipJson(skip));
-    Json conclusions = Json::array();
-    for (const Conclusion& conclusion : conclusionsOf(bench)) conclusions.push_back(jsonOf(conclusion));
     return {{"schema", 2},
             {"software", softwareName},
             {"device", jsonOf(bench.device)},
             {"scene", bench.scene},
             {"runs", bench.runs},
             {"max_ms", bench.options.max_ms},
-            {"conclusions", conclusions},
-            {"rows", rows},
+            {"conclusions", arrayOf(conclusionsOf(bench), conclusionJson)},
+            {"rows", arrayOf(bench.rows, rowJson)},
             {"msaa_tables", samplesJson(bench)},
             {"growth", growthJson(bench)},
             {"layers", layersJson(bench)},
-            {"skipped", skips}};
+            {"skipped", arrayOf(bench.skips, skipJson)}};
 }
 
 }  // namespace diptych::bench

@@ -264,12 +264,8 @@ std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const Pose& pose, 
 }
 
 std::vector<FeatureChecks> visualChecksOf(const Scene& scene, const SceneView& view, const Frame& frame) {
-    const auto channel = [&](Channel mode) {
-        const auto found = frame.channels.find(mode);
-        return found == frame.channels.end() ? nullptr : &found->second;
-    };
-    return visualChecksOf(scene, view.pose, view.view, channel(Channel::material_id),
-                          channel(Channel::position));
+    return visualChecksOf(scene, view.pose, view.view, findChannel(frame, Channel::material_id),
+                          findChannel(frame, Channel::position));
 }
 
 }  // namespace diptych

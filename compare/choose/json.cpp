@@ -36,20 +36,20 @@ void addOutcome(Json& json, const Report& report) {
     json["seconds"] = report.seconds;
 }
 
-Json jsonOf(const PropertySensitivity& sensitivity) {
+Json propertyJson(const PropertySensitivity& sensitivity) {
     const Property& property = sensitivity.property;
-    Json times = Json::array();
-    for (const TimedValue& at : sensitivity.times)
-        times.push_back({{"value", at.value},
-                         {"ms", at.ms[0]},
-                         {"other_ms", at.ms[1]},
-                         {"difference", at.difference},
-                         {"half_interval", at.half_width}});
+    const auto timeJson = [](const TimedValue& at) -> Json {
+        return {{"value", at.value},
+                {"ms", at.ms[0]},
+                {"other_ms", at.ms[1]},
+                {"difference", at.difference},
+                {"half_interval", at.half_width}};
+    };
     Json json{{"name", property.name},
               {"value", property.value},
               {"unit", property.unit},
               {"how", property.how},
-              {"times", std::move(times)}};
+              {"times", arrayOf(sensitivity.times, timeJson)}};
     json["open"] = orNull(sensitivity.open);
     if (!property.few_values) json["looked_at"] = {property.least, property.most};
     if (!property.not_varied.empty()) json["not_varied"] = property.not_varied;
@@ -65,18 +65,16 @@ Json jsonOf(const PropertySensitivity& sensitivity) {
 }
 
 Json jsonOf(const SensitivityReport& report) {
-    Json properties = Json::array();
-    for (const PropertySensitivity& each : report.properties) properties.push_back(jsonOf(each));
     return {{"chosen", report.chosen},
             {"other", report.other},
             {"other_fits", report.other_fits},
             {"ms", report.as_is.ms[0]},
             {"other_ms", report.as_is.ms[1]},
             {"frames", report.frames},
-            {"properties", std::move(properties)}};
+            {"properties", arrayOf(report.properties, propertyJson)}};
 }
 
-Json jsonOf(const ChoiceReport& report) {
+Json sceneJson(const ChoiceReport& report) {
     const Budget& budget = report.budget;
     Json json{
         {"schema", 2},
@@ -89,15 +87,15 @@ Json jsonOf(const ChoiceReport& report) {
     addOutcome(json, report);
     json["why"] = whyInWords(report);
     if (report.sensitivities) json["deciders"] = jsonOf(*report.sensitivities);
-    Json held_out = Json::array(), rows = Json::array();
-    for (const HeldOutCamera& camera : report.held_out)
-        held_out.push_back({{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}});
+    Json rows = Json::array();
     for (std::size_t i = 0; i < report.choice.candidates.size(); ++i) {
         Json& row = rows.emplace_back(experiment::jsonOf(report.choice.candidates[i]));
         row["frames_timed"] = report.choice.candidates[i].timings;
         addCandidate(row, report, i);
     }
-    json["unseen_cameras"] = std::move(held_out);
+    json["unseen_cameras"] = arrayOf(report.held_out, [](const HeldOutCamera& camera) -> Json {
+        return {{"camera", camera.camera}, {"error", camera.error}, {"holds", camera.holds}};
+    });
     json["notes"] = report.notes;
     json["rows"] = std::move(rows);
     return json;
@@ -128,13 +126,11 @@ Json jsonOf(const CommonReport& report) {
 }  // namespace
 
 nlohmann::ordered_json toJson(const Choices& choices) {
-    if (!choices.all) return jsonOf(choices.scenes.front());
-    Json scenes = Json::array();
-    for (const ChoiceReport& report : choices.scenes) scenes.push_back(jsonOf(report));
+    if (!choices.all) return sceneJson(choices.scenes.front());
     return {{"schema", 2},
             {"settings", jsonOf(chosenSettings(choices))},
             {"all", jsonOf(*choices.all)},
-            {"scenes", std::move(scenes)}};
+            {"scenes", arrayOf(choices.scenes, sceneJson)}};
 }
 
 }  // namespace diptych::choose

@@ -56,8 +56,8 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
                 const std::filesystem::path& folder);
 
 // Prints the results of a report of many scenes in `folder`. `all`: includes comparisons that pass.
-void showWhole(const OutputGroup& options, const WholeReport& whole, const Report& summary,
-               const std::filesystem::path& folder, const Trends* since, bool all);
+void showWhole(const OutputGroup& options, const ReportPart& joined, const std::filesystem::path& folder,
+               const Trends* since, bool all);
 int exitCodeOf(const Report& summary);
 
 }  // namespace diptych::cli

@@ -5,9 +5,11 @@
 #include "compare/cli/command.h"
 #include "compare/cli/verdict_words.h"
 #include "compare/files/picture_folders.h"
+#include "compare/report/picture_diff_json.h"
 #include "compare/report/picture_diff_report.h"
 #include "shared/text/counted.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -91,16 +93,10 @@ double outputBytes(const std::optional<Output>& output) {
 }
 
 // Compares all images whose names exist in both folders.
-int diffFolders(const DiffLine& options, PictureDiffOptions settings, const std::optional<Output>& output) {
+void diffFolders(FolderDiff& diff, PictureDiffOptions settings, const Stage& stage) {
     namespace fs = std::filesystem;
-    if (output && output->kind != OutputKind::folder)
-        refuse("-o {}: comparing two folders writes a report folder; give a name without an extension",
-               output->path.string());
-    FolderDiff diff{options.pictures.at(0), options.pictures.at(1), {}, {}, {}, {}};
     const fs::path left = diff.reference, right = diff.test;
     PictureFolders folders = pictureFolders(left, right);
-    Progress progress(progressOutput(options));
-    const Stage stage(progress, diff.test);
     const auto all = static_cast<double>(folders.both.size());
     for (std::size_t i = 0; i < folders.both.size(); ++i) {
         const std::string& name = folders.both[i];
@@ -120,16 +116,6 @@ int diffFolders(const DiffLine& options, PictureDiffOptions settings, const std:
                diff.errors.front().message);
     diff.reference_alone = std::move(folders.reference_alone);
     diff.test_alone = std::move(folders.test_alone);
-    const bool passed = diff.passed();
-    const std::string text = options.json ? folderDiffJson(diff) : folderDiffTable(diff);
-    if (output)
-        writePictureDiffs(std::move(diff.pictures), output->path,
-                          {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
-                          wordsOfWhatCounts(options), diff.errors, diff.failures());
-    progress.wipe();
-    printResult(options, text, text);
-    sayErrors(diff.errors);
-    return !diff.errors.empty() ? 2 : passed ? 0 : 1;
 }
 
 int runDiff(const DiffLine& options) {
@@ -139,25 +125,38 @@ int runDiff(const DiffLine& options) {
     PictureDiffOptions settings = options.diff;
     settings.output_bytes = outputBytes(output);
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
-    const auto isFolder = [&](std::size_t i) {
+    const bool folders = std::ranges::all_of(options.pictures, [](const std::string& name) {
         std::error_code ignored;  // diffPictures() reports unreadable files
-        return std::filesystem::is_directory(options.pictures.at(i), ignored);
-    };
-    if (isFolder(0) && isFolder(1)) return diffFolders(options, std::move(settings), output);
+        return std::filesystem::is_directory(name, ignored);
+    });
+    const bool asReport = output && output->kind == OutputKind::folder;
+    if (folders && output && !asReport)
+        refuse("-o {}: comparing two folders writes a report folder; give a name without an extension",
+               output->path.string());
+    FolderDiff diff{options.pictures.at(0), options.pictures.at(1), {}, {}, {}, {}};
     Progress progress(progressOutput(options));
-    const Stage stage(progress, options.pictures.at(1));
-    settings.progress = stage.part(0, measuring);
-    PictureDiff diff = diffPictures(options.pictures.at(0), options.pictures.at(1), settings);
-    stage.at(measuring, "write");
+    const Stage stage(progress, diff.test);
+    if (folders) {
+        diffFolders(diff, std::move(settings), stage);
+    } else {
+        settings.progress = stage.part(0, measuring);
+        diff.pictures.push_back(diffPictures(diff.reference, diff.test, settings));
+        stage.at(measuring, "write");
+    }
+    const std::string text = !options.json ? diffTable(diff.pictures, diff.errors, diff.failures())
+                             : folders     ? folderDiffJson(diff)
+                                           : pictureDiffJson(diff.pictures.front());
     const bool passed = diff.passed();
-    const std::string text = options.json ? pictureDiffJson(diff) : pictureDiffTable(diff);
-    if (output)
-        writePictureDiff(std::move(diff), *output,
-                         {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
-                         wordsOfWhatCounts(options));
+    if (asReport)
+        writeDiffs(diff.pictures, output->path,
+                   {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
+                   wordsOfWhatCounts(options), diff.errors, diff.failures());
+    else if (output)
+        writeDiffErrors(diff.pictures.front(), *output);
     progress.wipe();
     printResult(options, text, text);
-    return passed ? 0 : 1;
+    sayErrors(diff.errors);
+    return !diff.errors.empty() ? 2 : passed ? 0 : 1;
 }
 
 }  // namespace

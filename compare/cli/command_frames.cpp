@@ -90,10 +90,7 @@ public:
             manifest["files"] = files_;
             writeFile(*folder_ / several_manifest, jsonText(manifest) + "\n");
             files_.emplace_back(several_manifest);
-            folder_->put(files_, [&] {
-                checkFolder(output_, 1, options_.force);
-                return earlierIn(output_.path);
-            });
+            folder_->put(files_, [&] { return earlierIn(output_, 1, options_.force); });
         }
         if (options_.json) printOut("{}\n", jsonText(result_));
     }
@@ -109,9 +106,9 @@ private:
     void chooseExposure(const Frame& first) {
         exposure_line_ = exposureLine(first, picture_);
         if (picture_.exposure || picture_.ev100) return;
-        const auto lit = first.channels.find(Channel::lit);
-        if (output_.kind == OutputKind::exr || lit == first.channels.end()) return;
-        picture_.exposure = exposureFor(picture_, &lit->second, coverage(first, first)).factor;
+        const Image* const lit = findChannel(first, Channel::lit);
+        if (output_.kind == OutputKind::exr || !lit) return;
+        picture_.exposure = exposureFor(picture_, lit, coverage(first, first)).factor;
         exposure_line_ += "; chosen from the first image, used for all";
     }
 

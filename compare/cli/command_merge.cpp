@@ -49,13 +49,13 @@ int runMerge(const MergeLine& options) {
     ReportOptions report;
     report.keep = keepOf(joined.manifest.plan);
     report.force = options.force;
-    const Report summary = summaryOf(joined.report);
-    report.since = sinceOf(options, summary, rowsOf(joined.report));
-    writeWhole(joined.report, summary, folder, report);
-    showWhole(options, joined.report, summary, folder, report.since.get(), false);
+    const ReportPart whole = joinedOf(joined.report);
+    report.since = sinceOf(options, whole.report, whole.rows);
+    writeWhole(joined.report, whole, folder, report);
+    showWhole(options, whole, folder, report.since.get(), false);
     if (joined.problems.empty()) {
-        sayErrors(summary.errors);
-        return exitCodeOf(summary);
+        sayErrors(whole.report.errors);
+        return exitCodeOf(whole.report);
     }
     sayProblems(options, joined.problems, folder / "index.html");
     return 2;

@@ -84,10 +84,7 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Pic
         for (const std::filesystem::path& file : files) result["frames"][0]["files"].push_back(file.string());
         return {files.size() == 1 ? output.path : output.path.parent_path() / pictureNames(files)};
     }
-    const auto earlier = [&] {
-        checkFolder(output, frames.size(), options.force);
-        return earlierIn(output.path);
-    };
+    const auto earlier = [&] { return earlierIn(output, frames.size(), options.force); };
     OutputFolder folder(output.path);
     std::vector<std::string> files;
     std::vector<std::filesystem::path> places;
@@ -175,7 +172,9 @@ void checkFolder(const Output& output, std::size_t count, bool force) {
         checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
 }
 
-std::vector<std::string> earlierIn(const std::filesystem::path& folder) {
+std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool force) {
+    checkFolder(output, count, force);
+    const std::filesystem::path& folder = output.path;
     std::vector<std::string> names = manifestFiles(folder, single_manifest);
     if (!isOurManifest(folder / several_manifest)) return names;
     std::ranges::move(manifestFiles(folder, several_manifest), std::back_inserter(names));
@@ -225,7 +224,7 @@ void noteIgnored(const RenderLine& options) {
 nlohmann::ordered_json resultOf(const ReportDevice& made) {
     return {{"schema", 1},
             {"software", softwareName},
-            {"device", {{"name", made.name}, {"driver", made.driver}, {"type", made.type}}},
+            {"device", jsonOf(made)},
             {"frames", nlohmann::ordered_json::array()}};
 }
 

@@ -26,8 +26,8 @@ std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t 
 // Throws, naming -o, if the output cannot be replaced: call before rendering. Folders of one and of
 // several Frames may replace each other.
 void checkFolder(const Output& output, std::size_t count, bool force);
-// Files of an earlier render, one Frame or several.
-std::vector<std::string> earlierIn(const std::filesystem::path& folder);
+// The same for a folder; returns the files of an earlier render, one Frame or several.
+std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool force);
 
 // Throws if the path does not support a channel that was requested by name.
 void checkChannels(const RenderLine& options);

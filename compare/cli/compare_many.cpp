@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_compare.h"
 #include "compare/cli/scene_items.h"
+#include "compare/report/exposure_line.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "compare/shards/collection.h"
@@ -65,29 +66,29 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
     if (!options.shard.empty())
         whole.shard = textOf(shards::Manifest{shards::buildName(), "compare", items.plan, items.shard,
                                               items.all, whole.errors});
-    const Report summary = summaryOf(whole);
+    const ReportPart joined = joinedOf(whole);
     ReportOptions report = question.report;
-    report.since = sinceOf(options, summary, rowsOf(whole));
-    writeWhole(whole, summary, folder, report);
+    report.since = sinceOf(options, joined.report, joined.rows);
+    writeWhole(whole, joined, folder, report);
     collection.remove();
     progress.wipe();
     noteLeftByOthers(options, KeptReferences(folder, true));
-    showWhole(options, whole, summary, folder, report.since.get(), true);
-    sayErrors(summary.errors);
-    return exitCodeOf(summary);
+    showWhole(options, joined, folder, report.since.get(), true);
+    sayErrors(joined.report.errors);
+    return exitCodeOf(joined.report);
 }
 
-void showWhole(const OutputGroup& options, const WholeReport& whole, const Report& summary,
-               const std::filesystem::path& folder, const Trends* since, bool all) {
+void showWhole(const OutputGroup& options, const ReportPart& joined, const std::filesystem::path& folder,
+               const Trends* since, bool all) {
     if (options.json) {
         InputFile report(folder / "report.json");
         printFile(report);
     } else if (!options.quiet) {
-        const std::string exposures = wholeExposureLine(whole);
-        printColored(options, fmt::format("{}{}{}report: {}\n", wholeTable(whole, summary, all),
-                                          sinceText(since, summary),
-                                          exposures.empty() ? "" : fmt::format("pictures: {}\n", exposures),
-                                          (folder / "index.html").string()));
+        const std::string exposures = exposureLine(joined.exposures);
+        printColored(options,
+                     fmt::format("{}{}{}report: {}\n", tableOf(joined, all), sinceText(since, joined.report),
+                                 exposures.empty() ? "" : fmt::format("pictures: {}\n", exposures),
+                                 (folder / "index.html").string()));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include "compare/files/checkpoint_folder.h"
 #include "compare/files/our_files.h"
+#include "compare/report/folders.h"
 #include "shared/image/limits.h"
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -17,17 +18,14 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string contentsHash(const fs::path& file) {
-    return named(file.string(), [&] { return shards::hashOf(textIn(file, limits::imageBytes())); });
+    return named(file.string(), [&] { return hashOf(textIn(file, limits::imageBytes())); });
 }
 
 }  // namespace
 
 void addContents(Json& asked, std::initializer_list<std::pair<const char*, fs::path>> files) {
-    for (const auto& [name, file] : files) {
-        std::error_code ignored;
-        const fs::path path = fs::is_directory(file, ignored) ? file / "report.json" : file;
-        if (!file.empty()) asked[name] = contentsHash(path);
-    }
+    for (const auto& [name, file] : files)
+        if (!file.empty()) asked[name] = contentsHash(reportFile(file));
 }
 
 Json askedOf(const ShardedGroup& options, const std::vector<Settings>& settings, const Json& own) {

@@ -35,11 +35,9 @@ std::vector<Between> betweenCentres(int from, int to) {
 }
 
 const Image& channelOf(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    if (found == frame.channels.end())
-        throw std::runtime_error(frame.name + ": has no channel " + std::string(debugMode(mode).name) +
-                                 " to resize");
-    return found->second;
+    if (const Image* const image = findChannel(frame, mode)) return *image;
+    throw std::runtime_error(frame.name + ": has no channel " + std::string(debugMode(mode).name) +
+                             " to resize");
 }
 
 // Samples an image at new pixel centres.

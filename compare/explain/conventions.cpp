@@ -136,8 +136,7 @@ Frame substituteChannels(const Frame& external, const Frame& plain, Renderer& re
     frame.requested.clear();
     // Only explained channels: our lighting sums describe our own image.
     for (const Channel mode : options.channels)
-        if (const auto found = ours.channels.find(mode); found != ours.channels.end())
-            frame.channels.try_emplace(mode, found->second);
+        if (const Image* const image = findChannel(ours, mode)) frame.channels.try_emplace(mode, *image);
     return frame;
 }
 

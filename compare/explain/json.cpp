@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Explanations and breakdowns of pixels as JSON.
-#include "shared/text/json.h"
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/explain/write.h"
 #include "compare/files/frame_json.h"
@@ -35,9 +34,7 @@ std::string kindOf(const PixelTerm& term) {
 // null without values.
 Json numbersJson(std::span<const double> values) {
     if (values.empty()) return nullptr;
-    Json list = Json::array();
-    for (const double v : values) list.push_back(finiteOrNull(v));
-    return list;
+    return arrayOf(values, finiteOrNull);
 }
 Json numbersJson(const glm::dvec3& value) {
     return numbersJson(std::span(&value.x, 3));
@@ -83,25 +80,24 @@ Json lightsJson(const PixelBreakdown& breakdown) {
 }
 
 Json termsJson(const PixelBreakdown& breakdown) {
-    Json terms = Json::array();
-    for (const PixelTerm& term : breakdown.terms)
-        terms.push_back({{"kind", kindOf(term)},
-                         {"lights", term.lights},
-                         {"baseline", numbersJson(term.values[0])},
-                         {"test", numbersJson(term.values[1])},
-                         {"reference", term.has_reference ? numbersJson(term.values[2]) : Json(nullptr)},
-                         {"uncertainty", term.uncertainty},
-                         {"difference", finiteOrNull(term.difference)},
-                         {"differs", term.differs}});
-    return terms;
+    return arrayOf(breakdown.terms, [](const PixelTerm& term) -> Json {
+        return {{"kind", kindOf(term)},
+                {"lights", term.lights},
+                {"baseline", numbersJson(term.values[0])},
+                {"test", numbersJson(term.values[1])},
+                {"reference", term.has_reference ? numbersJson(term.values[2]) : Json(nullptr)},
+                {"uncertainty", term.uncertainty},
+                {"difference", finiteOrNull(term.difference)},
+                {"differs", term.differs}};
+    });
 }
 
 }  // namespace
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {
-    Json causes = Json::array(), pairs = Json::array(), devices = Json::array();
-    for (const DeviceShare& part : e.devices)
-        devices.push_back({{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}});
+    const auto deviceJson = [&](const DeviceShare& part) -> Json {
+        return {{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}};
+    };
     const auto partsJson = [&](const Cause& cause, const std::vector<CausePart>& parts, const char* index) {
         Json all = Json::array();
         for (const CausePart& part : parts)
@@ -109,21 +105,23 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
                 all.push_back({{index, part.index}, {"name", part.name}, {"share", e.shareOf(part.share)}});
         return all;
     };
-    for (const Cause& cause : e.causes)
-        causes.push_back({{"name", cause.name},
-                          {"share", e.shareOf(cause.share)},
-                          {"interval", e.shareOf(cause.interval)},
-                          {"where", {cause.worst_x, cause.worst_y}},
-                          {"shows", cause.shows},
-                          {"alone", e.shareOf(cause.alone)},
-                          {"last", e.shareOf(cause.last)},
-                          {"dominates", cause.dominates},
-                          {"flip_share", e.shareOfFlip(cause.flip)},
-                          {"materials", partsJson(cause, cause.materials, "id")},
-                          {"lights", partsJson(cause, cause.lights, "place")}});
-    for (const CausePair& pair : e.pairs)
-        pairs.push_back({{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
-                         {"interaction", e.shareOf(pair.interaction)}});
+    const auto causeJson = [&](const Cause& cause) -> Json {
+        return {{"name", cause.name},
+                {"share", e.shareOf(cause.share)},
+                {"interval", e.shareOf(cause.interval)},
+                {"where", {cause.worst_x, cause.worst_y}},
+                {"shows", cause.shows},
+                {"alone", e.shareOf(cause.alone)},
+                {"last", e.shareOf(cause.last)},
+                {"dominates", cause.dominates},
+                {"flip_share", e.shareOfFlip(cause.flip)},
+                {"materials", partsJson(cause, cause.materials, "id")},
+                {"lights", partsJson(cause, cause.lights, "place")}};
+    };
+    const auto pairJson = [&](const CausePair& pair) -> Json {
+        return {{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
+                {"interaction", e.shareOf(pair.interaction)}};
+    };
     return {{"schema", 1},
             {"software", softwareName},
             {"scene", of.scene},
@@ -131,11 +129,11 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of)
             {"test", of.test},
             {"distance", e.distance},
             {"flip", e.flip},
-            {"causes", std::move(causes)},
+            {"causes", arrayOf(e.causes, causeJson)},
             {"unexplained", e.shareOf(e.unexplained)},
             {"flip_unexplained", e.flip_unexplained},
-            {"pairs", std::move(pairs)},
-            {"devices", std::move(devices)},
+            {"pairs", arrayOf(e.pairs, pairJson)},
+            {"devices", arrayOf(e.devices, deviceJson)},
             {"inert", e.without_effect},
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
@@ -153,28 +151,26 @@ nlohmann::ordered_json toJson(const PixelBreakdown& breakdown) {
     if (term)
         first = kindOf(*term) +
                 (term->kind == PixelTerm::Kind::light ? fmt::format(" {}", term->lights.front()) : "");
-    return {
-        {"schema", 1},
-        {"scene", breakdown.scene},
-        {"camera", breakdown.camera},
-        {"pixel", {breakdown.x, breakdown.y}},
-        {"size", {breakdown.settings[0].size.width, breakdown.settings[0].size.height}},
-        {"baseline", breakdown.names[0]},
-        {"test", breakdown.names[1]},
-        {"settings",
-         {parseOrderedJson(toJson(breakdown.settings[0])), parseOrderedJson(toJson(breakdown.settings[1]))}},
-        {"background", !breakdown.shown},
-        {"blended", breakdown.blended},
-        {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
-                                     : Json(nullptr)},
-        {"position", breakdown.shown ? numbersJson(breakdown.position) : Json(nullptr)},
-        {"steps", stepsJson(breakdown)},
-        {"lights", lightsJson(breakdown)},
-        {"drawn_alone", breakdown.drawn_alone},
-        {"terms", termsJson(breakdown)},
-        {"residual_rounding", numbersJson(breakdown.residual_rounding)},
-        {"first_difference", std::move(first)},
-        {"summary", firstDifference(breakdown)}};
+    return {{"schema", 1},
+            {"scene", breakdown.scene},
+            {"camera", breakdown.camera},
+            {"pixel", {breakdown.x, breakdown.y}},
+            {"size", {breakdown.settings[0].size.width, breakdown.settings[0].size.height}},
+            {"baseline", breakdown.names[0]},
+            {"test", breakdown.names[1]},
+            {"settings", {jsonOf(breakdown.settings[0]), jsonOf(breakdown.settings[1])}},
+            {"background", !breakdown.shown},
+            {"blended", breakdown.blended},
+            {"material", breakdown.shown ? Json{{"id", breakdown.material}, {"name", breakdown.material_name}}
+                                         : Json(nullptr)},
+            {"position", breakdown.shown ? numbersJson(breakdown.position) : Json(nullptr)},
+            {"steps", stepsJson(breakdown)},
+            {"lights", lightsJson(breakdown)},
+            {"drawn_alone", breakdown.drawn_alone},
+            {"terms", termsJson(breakdown)},
+            {"residual_rounding", numbersJson(breakdown.residual_rounding)},
+            {"first_difference", std::move(first)},
+            {"summary", firstDifference(breakdown)}};
 }
 
 }  // namespace diptych

@@ -29,9 +29,9 @@ Json jsonOf(const FrameTime& time) {
 }
 
 Json jsonOf(const std::vector<PassTime>& passes) {
-    Json json = Json::array();
-    for (const PassTime& pass : passes) json.push_back({{"name", pass.name}, {"ms", pass.ms}});
-    return json;
+    return arrayOf(passes, [](const PassTime& pass) -> Json {
+        return {{"name", pass.name}, {"ms", pass.ms}};
+    });
 }
 
 Json jsonOf(const ReportDevice& device) {

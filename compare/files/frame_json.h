@@ -35,4 +35,12 @@ inline nlohmann::ordered_json orNull(const std::string& words) {
     return words.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(words);
 }
 
+// `one` of each item.
+template <class Items, class One>
+nlohmann::ordered_json arrayOf(const Items& items, const One& one) {
+    auto array = nlohmann::ordered_json::array();
+    for (const auto& item : items) array.push_back(one(item));
+    return array;
+}
+
 }  // namespace diptych

@@ -13,13 +13,6 @@ namespace diptych {
 
 namespace {
 
-// Files of an earlier folder. Throws if it must not be replaced.
-std::vector<std::string> replaceable(const std::filesystem::path& path, const std::string& manifest,
-                                     bool force) {
-    checkReplaceable({OutputKind::folder, path}, manifest, force);
-    return manifestFiles(path, manifest);
-}
-
 // Checks before anything is created.
 const std::filesystem::path& checked(const std::filesystem::path& path, const std::string& manifest,
                                      bool force) {

@@ -93,6 +93,11 @@ std::vector<fs::path> foldersOf(const fs::path& name) {
     return folders;
 }
 
+fs::path reportFile(const fs::path& report) {
+    std::error_code ignored;
+    return fs::is_directory(report, ignored) ? report / "report.json" : report;
+}
+
 std::vector<std::string> listedIn(const fs::path& manifest) {
     const nlohmann::json json = ourJson(manifest);
     std::vector<std::string> names;

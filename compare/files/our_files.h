@@ -15,6 +15,9 @@ inline constexpr const char* softwareName = "diptych";
 // folder as ours.
 bool isOurManifest(const std::filesystem::path& file);
 
+// The file of a report, which may be named by its folder.
+std::filesystem::path reportFile(const std::filesystem::path& report);
+
 // Names in a manifest's "files", filtered by isOurName(). An edited list thus cannot name files outside
 // the folder or files that diptych never writes. Empty if the file is not a manifest.
 std::vector<std::string> listedIn(const std::filesystem::path& manifest);

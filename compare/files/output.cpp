@@ -92,4 +92,9 @@ void checkReplaceable(const Output& output, const std::string& manifest, bool fo
     if (!ours) fail(output.path, "exists and was not written by diptych; --force replaces it");
 }
 
+std::vector<std::string> replaceable(const fs::path& folder, const std::string& manifest, bool force) {
+    checkReplaceable({OutputKind::folder, folder}, manifest, force);
+    return manifestFiles(folder, manifest);
+}
+
 }  // namespace diptych

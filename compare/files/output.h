@@ -27,5 +27,8 @@ std::filesystem::path besideOutput(const std::filesystem::path& out, const std::
 // Without `force` only these may be: an EXR or PNG of ours, an empty folder, and a folder with our
 // `manifest`. Foreign files in such a folder stay. First finishes moves of a killed program.
 void checkReplaceable(const Output& output, const std::string& manifest, bool force);
+// The same for a folder; returns the files of the earlier one.
+std::vector<std::string> replaceable(const std::filesystem::path& folder, const std::string& manifest,
+                                     bool force);
 
 }  // namespace diptych

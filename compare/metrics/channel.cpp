@@ -175,9 +175,9 @@ std::optional<std::pair<Channel, float>> backgroundChannel(const Frame& a, const
 // counts as surface.
 bool showsBlended(const Frame& frame, std::size_t pixel) {
     if (!frame.blended.empty()) return *frame.blended.pixel(pixel) > 0;
-    const auto lit = frame.channels.find(Channel::lit);
-    if (frame.unblended.empty() || lit == frame.channels.end()) return false;
-    return distance(lit->second.pixel(pixel), frame.unblended.pixel(pixel), lit->second.components) != 0;
+    const Image* const lit = findChannel(frame, Channel::lit);
+    return lit && !frame.unblended.empty() &&
+           distance(lit->pixel(pixel), frame.unblended.pixel(pixel), lit->components) != 0;
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include "shared/image/image.h"
 #include "shared/image/picture_rows.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -40,6 +42,10 @@ struct ChannelStats {
     std::uint64_t infinite = 0;      // pixels with infinite error
     // Pixels with a NaN or infinity, equal or not.
     std::uint64_t nonfinite_baseline = 0, nonfinite_test = 0;
+
+    std::array<std::pair<const char*, double>, 5> byName() const {  // names in our files
+        return {{{"max", max}, {"mean", mean}, {"rmse", rmse}, {"p99", p99}, {"p999", p999}}};
+    }
 };
 
 // The error of a pixel. |.| is the largest absolute component.

@@ -37,10 +37,8 @@ Settings litBy(Settings settings) {
 }
 
 const Image& channelOf(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    if (found == frame.channels.end())
-        throw std::logic_error(fmt::format("{} has no {} to light", frame.name, debugMode(mode).name));
-    return found->second;
+    if (const Image* const image = findChannel(frame, mode)) return *image;
+    throw std::logic_error(fmt::format("{} has no {} to light", frame.name, debugMode(mode).name));
 }
 
 // Bits per coordinate to which lighting quantises the path's geometric normals. 0: none, or the channel

@@ -8,6 +8,7 @@
 #include "compare/render/prepared_view.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/render_many.h"
+#include "compare/run/progress.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
@@ -61,8 +62,7 @@ public:
         if (!options_.channels.empty()) capture();
         if (!rechecks() && isRequested(Channel::lit)) frame_.channels[Channel::lit] = std::move(lit_);
         frame_.requested = options_.requested;
-        frame_.made_in_ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        frame_.made_in_ms = msSince(start);
         return std::move(frame_);
     }
 
@@ -390,18 +390,15 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
     };
     if (drawn.empty()) return times;
     const auto now = [] { return std::chrono::steady_clock::now(); };
-    const auto msFrom = [&](std::chrono::steady_clock::time_point start) {
-        return std::chrono::duration<double, std::milli>(now() - start).count();
-    };
     const auto begun = now();
     PreparedFrames frames = prepare(drawn);
-    std::vector<double> firstMs(drawn.size(), msFrom(begun) / static_cast<double>(drawn.size()));
+    std::vector<double> firstMs(drawn.size(), msSince(begun) / static_cast<double>(drawn.size()));
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (options.on_step) options.on_step(fmt::format("{}: time", nameOf(drawn[i].path)));
         step(i, "first frame");
         const auto start = now();
         frames.draw(i);
-        firstMs[i] += msFrom(start);
+        firstMs[i] += msSince(start);
     }
     std::vector<std::size_t> all(drawn.size());
     std::iota(all.begin(), all.end(), std::size_t{0});

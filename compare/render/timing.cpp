@@ -2,6 +2,7 @@
 #include "compare/render/timing.h"
 
 #include "compare/frames/frame_facts.h"
+#include "compare/run/progress.h"
 
 #include <fmt/format.h>
 
@@ -43,8 +44,7 @@ std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std:
             if (step) step(which[i], fmt::format("{} {} of {}", what, round + 1, rounds));
             const auto start = std::chrono::steady_clock::now();
             draw(i);
-            timed[i].made_in_ms +=
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            timed[i].made_in_ms += msSince(start);
         });
     };
     inTurns(runs, "frame", [&](std::size_t i) {

@@ -36,11 +36,9 @@ using AllFailing = std::map<std::pair<std::string, std::string>, Failing>;  // k
 
 // Reads only the keys of a report that `accept` needs.
 nlohmann::json reportIn(const fs::path& where) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
     static const std::set<std::string> wanted{"software", "comparisons", "scene",   "baseline", "test",
                                               "channels", "name",        "verdict", "max",      "failures"};
-    return parseJson(textIn(file, json_bytes),
+    return parseJson(textIn(reportFile(where), json_bytes),
                      [](int, const std::string& key) { return wanted.contains(key); });
 }
 

@@ -54,10 +54,8 @@ public:
 private:
     // Base colour replaces lit where no light falls.
     std::size_t channelFor(const PixelBox& box) const {
-        const auto lit = left_.channels.find(Channel::lit);
-        return lit != left_.channels.end() && isDark(lit->second, box, pictures_[lit_].scale.exposure.factor)
-                   ? dark_
-                   : lit_;
+        const Image* const lit = findChannel(left_, Channel::lit);
+        return lit && isDark(*lit, box, pictures_[lit_].scale.exposure.factor) ? dark_ : lit_;
     }
     bool hasBoth(std::size_t channel) const {
         return !pictures_[channel].baseline.empty() && !pictures_[channel].test.empty();

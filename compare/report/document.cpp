@@ -181,10 +181,6 @@ ReportTexts textsOf(const Report& report, const ReportLayout& layout) {
     return texts;
 }
 
-std::string reportHtml(const Report& report, const ReportLayout& layout) {
-    return reportHtml(report, layout, textsOf(report, layout));
-}
-
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     const std::size_t count = report.comparisons.size();
     const char* const verdict = report.passed() && report.errors.empty() ? "pass" : "fail";

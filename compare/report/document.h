@@ -15,9 +15,8 @@ namespace diptych {
 // Needs the report's Frames; report and layout must outlive the result.
 ReportTexts textsOf(const Report& report, const ReportLayout& layout);
 
-// index.html: one page without external resources, readable from file://. The second overload takes
-// everything that depends on pixels from `texts`, so it needs no Frames.
-std::string reportHtml(const Report& report, const ReportLayout& layout);
+// index.html: one page without external resources, readable from file://. Takes everything that depends on
+// pixels from `texts`, so it needs no Frames.
 std::string reportHtml(const Report& report, const ReportLayout& layout, const ReportTexts& texts);
 
 // One comparison as a script that adds it to the page: the contents of a file of layout.sections. In a

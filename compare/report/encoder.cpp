@@ -90,11 +90,7 @@ private:
     void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
         const DebugMode& mode = *channel.mode;
         const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);
-        const auto imageOf = [&](const Frame& frame) {
-            const auto found = frame.channels.find(mode.channel);
-            return found == frame.channels.end() ? nullptr : &found->second;
-        };
-        const Image *left = imageOf(baseline), *right = imageOf(test);
+        const Image *left = findChannel(baseline, mode.channel), *right = findChannel(test, mode.channel);
         Image errors;
         if (pictures.differ) {
             errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);

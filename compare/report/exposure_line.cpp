@@ -12,17 +12,9 @@
 #include <vector>
 
 namespace diptych {
-namespace {
-
-Exposure exposureOf(const Frame& frame, const Coverage& coverage, const PictureChoice& choice) {
-    const auto lit = frame.channels.find(Channel::lit);
-    return exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage);
-}
-
-}  // namespace
 
 std::string exposureLine(const Frame& frame, const PictureChoice& choice) {
-    return exposureOf(frame, coverage(frame, frame), choice).because;
+    return exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame)).because;
 }
 
 std::string exposureLine(const Report& report, const PictureChoice& choice) {
@@ -33,7 +25,7 @@ std::string exposureLine(const Report& report, const PictureChoice& choice) {
 }
 
 Exposure exposureOf(const Report& report, const Comparison& comparison, const PictureChoice& choice) {
-    return exposureOf(report.baseline(comparison), comparison.coverage, choice);
+    return exposureFor(choice, findChannel(report.baseline(comparison), Channel::lit), comparison.coverage);
 }
 
 std::string exposureLine(const std::vector<Exposure>& all) {
@@ -54,8 +46,8 @@ double exposureOfFile(const std::filesystem::path& file) {
                         file.string(), picture.format));
     try {
         const Frame frame = frameFromExr(file);
-        if (frame.channels.contains(Channel::lit))
-            return exposureOf(frame, coverage(frame, frame), {}).factor;
+        if (const Image* const lit = findChannel(frame, Channel::lit))
+            return exposureFor({}, lit, coverage(frame, frame)).factor;
     } catch (const std::runtime_error&) {
         // Not one of our files: its first colours are radiance.
     }

@@ -21,7 +21,7 @@ constexpr std::size_t nowhere = ~std::size_t{0};
 
 // 32-bit FNV-1a, of which folders show 24 bits: a thousand scenes of one name collide with probability
 // 1/30.
-std::uint32_t hashOf(std::string_view text) {
+std::uint32_t shortHashOf(std::string_view text) {
     std::uint32_t hash = 2166136261u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
     return hash;
@@ -72,6 +72,12 @@ Views viewsOf(const Report& report) {
 
 }  // namespace
 
+std::string hashOf(std::string_view text) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return fmt::format("{:016x}", hash);
+}
+
 std::string nameOfFolder(const std::string& text, const std::string& identity) {
     std::string name;
     for (const char c : text) {
@@ -84,7 +90,7 @@ std::string nameOfFolder(const std::string& text, const std::string& identity) {
     name.resize(std::min(name.size(), longestFolder));
     while (name.ends_with('-')) name.pop_back();
     if (name == identity) return name;
-    return fmt::format("{}{}{:06x}", name, name.empty() ? "" : "-", hashOf(identity) & 0xffffff);
+    return fmt::format("{}{}{:06x}", name, name.empty() ? "" : "-", shortHashOf(identity) & 0xffffff);
 }
 
 std::string nameOfFile(std::string_view name) {
@@ -98,9 +104,7 @@ std::string nameOfFile(std::string_view name) {
             safe += fmt::format("~{:02x}", byte);
     }
     if (safe.size() <= longestFile) return safe;
-    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return fmt::format("{}~~{:016x}", safe.substr(0, longestFile / 2), hash);
+    return fmt::format("{}~~{}", safe.substr(0, longestFile / 2), hashOf(name));
 }
 
 std::vector<std::string> sceneFolders(const std::vector<std::string>& scenes) {

@@ -11,6 +11,9 @@
 
 namespace diptych {
 
+// 64-bit FNV-1a, 16 hexadecimal digits.
+std::string hashOf(std::string_view text);
+
 // A folder name made from `text`: letters, digits and underscores stay, other characters become hyphens;
 // at most 40 characters. If the result differs from `identity`, six hexadecimal digits of identity's hash
 // follow. "gallery" stays "gallery"; "Box" of "scenes/Box.glb" becomes "Box-1c9f03".

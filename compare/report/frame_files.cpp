@@ -26,9 +26,7 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
                         shown.maker == MadeBy::forward_only    ? "; forward_plus has it"
                         : shown.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
                                                                : ""));
-    const auto lit = frame.channels.find(Channel::lit);
-    const Exposure exposure =
-        exposureFor(choice, lit == frame.channels.end() ? nullptr : &lit->second, coverage(frame, frame));
+    const Exposure exposure = exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame));
     const Frame* frames[] = {&frame};
     const PictureScale scale = scaleFor(shown, exposure, frames);
     const Image8 picture = channelPicture(shown, frame, scale);
@@ -64,12 +62,11 @@ std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice
         files.push_back(std::string(mode->name) + ".png");
         writePicture(folder / files.back(), frame, *mode, choice);
     }
-    const nlohmann::ordered_json json{
-        {"schema", 1},
-        {"software", softwareName},
-        {"device", {{"name", device.name}, {"driver", device.driver}, {"type", device.type}}},
-        {"frame", jsonOf(frame)},
-        {"files", files}};
+    const nlohmann::ordered_json json{{"schema", 1},
+                                      {"software", softwareName},
+                                      {"device", jsonOf(device)},
+                                      {"frame", jsonOf(frame)},
+                                      {"files", files}};
     writeFile(folder / files[1], jsonText(json) + "\n");
     return files;
 }

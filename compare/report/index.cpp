@@ -148,15 +148,20 @@ std::string figuresOf(const ReportLayout& layout, const ReportTexts& texts) {
     return text;
 }
 
+std::string optionsOf(const std::vector<std::string>& values) {
+    std::string out;
+    for (const std::string& value : values)
+        out += value.empty() ? "" : fmt::format("<option>{}</option>", markup(value));
+    return out;
+}
+
 // A selection among the rows' values; empty if they have a single one.
 std::string choiceOf(const char* name, std::vector<std::string> values) {
     std::ranges::sort(values);
     values.erase(std::ranges::unique(values).begin(), values.end());
     if (values.size() < 2) return {};
-    std::string out;
-    for (const std::string& value : values)
-        out += value.empty() ? "" : fmt::format("<option>{}</option>", markup(value));
-    return fmt::format("<label>{0} <select data-by=\"{0}\"><option></option>{1}</select></label>", name, out);
+    return fmt::format("<label>{0} <select data-by=\"{0}\"><option></option>{1}</select></label>", name,
+                       optionsOf(values));
 }
 
 // The selectable channels, in the order of the rows.
@@ -165,9 +170,7 @@ std::string channelOptions(const ReportTexts& texts) {
     for (const IndexRow& row : texts.rows)
         for (const IndexChannel& channel : row.channels)
             if (std::ranges::count(names, channel.name) == 0) names.push_back(channel.name);
-    std::string out;
-    for (const std::string& name : names) out += fmt::format("<option>{}</option>", markup(name));
-    return out;
+    return optionsOf(names);
 }
 
 }  // namespace

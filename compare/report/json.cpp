@@ -7,6 +7,9 @@
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 namespace diptych {
 namespace {
 
@@ -29,13 +32,20 @@ Json jsonOf(const Criterion& criterion) {
 }
 
 Json jsonOf(const std::vector<Granted>& granted) {
-    Json all = Json::array();
-    for (const Granted& each : granted)
-        all.push_back({{"approximation", each.name},
-                       {"mean", each.mean},
-                       {"p999", each.p999},
-                       {"setting", each.setting.empty() ? Json(nullptr) : Json(each.setting)}});
-    return all;
+    return arrayOf(granted, [](const Granted& each) -> Json {
+        return {{"approximation", each.name},
+                {"mean", each.mean},
+                {"p999", each.p999},
+                {"setting", orNull(each.setting)}};
+    });
+}
+
+Json jsonOf(const BoundUse& use) {
+    return {{"used", finiteOrNull(use.used)},
+            {"beyond_pixels", use.beyond},
+            {"most", finiteOrNull(use.most)},
+            {"mean", finiteOrNull(use.mean)},
+            {"pixel", {use.x, use.y}}};
 }
 
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
@@ -44,9 +54,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
               {"metric", nameOf(channel.mode->metric)}};
     const ChannelStats& s = channel.stats;
     const bool compared = isCompared(channel.verdict), anywhere = compared && s.worst_x >= 0;
-    const std::pair<const char*, double> statistics[] = {
-        {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
-    for (const auto& [name, value] : statistics) json[name] = compared ? finiteOrNull(value) : Json(nullptr);
+    for (const auto& [name, value] : s.byName()) json[name] = compared ? finiteOrNull(value) : Json(nullptr);
     json["flip"] = channel.flip ? finiteOrNull(*channel.flip) : Json(nullptr);
     json["worst_pixel"] = anywhere ? Json{s.worst_x, s.worst_y} : Json(nullptr);
     json["tolerance"] = compared ? finiteOrNull(channel.tolerance.max) : Json(nullptr);
@@ -64,24 +72,13 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["infinite_pixels"] = s.infinite;
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
     if (!channel.granted.empty()) json["granted"] = jsonOf(channel.granted);
-    json["unexplained_pixels"] =
-        channel.unexplained_pixels ? Json(*channel.unexplained_pixels) : Json(nullptr);
+    json["unexplained_pixels"] = orNull(channel.unexplained_pixels);
     if (const auto& f = channel.footprints)
         json["footprints"] = {{"smooth", f->smooth},   {"beyond", f->beyond}, {"used", finiteOrNull(f->used)},
                               {"pixel", {f->x, f->y}}, {"most", f->most},     {"detailed", f->detailed},
                               {"flip", f->flip},       {"edges", f->edges}};
-    if (channel.encoding_use)
-        json["encoding"] = {{"used", finiteOrNull(channel.encoding_use->used)},
-                            {"beyond_pixels", channel.encoding_use->beyond},
-                            {"most", finiteOrNull(channel.encoding_use->most)},
-                            {"mean", finiteOrNull(channel.encoding_use->mean)},
-                            {"pixel", {channel.encoding_use->x, channel.encoding_use->y}}};
-    if (channel.device_use)
-        json["across_devices"] = {{"used", finiteOrNull(channel.device_use->used)},
-                                  {"beyond_pixels", channel.device_use->beyond},
-                                  {"most", finiteOrNull(channel.device_use->most)},
-                                  {"mean", finiteOrNull(channel.device_use->mean)},
-                                  {"pixel", {channel.device_use->x, channel.device_use->y}}};
+    if (channel.encoding_use) json["encoding"] = jsonOf(*channel.encoding_use);
+    if (channel.device_use) json["across_devices"] = jsonOf(*channel.device_use);
     if (anywhere)
         json["worst_values"] = {{"baseline", valuesAt(report.baseline(comparison), channel)},
                                 {"test", valuesAt(report.test(comparison), channel)}};
@@ -111,29 +108,28 @@ Json jsonOf(const PathError& error) {
 Json jsonOf(const Report& report, const CloserPath& closer) {
     const Frame& reference = report.frames[closer.reference];
     const auto name = [&](std::size_t k) { return report.frames[closer.paths[k]].name; };
-    Json channels = Json::array();
-    for (const CloserPathChannel& channel : closer.channels) {
-        Json materials = Json::array();
-        for (const MaterialError& m : channel.materials)
-            materials.push_back(
-                {{"id", m.id},
-                 {"name", m.name},
-                 {"pixels", m.pixels},
-                 {"mean", {{name(0), finiteOrNull(m.mean[0])}, {name(1), finiteOrNull(m.mean[1])}}}});
-        channels.push_back(
-            {{"name", channel.mode->name},
-             {"nearer",
-              channel.closer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.closer)))},
-             {"by", finiteOrNull(channel.by)},
-             {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
-             {"between", jsonOf(channel.between)},
-             {"nearer_pixels",
-              {{name(0), channel.closer_pixels[0]},
-               {name(1), channel.closer_pixels[1]},
-               {"even", channel.even_pixels}}},
-             {"materials", materials}});
-    }
-    return {{"scene", reference.scene}, {"camera", jsonOf(reference.camera)}, {"channels", channels}};
+    const auto materialJson = [&](const MaterialError& m) -> Json {
+        return {{"id", m.id},
+                {"name", m.name},
+                {"pixels", m.pixels},
+                {"mean", {{name(0), finiteOrNull(m.mean[0])}, {name(1), finiteOrNull(m.mean[1])}}}};
+    };
+    const auto channelJson = [&](const CloserPathChannel& channel) -> Json {
+        return {{"name", channel.mode->name},
+                {"nearer",
+                 channel.closer < 0 ? Json(nullptr) : Json(name(static_cast<std::size_t>(channel.closer)))},
+                {"by", finiteOrNull(channel.by)},
+                {"error", {{name(0), jsonOf(channel.paths[0])}, {name(1), jsonOf(channel.paths[1])}}},
+                {"between", jsonOf(channel.between)},
+                {"nearer_pixels",
+                 {{name(0), channel.closer_pixels[0]},
+                  {name(1), channel.closer_pixels[1]},
+                  {"even", channel.even_pixels}}},
+                {"materials", arrayOf(channel.materials, materialJson)}};
+    };
+    return {{"scene", reference.scene},
+            {"camera", jsonOf(reference.camera)},
+            {"channels", arrayOf(closer.channels, channelJson)}};
 }
 
 Json jsonOf(const AfterBlending& blended) {
@@ -148,9 +144,6 @@ Json jsonOf(const AfterBlending& blended) {
 
 Json jsonOf(const Report& report, const Comparison& comparison) {
     const Frame& baseline = report.baseline(comparison);
-    Json channels = Json::array();
-    for (const ChannelDiff& channel : comparison.channels)
-        channels.push_back(jsonOf(report, comparison, channel));
     Json checks = Json::array(), found = Json::object();
     for (const FeatureChecks& feature : comparison.visual_checks) {
         found[std::string(feature.feature)] = feature.found;
@@ -167,11 +160,13 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
         {"covered_pixels", comparison.coverage.count},
         {"command", comparison.command},
         {"differing_settings", differing},
-        {"emptiness", comparison.emptiness.empty() ? Json(nullptr) : Json(comparison.emptiness)},
+        {"emptiness", orNull(comparison.emptiness)},
         {"after_blending", comparison.after_blending ? jsonOf(*comparison.after_blending) : Json(nullptr)},
         {"failures", comparison.failures},
         {"notes", comparison.notes},
-        {"channels", channels},
+        {"channels",
+         arrayOf(comparison.channels,
+                 [&](const ChannelDiff& channel) { return jsonOf(report, comparison, channel); })},
         {"explanation", comparison.explained ? parseOrderedJson(comparison.explained->json) : Json(nullptr)},
         {"marks", checks},
         {"marks_found", found}};
@@ -180,8 +175,6 @@ Json jsonOf(const Report& report, const Comparison& comparison) {
 std::string textOf(const Json& json) {
     return jsonText(json);
 }
-
-}  // namespace
 
 std::string innerJson(const Json& array) {
     if (array.empty()) return {};
@@ -206,20 +199,17 @@ Json framesJson(const Report& report, const ReportLayout* layout) {
     return frames;
 }
 
-Json comparisonsJson(const Report& report) {
-    Json comparisons = Json::array();
-    for (const Comparison& comparison : report.comparisons) comparisons.push_back(jsonOf(report, comparison));
-    return comparisons;
-}
+}  // namespace
 
-Json truthJson(const Report& report) {
-    Json closer = Json::array();
-    for (const CloserPath& of : report.closer_paths) closer.push_back(jsonOf(report, of));
-    return closer;
+std::string arrayText(const Report& report, const ReportLayout* layout, std::size_t array) {
+    const auto json = [&](const auto& of) { return jsonOf(report, of); };
+    return innerJson(array == 0   ? framesJson(report, layout)
+                     : array == 1 ? arrayOf(report.comparisons, json)
+                                  : arrayOf(report.closer_paths, json));
 }
 
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const Trends* since, const JsonArrays& arrays, const JsonSink& out) {
+                     const Trends* since, const GiveArray& give, const JsonSink& out) {
     // Arrays may be text from another machine.
     const JsonSink sink = [&](std::string_view text) { out(shownText(text)); };
     Json times = Json::array();
@@ -241,15 +231,13 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
         return devices.size() == 1 ? Json(devices.front().*ms) : Json(nullptr);
     };
     Json tail{{"compare_ms", only(&DrawnOn::compare_ms)}};
-    for (const auto& [key, all] :
-         {std::pair{"errors", &report.errors}, std::pair{"failures", &report.failures}}) {
-        tail[key] = Json::array();
-        for (const SceneError& of : *all) {
-            Json one{{"scene", of.scene}, {"message", of.message}};
-            if (!of.renderer.empty()) one.update({{"renderer", of.renderer}, {"output", of.output}});
-            tail[key].push_back(std::move(one));
-        }
-    }
+    const auto errorJson = [](const SceneError& of) {
+        Json one{{"scene", of.scene}, {"message", of.message}};
+        if (!of.renderer.empty()) one.update({{"renderer", of.renderer}, {"output", of.output}});
+        return one;
+    };
+    tail["errors"] = arrayOf(report.errors, errorJson);
+    tail["failures"] = arrayOf(report.failures, errorJson);
     if (since) tail["since"] = jsonOf(*since, report);
     if (layout) {
         tail["encode_ms"] = only(&DrawnOn::encode_ms);
@@ -257,12 +245,10 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
     }
     const std::string first = textOf(head), last = textOf(tail);
     sink(first.substr(0, first.size() - 2));
-    for (const auto& [key, write] : {std::pair{"frames", &arrays.frames},
-                                     {"comparisons", &arrays.comparisons},
-                                     {"truth", &arrays.truth}}) {
-        sink(",\n  \"" + std::string(key) + "\": [");
+    for (std::size_t array = 0; array < reportArrays.size(); ++array) {
+        sink(fmt::format(",\n  \"{}\": [", reportArrays.at(array)));
         bool any = false;
-        (*write)([&](std::string_view inner) {
+        give(array, [&](std::string_view inner) {
             if (inner.empty()) return;
             sink(any ? ",\n" : "\n");
             sink(inner);
@@ -275,11 +261,10 @@ void writeReportJson(const Report& report, const ReportLayout* layout, const std
 
 std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since) {
     std::string text;
-    writeReportJson(report, layout, {drawnOn(report, layout)}, since,
-                    {[&](const JsonSink& add) { add(innerJson(framesJson(report, layout))); },
-                     [&](const JsonSink& add) { add(innerJson(comparisonsJson(report))); },
-                     [&](const JsonSink& add) { add(innerJson(truthJson(report))); }},
-                    [&](std::string_view piece) { text += piece; });
+    writeReportJson(
+        report, layout, {drawnOn(report, layout)}, since,
+        [&](std::size_t array, const JsonSink& add) { add(arrayText(report, layout, array)); },
+        [&](std::string_view piece) { text += piece; });
     return text;
 }
 

@@ -6,8 +6,8 @@
 #include "compare/report/texts.h"
 #include "compare/verdict/comparison.h"
 
-#include <nlohmann/json.hpp>
-
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -38,21 +38,15 @@ namespace diptych {
 //                        how many times closer; nearer_pixels, the pixels at which each path is closer
 std::string reportJson(const Report& report, const ReportLayout* layout, const Trends* since = nullptr);
 
-// The three arrays of report.json that need Frames; innerJson() returns the text of an array's elements
-// without brackets.
-nlohmann::ordered_json framesJson(const Report& report, const ReportLayout* layout);
-nlohmann::ordered_json comparisonsJson(const Report& report);
-nlohmann::ordered_json truthJson(const Report& report);
-std::string innerJson(const nlohmann::ordered_json& array);
+// The arrays of report.json that need Frames, and the text of an array's elements without brackets.
+inline constexpr std::array reportArrays{"frames", "comparisons", "truth"};
+std::string arrayText(const Report& report, const ReportLayout* layout, std::size_t array);
 
-// Writes report.json in pieces: each function passes all elements of its array to the sink, one or several
-// at once.
+// Writes report.json in pieces: `give` passes all elements of an array to the sink, one or several at once.
 using JsonSink = std::function<void(std::string_view)>;
-struct JsonArrays {
-    std::function<void(const JsonSink&)> frames, comparisons, truth;
-};
+using GiveArray = std::function<void(std::size_t array, const JsonSink&)>;
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
-                     const Trends* since, const JsonArrays& arrays, const JsonSink& sink);
+                     const Trends* since, const GiveArray& give, const JsonSink& sink);
 
 // One test case per scene, camera and channel, and one more if a comparison fails for another reason. A
 // failing channel's images are attachments in `folder`. CI servers resolve them against the job's working

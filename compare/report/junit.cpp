@@ -202,13 +202,8 @@ void writeJunit(const Report& report, const JunitSuite& totals,
 std::string reportJunit(const Report& report, const ReportLayout& layout,
                         const std::filesystem::path& folder) {
     JunitSuite all;
-    for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
-        const JunitSuite suite = junitSuite(report, layout, junitFolder(folder), i);
-        all.xml += suite.xml;
-        all.tests += suite.tests;
-        all.failures += suite.failures;
-        all.seconds += suite.seconds;
-    }
+    for (std::size_t i = 0; i < report.comparisons.size(); ++i)
+        all += junitSuite(report, layout, junitFolder(folder), i);
     std::string text;
     writeJunit(
         report, all, [&](const JsonSink& sink) { sink(all.xml); },

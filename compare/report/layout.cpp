@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/layout.h"
 
+#include "compare/report/exposure_line.h"
 #include "compare/report/folders.h"
 #include "compare/report/titles.h"
 #include "compare/report/values.h"
@@ -135,15 +136,12 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         layout.ids.push_back(layout.part ? std::string(numberLater) : std::to_string(i));
         const Comparison& comparison = report.comparisons[i];
-        const Frame& left = report.baseline(comparison);
         const bool kept = isKept(comparison, options.keep);
         for (const std::size_t frame : {comparison.baseline, comparison.test})
             if (kept && !options.single_file &&
                 (report.frames[frame].origin.file.empty() || report.frames[frame].origin.external))
                 layout.exr[frame] = folders.frames[frame] + report.frames[frame].name + ".exr";
-        const auto lit = left.channels.find(Channel::lit);
-        const Exposure exposure = exposureFor(
-            options.picture, lit == left.channels.end() ? nullptr : &lit->second, comparison.coverage);
+        const Exposure exposure = exposureOf(report, comparison, options.picture);
         layout.cause_maps.push_back(kept && comparison.explained && comparison.explained->map
                                         ? folders.comparisons[i] + "causes.png"
                                         : "");

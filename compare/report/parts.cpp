@@ -43,7 +43,7 @@ using Place = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
 constexpr int partSchema = 2;  // 2: sections fit this version's style and scripts
-// By PartText.
+// As for readPartText().
 constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json", "part-truth.json",
                                      "part-junit.xml"};
 
@@ -250,7 +250,7 @@ void checkFiles(const fs::path& root, const ReportPart& part) {
         named((root / part.texts().front()).string() + ": closer_boxes", [&] { page::checkMarkup(box); });
     for (std::size_t i = 0; i < std::size(partTexts); ++i) {
         const std::string name = part.scene_folder + partTexts[i];
-        const std::string inner = readPartText(root, part, static_cast<PartText>(i));
+        const std::string inner = readPartText(root, part, i);
         named((root / name).string(), [&] {
             if (name.ends_with(".json"))
                 checkJson("[" + inner + "]");
@@ -277,8 +277,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     makeFolders(root, layout.sections);
     makeFolders(root, part.texts());
     encode(report, layout, root, options.progress);
-    layout.encode_ms = part.encode_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    layout.encode_ms = part.encode_ms = msSince(start);
     const ReportTexts texts = textsOf(report, layout);
     part.report.device = report.device;
     part.report.against = report.against;
@@ -295,25 +294,18 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
                    (name == "index.html" || name == "junit.xml" || name == "report.json");
         });
     }
-    std::string junit;
     const ReportLayout named = onDisk(layout);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
         writeFile(root / layout.sections[i], sectionScript(report, layout, i));
-        const JunitSuite suite = junitSuite(report, named, std::string(folderLater), i);
-        junit += suite.xml;
-        part.junit.tests += suite.tests;
-        part.junit.failures += suite.failures;
-        part.junit.seconds += suite.seconds;
+        part.junit += junitSuite(report, named, std::string(folderLater), i);
         part.tables.push_back(inText(comparisonBlocks(report, nullptr, i)));
         part.exposures.push_back(exposureOf(report, report.comparisons[i], options.picture));
     }
     for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
         part.closer_tables.push_back(inText(closerPathBlocks(report, nullptr, i, true)));
-    const std::string texts_of_part[] = {innerJson(framesJson(report, &layout)),
-                                         innerJson(comparisonsJson(report)), innerJson(truthJson(report)),
-                                         junit};
     for (std::size_t i = 0; i < std::size(partTexts); ++i)
-        writeFile(root / (part.scene_folder + partTexts[i]), texts_of_part[i]);
+        writeFile(root / (part.scene_folder + partTexts[i]),
+                  i == junitText ? part.junit.xml : arrayText(report, &layout, i));
     // Serializes the full report and reads it back, so that both ways give the same result.
     ReportPart whole = part;
     whole.report = report;
@@ -336,8 +328,8 @@ ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
     return part;
 }
 
-std::string readPartText(const fs::path& root, const ReportPart& part, PartText text) {
-    const std::string name = part.scene_folder + partTexts[static_cast<std::size_t>(text)];
+std::string readPartText(const fs::path& root, const ReportPart& part, std::size_t text) {
+    const std::string name = part.scene_folder + partTexts[text];
     return named((root / name).string(), [&] { return textBelow(root, name, json_bytes); });
 }
 

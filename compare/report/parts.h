@@ -44,10 +44,10 @@ ReportPart writePart(const Report& report, const std::filesystem::path& root, co
 ReportPart readPart(const std::filesystem::path& root, const std::string& scene_folder);
 bool isPartThere(const std::filesystem::path& root, const std::string& scene_folder);
 
-// Texts that only joining the parts needs: arrays of report.json and suites of junit.xml, in their final
-// form.
-enum class PartText { frames, comparisons, truth, junit };
-std::string readPartText(const std::filesystem::path& root, const ReportPart& part, PartText text);
+// Texts that only joining the parts needs: arrays of report.json (reportArrays) and suites of junit.xml, in
+// their final form.
+inline constexpr std::size_t junitText = 3;
+std::string readPartText(const std::filesystem::path& root, const ReportPart& part, std::size_t text);
 // The section inside a part's script.
 std::string sectionIn(const std::filesystem::path& root, const std::string& script);
 

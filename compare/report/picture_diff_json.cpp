@@ -2,6 +2,7 @@
 // The output of diff for scripts.
 #include "compare/report/picture_diff_json.h"
 
+#include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
 #include "compare/files/picture_folders.h"
 #include "shared/text/json_text.h"
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace diptych {
@@ -18,11 +18,6 @@ namespace diptych {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity, as in an identical pair's PSNR or an error against a NaN.
-Json finiteOrNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 std::vector<const PictureChannelDiff*> failuresFirst(const PictureDiff& diff) {
     std::vector<const PictureChannelDiff*> channels;
@@ -58,7 +53,8 @@ Json metricsJson(const PictureChannelDiff& channel) {
     return json;
 }
 
-Json channelJson(const PictureChannelDiff& channel) {
+Json channelJson(const PictureChannelDiff* of) {
+    const PictureChannelDiff& channel = *of;
     const Measurement& m = *channel.measurement;
     const ChannelStats& s = m.stats();
     Json json{{"name", channel.pair.name},
@@ -66,9 +62,7 @@ Json channelJson(const PictureChannelDiff& channel) {
               {"reference_type", channel.pair.reference_type},
               {"test_type", channel.pair.test_type},
               {"metric", nameOf(channel.pair.metric)}};
-    const std::pair<const char*, double> statistics[] = {
-        {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
-    for (const auto& [name, value] : statistics) json[name] = finiteOrNull(value);
+    for (const auto& [name, value] : s.byName()) json[name] = finiteOrNull(value);
     const HdrFlipResult* flip = m.flip();
     json["flip"] = flip ? Json(flip->mean) : Json(nullptr);
     json["worst_pixel"] = channel.worst_x >= 0 ? Json{channel.worst_x, channel.worst_y} : Json(nullptr);
@@ -93,23 +87,20 @@ Json channelJson(const PictureChannelDiff& channel) {
 
 Json jsonOf(const PictureDiff& diff) {
     const PictureChannelDiff& first = *failuresFirst(diff).front();
-    Json json{{"schema", 1},
-              {"software", softwareName},
-              {"verdict", diff.passed() ? "pass" : "fail"},
-              {"reference", diff.reference},
-              {"test", diff.test},
-              {"reference_format", diff.reference_format},
-              {"test_format", diff.test_format},
-              {"size", {diff.width, diff.height}},
-              {"pixels", diff.coverage->count},
-              {"metrics", metricsJson(first)},
-              {"emptiness", diff.emptiness.empty() ? Json(nullptr) : Json(diff.emptiness)},
-              {"failures", diff.failures},
-              {"notes", diff.notes}};
-    Json channels = Json::array();
-    for (const PictureChannelDiff* channel : failuresFirst(diff)) channels.push_back(channelJson(*channel));
-    json["channels"] = std::move(channels);
-    return json;
+    return {{"schema", 1},
+            {"software", softwareName},
+            {"verdict", diff.passed() ? "pass" : "fail"},
+            {"reference", diff.reference},
+            {"test", diff.test},
+            {"reference_format", diff.reference_format},
+            {"test_format", diff.test_format},
+            {"size", {diff.width, diff.height}},
+            {"pixels", diff.coverage->count},
+            {"metrics", metricsJson(first)},
+            {"emptiness", orNull(diff.emptiness)},
+            {"failures", diff.failures},
+            {"notes", diff.notes},
+            {"channels", arrayOf(failuresFirst(diff), channelJson)}};
 }
 
 std::string linesOf(const Json& json) {
@@ -144,22 +135,23 @@ std::vector<SceneError> FolderDiff::failures() const {
 }
 
 std::string folderDiffJson(const FolderDiff& diff) {
-    Json pictures = Json::array(), errors = Json::array();
-    for (const PictureDiff& picture : diff.pictures) {
-        pictures.push_back(jsonOf(picture));
-        pictures.back()["name"] = picture.name;
-    }
-    for (const SceneError& error : diff.errors)
-        errors.push_back({{"name", error.scene}, {"message", error.message}});
+    const auto pictureJson = [](const PictureDiff& picture) {
+        Json json = jsonOf(picture);
+        json["name"] = picture.name;
+        return json;
+    };
+    const auto errorJson = [](const SceneError& error) -> Json {
+        return {{"name", error.scene}, {"message", error.message}};
+    };
     return linesOf({{"schema", 1},
                     {"software", softwareName},
                     {"verdict", diff.passed() && diff.errors.empty() ? "pass" : "fail"},
                     {"reference", diff.reference},
                     {"test", diff.test},
-                    {"pictures", pictures},
+                    {"pictures", arrayOf(diff.pictures, pictureJson)},
                     {"reference_alone", diff.reference_alone},
                     {"test_alone", diff.test_alone},
-                    {"errors", errors}});
+                    {"errors", arrayOf(diff.errors, errorJson)}});
 }
 
 }  // namespace diptych

@@ -77,17 +77,25 @@ ChannelDiff channelOf(const PictureChannelDiff& channel, const DebugMode& mode) 
     return row;
 }
 
-// Adds the comparison of both images; `modes` must live as long as the report.
-void addTo(Report& report, const PictureDiff& diff, const std::vector<DebugMode>& modes) {
-    Comparison& comparison = report.comparisons.emplace_back();
-    comparison.baseline = report.frames.size();
-    comparison.test = comparison.baseline + 1;
-    comparison.failures = diff.failures;
-    comparison.notes = diff.notes;
-    comparison.emptiness = diff.emptiness;
-    for (std::size_t i = 0; i < modes.size(); ++i)
-        comparison.channels.push_back(channelOf(*diff.channels[i], modes[i]));
-    for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, test));
+// A comparison for each pair; fills `modes`, which must live as long as the report.
+Report reportOf(std::span<const PictureDiff> diffs, const std::vector<SceneError>& errors,
+                const std::vector<SceneError>& failures, std::vector<std::vector<DebugMode>>& modes) {
+    Report report;
+    report.errors = errors;
+    report.failures = failures;
+    for (const PictureDiff& diff : diffs) {
+        const std::vector<DebugMode>& its = modes.emplace_back(modesOf(diff));
+        Comparison& comparison = report.comparisons.emplace_back();
+        comparison.baseline = report.frames.size();
+        comparison.test = comparison.baseline + 1;
+        comparison.failures = diff.failures;
+        comparison.notes = diff.notes;
+        comparison.emptiness = diff.emptiness;
+        for (std::size_t i = 0; i < its.size(); ++i)
+            comparison.channels.push_back(channelOf(*diff.channels[i], its[i]));
+        for (const bool test : {false, true}) report.frames.push_back(frameOf(diff, test));
+    }
+    return report;
 }
 
 // Adds what only a page shows. Moves the images out of the PictureDiff, which cannot be measured afterwards.
@@ -118,47 +126,26 @@ void addPictures(Report& report, Comparison& comparison, PictureDiff& diff) {
 
 }  // namespace
 
-std::string pictureDiffTable(const PictureDiff& diff) {
-    const std::vector<DebugMode> modes = modesOf(diff);
-    Report report;
-    addTo(report, diff, modes);
-    return reportTable(report);
+std::string diffTable(std::span<const PictureDiff> diffs, const std::vector<SceneError>& errors,
+                      const std::vector<SceneError>& failures) {
+    std::vector<std::vector<DebugMode>> modes;
+    return reportTable(reportOf(diffs, errors, failures, modes));
 }
 
-std::string folderDiffTable(const FolderDiff& diff) {
+void writeDiffs(std::span<PictureDiff> diffs, const std::filesystem::path& folder,
+                const ReportOptions& options, const std::vector<std::string>& words,
+                const std::vector<SceneError>& errors, const std::vector<SceneError>& failures) {
     std::vector<std::vector<DebugMode>> modes;
-    Report report;
-    report.errors = diff.errors;
-    report.failures = diff.failures();
-    for (const PictureDiff& picture : diff.pictures) modes.push_back(modesOf(picture));
-    for (std::size_t i = 0; i < modes.size(); ++i) addTo(report, diff.pictures[i], modes[i]);
-    return reportTable(report);
-}
-
-void writePictureDiffs(std::vector<PictureDiff> diffs, const std::filesystem::path& folder,
-                       const ReportOptions& options, const std::vector<std::string>& words,
-                       const std::vector<SceneError>& errors, const std::vector<SceneError>& failures) {
-    std::vector<std::vector<DebugMode>> modes;
-    for (const PictureDiff& diff : diffs) modes.push_back(modesOf(diff));
-    Report report;
-    report.errors = errors;
-    report.failures = failures;
+    Report report = reportOf(diffs, errors, failures, modes);
     for (std::size_t i = 0; i < diffs.size(); ++i) {
-        addTo(report, diffs[i], modes[i]);
-        addPictures(report, report.comparisons.back(), diffs[i]);
-        report.comparisons.back().command = withOption(
+        addPictures(report, report.comparisons[i], diffs[i]);
+        report.comparisons[i].command = withOption(
             withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o", againFolder(folder));
     }
     writeReport(report, folder, options);
 }
 
-void writePictureDiff(PictureDiff diff, const Output& output, const ReportOptions& options,
-                      const std::vector<std::string>& words) {
-    if (output.kind == OutputKind::folder) {
-        std::vector<PictureDiff> one;
-        one.push_back(std::move(diff));
-        return writePictureDiffs(std::move(one), output.path, options, words, {}, {});
-    }
+void writeDiffErrors(const PictureDiff& diff, const Output& output) {
     if (output.kind == OutputKind::exr) {
         std::vector<std::shared_ptr<const Image>> errors;
         for (const auto& channel : diff.channels) errors.push_back(decidingErrors(diff, *channel).image);

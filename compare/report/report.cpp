@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/report.h"
 
-#include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/files/output_folder.h"
 #include "compare/output/writers.h"
@@ -26,18 +25,14 @@ std::string againFolder(const std::filesystem::path& folder) {
 std::string writeReport(const Report& report, const std::filesystem::path& path,
                         const ReportOptions& options) {
     constexpr const char* manifest = "report.json";
-    const auto earlier = [&] {
-        checkReplaceable({OutputKind::folder, path}, manifest, options.force);
-        return manifestFiles(path, manifest);
-    };
+    const auto earlier = [&] { return replaceable(path, manifest, options.force); };
     earlier();
     OutputFolder folder(path);
     const auto start = std::chrono::steady_clock::now();
     ReportLayout layout = layoutOf(report, options);
     folder.makeFolders(layout.files());
     encode(report, layout, folder.path(), options.progress);
-    layout.encode_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    layout.encode_ms = msSince(start);
 
     ReportTexts texts = textsOf(report, layout);
     texts.since = options.since;

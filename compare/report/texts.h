@@ -47,6 +47,13 @@ struct JunitSuite {
     std::string xml;
     std::size_t tests = 0, failures = 0;
     double seconds = 0;
+
+    void operator+=(const JunitSuite& other) {
+        xml += other.xml;
+        tests += other.tests;
+        failures += other.failures;
+        seconds += other.seconds;
+    }
 };
 
 // A device and the time spent there on comparing and writing. Times of several devices are not added.

@@ -83,11 +83,9 @@ void addNoise(EarlierReport& report, const Place& frame) {
 }
 
 EarlierReport readEarlier(const fs::path& where) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(where, ignored) ? where / "report.json" : where;
     return named("--since " + where.string(), [&] {
-        const nlohmann::json json =
-            parseJson(textIn(file, json_bytes), [](int, const std::string& key) { return !isLeftOut(key); });
+        const nlohmann::json json = parseJson(textIn(reportFile(where), json_bytes),
+                                              [](int, const std::string& key) { return !isLeftOut(key); });
         const Place top(json);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
             fail("is not a report of compare; give its folder or report.json");
@@ -169,24 +167,24 @@ std::string movedText(const MovedFigure& moved) {
 }
 
 Json jsonOf(const Trends& trends, const Report& report) {
+    const auto movedJson = [](const MovedFigure& one) -> Json {
+        return {{"channel", one.channel},
+                {"figure", one.figure},
+                {"from", finite(one.from)},
+                {"to", finite(one.to)},
+                {"noise", one.noise}};
+    };
     Json comparisons = Json::array();
     for (std::size_t i = 0; i < trends.comparisons.size(); ++i) {
         const Trend& trend = trends.comparisons[i];
         if (trend.kind == TrendKind::same) continue;
-        Json moved = Json::array();
-        for (const MovedFigure& one : trend.moved)
-            moved.push_back({{"channel", one.channel},
-                             {"figure", one.figure},
-                             {"from", finite(one.from)},
-                             {"to", finite(one.to)},
-                             {"noise", one.noise}});
         comparisons.push_back({{"comparison", i},
                                {"scene", report.baseline(report.comparisons[i]).scene},
                                {"kind", nameOf(trend.kind)},
-                               {"moved", moved}});
+                               {"moved", arrayOf(trend.moved, movedJson)}});
     }
     return {{"report", trends.report},
-            {"device", trends.device.empty() ? Json(nullptr) : Json(trends.device)},
+            {"device", orNull(trends.device)},
             {"comparisons", comparisons},
             {"gone", trends.gone}};
 }

@@ -5,7 +5,6 @@
 #include "compare/files/output.h"
 #include "compare/files/output_folder.h"
 #include "compare/report/document.h"
-#include "compare/report/exposure_line.h"
 #include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
@@ -14,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -45,18 +45,14 @@ std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
     return devices;
 }
 
-ReportLayout layoutOf(const WholeReport& whole, const Report& summary, const ReportOptions& options) {
+ReportLayout layoutOf(const WholeReport& whole, const ReportPart& all, const ReportOptions& options) {
     ReportLayout layout;
     layout.single_file = options.single_file;
     layout.keep = options.keep;
-    layout.folder = folderOfAll(summary);
-    layout.order = failingFirst(summary);
-    std::vector<std::string> files;
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportPart& part = placed.part;
-        layout.sections.insert(layout.sections.end(), part.sections.begin(), part.sections.end());
-        if (!options.single_file) files.insert(files.end(), part.files.begin(), part.files.end());
-    }
+    layout.folder = folderOfAll(all.report);
+    layout.order = failingFirst(all.report);
+    layout.sections = all.sections;
+    if (!options.single_file) layout.exr = all.files;  // order does not matter: files() lists them
     for (std::size_t i = 0; i < layout.sections.size(); ++i) layout.ids.push_back(std::to_string(i));
     if (whole.shard.empty()) {
         const std::size_t inPage = options.single_file ? layout.order.size() : comparisonsInPage;
@@ -64,41 +60,24 @@ ReportLayout layoutOf(const WholeReport& whole, const Report& summary, const Rep
             layout.sections[layout.order[at]].clear();
     } else {
         for (const PlacedPart& placed : whole.parts)
-            for (const std::string& name : placed.part.texts()) files.push_back(name);
-        files.emplace_back(shardManifest);
+            for (const std::string& name : placed.part.texts()) layout.exr.push_back(name);
+        layout.exr.emplace_back(shardManifest);
     }
-    layout.exr = std::move(files);  // order does not matter: files() lists them
     return layout;
 }
 
-// `summary` and `layout` outlive the result.
-ReportTexts textsOf(const WholeReport& whole, const Report& summary, const ReportLayout& layout) {
-    ReportTexts texts;
-    texts.rows = rowsOf(whole);
-    std::vector<std::pair<fs::path, std::string>> sections;  // root and file
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportPart& part = placed.part;
-        texts.closer_boxes.insert(texts.closer_boxes.end(), part.closer_boxes.begin(),
-                                  part.closer_boxes.end());
-        for (const std::string& section : part.sections) sections.emplace_back(placed.root, section);
-    }
-    texts.section = [&summary, &layout, sections = std::move(sections)](std::size_t index) {
-        std::string text = sectionIn(sections[index].first, sections[index].second);
+// `all` and `layout` outlive the result.
+std::function<std::string(std::size_t)> sectionsOf(const WholeReport& whole, const ReportPart& all,
+                                                   const ReportLayout& layout) {
+    std::vector<fs::path> roots;
+    for (const PlacedPart& placed : whole.parts)
+        roots.insert(roots.end(), placed.part.sections.size(), placed.root);
+    return [&all, &layout, roots = std::move(roots)](std::size_t index) {
+        std::string text = sectionIn(roots[index], all.sections[index]);
         replaceAll(text, numberLater, layout.ids[index]);
-        replaceAll(text, titleLater, page::markup(sectionTitle(summary, layout, index)));
+        replaceAll(text, titleLater, page::markup(sectionTitle(all.report, layout, index)));
         return text;
     };
-    return texts;
-}
-
-JunitSuite totalsOf(const WholeReport& whole) {
-    JunitSuite totals;
-    for (const PlacedPart& placed : whole.parts) {
-        totals.tests += placed.part.junit.tests;
-        totals.failures += placed.part.junit.failures;
-        totals.seconds += placed.part.junit.seconds;
-    }
-    return totals;
 }
 
 // Links or copies those of the parts' files that the report lists.
@@ -114,51 +93,49 @@ void placeFiles(const WholeReport& whole, const std::vector<std::string>& files,
 
 }  // namespace
 
-std::vector<IndexRow> rowsOf(const WholeReport& whole) {
-    std::vector<IndexRow> rows;
-    for (const PlacedPart& placed : whole.parts)
-        rows.insert(rows.end(), placed.part.rows.begin(), placed.part.rows.end());
-    return rows;
-}
-
-Report summaryOf(const WholeReport& whole) {
-    Report all;
-    for (const PlacedPart& placed : whole.parts) {
-        const Report& report = placed.part.report;
-        if (all.device.name.empty()) all.device = report.device;
-        if (all.against.name.empty()) all.against = report.against;
-        const std::size_t first = all.frames.size();
-        all.frames.insert(all.frames.end(), report.frames.begin(), report.frames.end());
-        for (Comparison comparison : report.comparisons) {
+ReportPart joinedOf(WholeReport& whole) {
+    ReportPart all;
+    Report& joined = all.report;
+    for (PlacedPart& placed : whole.parts) {
+        ReportPart& part = placed.part;
+        const auto move = [](auto& from, auto& to) { std::ranges::move(from, std::back_inserter(to)); };
+        move(part.tables, all.tables);
+        move(part.closer_tables, all.closer_tables);
+        move(part.closer_boxes, all.closer_boxes);
+        move(part.rows, all.rows);
+        move(part.exposures, all.exposures);
+        std::ranges::copy(part.sections, std::back_inserter(all.sections));
+        std::ranges::copy(part.files, std::back_inserter(all.files));
+        all.junit += part.junit;
+        Report& report = part.report;
+        if (joined.device.name.empty()) joined.device = report.device;
+        if (joined.against.name.empty()) joined.against = report.against;
+        const std::size_t first = joined.frames.size();
+        for (Comparison& comparison : report.comparisons) {
             comparison.baseline += first;
             comparison.test += first;
-            all.comparisons.push_back(std::move(comparison));
         }
-        for (CloserPath closer : report.closer_paths) {
+        for (CloserPath& closer : report.closer_paths) {
             closer.reference += first;
             for (std::size_t& path : closer.paths) path += first;
-            all.closer_paths.push_back(std::move(closer));
         }
+        move(report.frames, joined.frames);
+        move(report.comparisons, joined.comparisons);
+        move(report.closer_paths, joined.closer_paths);
     }
-    all.errors = whole.errors;
+    joined.errors = whole.errors;
     return all;
 }
 
-void writeWhole(const WholeReport& whole, const Report& summary, const fs::path& path,
+void writeWhole(const WholeReport& whole, const ReportPart& all, const fs::path& path,
                 const ReportOptions& options) {
     constexpr const char* manifest = "report.json";
-    const ReportLayout layout = layoutOf(whole, summary, options);
-    const std::vector<DrawnOn> devices = devicesOf(whole);
-    ReportTexts texts = textsOf(whole, summary, layout);
-    texts.devices = devices;
-    texts.since = options.since;
+    const ReportLayout layout = layoutOf(whole, all, options);
+    const ReportTexts texts{options.since, devicesOf(whole), all.rows, all.closer_boxes,
+                            sectionsOf(whole, all, layout)};
     // Reads one text of each part, one after the other.
-    const auto each = [&](PartText text, const std::function<void(std::string)>& give) {
+    const auto each = [&](std::size_t text, const auto& give) {
         for (const PlacedPart& placed : whole.parts) give(readPartText(placed.root, placed.part, text));
-    };
-    const auto array = [&](PartText text) {
-        return
-            [&each, text](const JsonSink& add) { each(text, [&](const std::string& inner) { add(inner); }); };
     };
 
     OutputFolder folder(path);
@@ -171,15 +148,13 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
         file.commit();
     };
     write(manifest, [&](const JsonSink& sink) {
-        writeReportJson(summary, &layout, devices, options.since.get(),
-                        {array(PartText::frames), array(PartText::comparisons), array(PartText::truth)},
-                        sink);
+        writeReportJson(all.report, &layout, texts.devices, options.since.get(), each, sink);
     });
     write("junit.xml", [&](const JsonSink& sink) {
         writeJunit(
-            summary, totalsOf(whole),
+            all.report, all.junit,
             [&](const JsonSink& add) {
-                each(PartText::junit, [&](std::string suites) {
+                each(junitText, [&](std::string suites) {
                     replaceAll(suites, folderLater, junitFolder(path));
                     add(suites);
                 });
@@ -187,29 +162,17 @@ void writeWhole(const WholeReport& whole, const Report& summary, const fs::path&
             sink);
     });
     if (!whole.shard.empty()) writeFile(folder / shardManifest, whole.shard);
-    writeFile(folder / "index.html", reportHtml(summary, layout, texts));
-    folder.put(files, [&] {
-        checkReplaceable({OutputKind::folder, path}, manifest, options.force);
-        return manifestFiles(path, manifest);
-    });
+    writeFile(folder / "index.html", reportHtml(all.report, layout, texts));
+    folder.put(files, [&] { return replaceable(path, manifest, options.force); });
 }
 
-std::string wholeTable(const WholeReport& whole, const Report& summary, bool all) {
+std::string tableOf(const ReportPart& joined, bool all) {
     std::string out;
-    for (const PlacedPart& placed : whole.parts)
-        for (std::size_t i = 0; i < placed.part.tables.size(); ++i)
-            if (all || !placed.part.report.comparisons[i].passed()) out += placed.part.tables[i];
+    for (std::size_t i = 0; i < joined.tables.size(); ++i)
+        if (all || !joined.report.comparisons[i].passed()) out += joined.tables[i];
     if (all)
-        for (const PlacedPart& placed : whole.parts)
-            for (const std::string& text : placed.part.closer_tables) out += text;
-    return out + tableEnd(summary);
-}
-
-std::string wholeExposureLine(const WholeReport& whole) {
-    std::vector<Exposure> exposures;
-    for (const PlacedPart& placed : whole.parts)
-        exposures.insert(exposures.end(), placed.part.exposures.begin(), placed.part.exposures.end());
-    return exposureLine(exposures);
+        for (const std::string& text : joined.closer_tables) out += text;
+    return out + tableEnd(joined.report);
 }
 
 }  // namespace diptych

@@ -26,19 +26,16 @@ struct WholeReport {
 };
 inline constexpr const char* shardManifest = "shard.json";
 
-// The rows of all comparisons, in order.
-std::vector<IndexRow> rowsOf(const WholeReport& whole);
+// All parts as one, in order. Moves all but the names of files out of the parts.
+ReportPart joinedOf(WholeReport& whole);
 
-// The joined report without pixels, for titles, lists and the verdict.
-Report summaryOf(const WholeReport& whole);
-
-// Writes the report into `folder` as writeReport() does. Files of `kept` parts are linked if possible,
-// otherwise copied; files of other parts are copied. Throws std::runtime_error naming the file.
-void writeWhole(const WholeReport& whole, const Report& summary, const std::filesystem::path& folder,
+// Writes the report of all parts, `joined`, into `folder` as writeReport() does. Files of `kept` parts are
+// linked if possible, otherwise copied; files of other parts are copied. Throws std::runtime_error naming the
+// file.
+void writeWhole(const WholeReport& whole, const ReportPart& joined, const std::filesystem::path& folder,
                 const ReportOptions& options);
 
-// reportTable() and exposureLine() of the whole report. `all` false: omits comparisons that pass.
-std::string wholeTable(const WholeReport& whole, const Report& summary, bool all);
-std::string wholeExposureLine(const WholeReport& whole);
+// reportTable() of the whole report. `all` false: omits comparisons that pass.
+std::string tableOf(const ReportPart& joined, bool all);
 
 }  // namespace diptych

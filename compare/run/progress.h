@@ -11,6 +11,11 @@
 
 namespace diptych {
 
+// Time since `start`, ms.
+inline double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Output and clock of the progress; tests replace both.
 struct ProgressOutput {
     using Time = std::chrono::steady_clock::time_point;

@@ -2,6 +2,7 @@
 #include "compare/shards/manifest.h"
 
 #include "compare/files/our_files.h"
+#include "compare/report/folders.h"
 #include "compare/run/version.h"
 #include "shared/text/fail.h"
 #include "shared/text/input_file.h"
@@ -54,12 +55,6 @@ Manifest manifestFrom(const JsonAt<Json>& json) {
 }
 
 }  // namespace
-
-std::string hashOf(const std::string& text) {
-    std::uint64_t hash = 14695981039346656037u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    return fmt::format("{:016x}", hash);
-}
 
 std::string planHash(const Json& plan) {
     return hashOf(jsonText(plan, -1));

@@ -35,8 +35,7 @@ std::string buildName();
 // Differs between any two builds of the program.
 std::string programStamp();
 
-// FNV-1a of the text, and of a plan's JSON, as 16 hexadecimal digits.
-std::string hashOf(const std::string& text);
+// hashOf() a plan's JSON (compare/report/folders.h).
 std::string planHash(const nlohmann::ordered_json& plan);
 
 std::string textOf(const Manifest& manifest);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/partition.h"
 
+#include "compare/files/our_files.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/resources.h"
 #include "shared/text/fail.h"
@@ -149,11 +150,9 @@ std::uint64_t bytesOf(const std::string& scene) {
 }
 
 std::map<std::string, double> timingsOf(const fs::path& report) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(report, ignored) ? report / "report.json" : report;
     return named("--timings " + report.string(), [&] {
         const nlohmann::json json =
-            parseJson(textIn(file, json_bytes), [](int depth, const std::string& key) {
+            parseJson(textIn(reportFile(report), json_bytes), [](int depth, const std::string& key) {
                 return depth > 1 ? key == "scene" || key == "made_in_ms" : key == "frames";
             });
         std::map<std::string, double> timings;

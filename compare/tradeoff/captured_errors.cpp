@@ -22,20 +22,18 @@ double share(std::size_t part, std::size_t all) {
 }  // namespace
 
 std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& frame) {
-    const auto seen = frame.channels.find(Channel::shadow_visibility),
-               is = reference.channels.find(Channel::shadow_visibility);
-    if (reference.shadow_edge.empty() || seen == frame.channels.end() || is == reference.channels.end() ||
-        seen->second.pixels() != is->second.pixels())
-        return {};
+    const Image *seen = findChannel(frame, Channel::shadow_visibility),
+                *is = findChannel(reference, Channel::shadow_visibility);
+    if (reference.shadow_edge.empty() || !seen || !is || seen->pixels() != is->pixels()) return {};
     const Coverage covered = coverage(reference, reference);
     const Requirements needs;
     const ShadowEdges edges({reference, frame, needs, covered});
     std::size_t away = 0, lit = 0, dark = 0;
     double wrong = 0, leaked = 0, arrives = 0;
     std::vector<double> gaps;
-    for (std::size_t i = 0; i < is->second.pixels(); ++i) {
+    for (std::size_t i = 0; i < is->pixels(); ++i) {
         if (!covered.covered[i]) continue;
-        const double v{*seen->second.pixel(i)}, r{*is->second.pixel(i)};
+        const double v{*seen->pixel(i)}, r{*is->pixel(i)};
         const double e{reference.shadow_edge.pixel(i)[2]};
         wrong += std::abs(v - r) * e;
         leaked += std::max(v - r, 0.0) * e;
@@ -62,13 +60,9 @@ std::optional<Settings> exactEdges(const Settings& settings) {
 }
 
 std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame) {
-    const auto find = [](const Frame& of, Channel mode) {
-        const auto found = of.channels.find(mode);
-        return found == of.channels.end() ? nullptr : &found->second;
-    };
-    const Image *lit = find(frame, Channel::lit), *exact_lit = find(exact, Channel::lit),
-                *shaded = find(frame, Channel::shaded_samples),
-                *exact_shaded = find(exact, Channel::shaded_samples);
+    const Image *lit = findChannel(frame, Channel::lit), *exact_lit = findChannel(exact, Channel::lit),
+                *shaded = findChannel(frame, Channel::shaded_samples),
+                *exact_shaded = findChannel(exact, Channel::shaded_samples);
     if (!lit || !exact_lit || !shaded || !exact_shaded || lit->pixels() != exact_lit->pixels()) return {};
     double pixels = 0, surfaces = 0, edges = 0, differing = 0, elsewhere = 0;
     for (std::size_t i = 0; i < lit->pixels(); ++i) {

@@ -19,9 +19,7 @@ Json jsonOf(const std::vector<Change>& choices) {
 
 // Row numbers start at 1, as in the table and on the page.
 Json numbersOf(const std::vector<std::size_t>& rows) {
-    Json json = Json::array();
-    for (const std::size_t row : rows) json.push_back(row + 1);
-    return json;
+    return arrayOf(rows, [](std::size_t row) { return row + 1; });
 }
 
 Json frontsOf(const Tradeoff& tradeoff) {
@@ -39,10 +37,9 @@ Json frontsOf(const Tradeoff& tradeoff) {
 }
 
 Json metricsJson(std::span<const experiment::NamedMeasure> metrics) {
-    Json list = Json::array();
-    for (const experiment::NamedMeasure& metric : metrics)
-        list.push_back({{"name", metric.name}, {"title", metric.title}, {"means", metric.means}});
-    return list;
+    return arrayOf(metrics, [](const experiment::NamedMeasure& metric) -> Json {
+        return {{"name", metric.name}, {"title", metric.title}, {"means", metric.means}};
+    });
 }
 
 }  // namespace
@@ -62,7 +59,7 @@ TradeoffRow tradeoffRowFrom(const Json& given) {
 }
 
 Json tradeoffJson(const Tradeoff& tradeoff) {
-    Json rows = Json::array(), skips = Json::array();
+    Json rows = Json::array();
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         Json json{{"row", i + 1},
@@ -74,8 +71,9 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
         json["compare"] = orNull(comparingCommand(tradeoff, row));
         rows.push_back(std::move(json));
     }
-    for (const SweepSkip& skip : tradeoff.skips)
-        skips.push_back({{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}});
+    const auto skipJson = [](const SweepSkip& skip) -> Json {
+        return {{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}};
+    };
     const SweepCost& cost = tradeoff.cost;
     const std::optional<Spread> drift = driftOf(tradeoff);
     return {
@@ -93,7 +91,7 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
         {"sample_figures", metricsJson(sampleFigures)},
         {"rows", rows},
         {"fronts", frontsOf(tradeoff)},
-        {"skipped", skips},
+        {"skipped", arrayOf(tradeoff.skips, skipJson)},
         {"notes", tradeoff.notes},
         {"rows_kept", tradeoff.kept},
         {"second_visit",

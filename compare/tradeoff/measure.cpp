@@ -5,6 +5,7 @@
 #include "compare/frames/frame_facts.h"
 #include "compare/page/text.h"
 #include "compare/render/timing.h"
+#include "compare/run/progress.h"
 #include "compare/tradeoff/captured_errors.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
@@ -101,10 +102,6 @@ void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame
 }
 
 }  // namespace
-
-double msSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};

@@ -30,8 +30,6 @@ MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFr
 void timeAgain(experiment::PreparedPool& pool, std::span<TradeoffRow* const> rows,
                const experiment::ReferenceFrames& references, int runs, const Stage& progress);
 
-double msSince(std::chrono::steady_clock::time_point start);
-
 // lit as an 8-bit image, at most as wide as a card of the page.
 Image8 thumbnail(const Frame& frame, const Exposure& exposure);
 

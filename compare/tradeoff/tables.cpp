@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 namespace diptych::tradeoff {
@@ -21,17 +22,41 @@ using output::Span;
 
 namespace {
 
-// Columns of every row, and their widths in a terminal.
+// Measures, and the widths of their columns in a terminal.
+using MeasureColumns = std::span<const std::pair<Measure, std::size_t>>;
+
 constexpr std::pair<Measure, std::size_t> sweepMeasures[] = {
     {Measure::ms, 8},     {Measure::ms_min, 8},         {Measure::ms_max, 8},
     {Measure::flip, 8},   {Measure::relative_rmse, 13}, {Measure::relative_p99, 12},
     {Measure::memory, 10}};
 
-Cell settingsCell(const TradeoffRow& row, const std::string& words) {
-    return output::Text{Span("", Span::swatch, nameOf(row.settings.path)), words};
+// Time, memory and the measures from `first` to `last`.
+std::vector<std::pair<Measure, std::size_t>> figures(Measure first, Measure last) {
+    std::vector<std::pair<Measure, std::size_t>> shown{{Measure::ms, 8}, {Measure::memory, 10}};
+    for (Measure measure = first; measure <= last; measure = measure + 1) shown.emplace_back(measure, 10);
+    return shown;
 }
 
-std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, std::string_view option) {
+output::Table headOf(MeasureColumns shown) {
+    output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
+    for (const auto& [measure, width] : shown) table.columns.push_back(columnOf(measure, width));
+    table.sortable = true;
+    return table;
+}
+
+// `words`: its Settings.
+output::Row rowOf(const Tradeoff& tradeoff, std::size_t index, const std::string& words,
+                  MeasureColumns shown) {
+    const TradeoffRow& row = tradeoff.rows[index];
+    const output::Text settings{Span("", Span::swatch, nameOf(row.settings.path)), words};
+    output::Row cells{{fmt::format("{}", index + 1), settings}, "", index + 1};
+    for (const auto& [measure, width] : shown) cells.cells.push_back(cellOf(row, measure));
+    return cells;
+}
+
+// A row's Settings with `option`, even at its given value.
+std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::string_view option) {
+    const Settings& settings = tradeoff.rows[row].settings;
     std::vector<Change> choices = changesOf(settings, tradeoff.given);
     const auto named = [&](const Change& choice) { return choice.option == option; };
     if (std::ranges::none_of(choices, named))
@@ -43,49 +68,18 @@ std::string settingsInWords(const Tradeoff& tradeoff, const Settings& settings, 
 using Fronts = std::array<std::vector<std::size_t>, errorFigures.size()>;
 
 output::Table sweepHead() {
-    output::Table table{{{"row", Column::number, 4}, {"settings", Column::prose}}};
-    for (const auto& [measure, width] : sweepMeasures) table.columns.push_back(columnOf(measure, width));
+    output::Table table = headOf(sweepMeasures);
     table.columns.push_back({"front", Column::words, 0, Column::page});
-    table.sortable = true;
     return table;
 }
 
 output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
-    const TradeoffRow& row = tradeoff.rows[index];
-    output::Row cells{
-        {fmt::format("{}", index + 1), settingsCell(row, inWords(row, tradeoff.given))}, "", index + 1};
-    for (const auto& [measure, width] : sweepMeasures) cells.cells.push_back(cellOf(row, measure));
+    output::Row row = rowOf(tradeoff, index, inWords(tradeoff.rows[index], tradeoff.given), sweepMeasures);
     std::vector<std::string_view> on;
     for (std::size_t f = 0; f < errorFigures.size(); ++f)
         if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
-    cells.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
-    return cells;
-}
-
-// Row, settings, time, memory and the measures from `first` to `last`.
-output::Table figureHead(Measure first, Measure last) {
-    output::Table table{{{"row", Column::number, 4},
-                         {"settings", Column::prose},
-                         columnOf(Measure::ms, 8),
-                         columnOf(Measure::memory, 10)}};
-    table.sortable = true;
-    for (Measure measure = first; measure <= last; measure = measure + 1)
-        table.columns.push_back(columnOf(measure, 10));
-    return table;
-}
-
-// Its cells. The row's Settings include `option`, even at its given value.
-output::Row figureRow(const Tradeoff& tradeoff, std::size_t index, std::string_view option, Measure first,
-                      Measure last) {
-    const TradeoffRow& row = tradeoff.rows[index];
-    output::Row cells{
-        {fmt::format("{}", index + 1), settingsCell(row, settingsInWords(tradeoff, row.settings, option)),
-         cellOf(row, Measure::ms), cellOf(row, Measure::memory)},
-        "",
-        index + 1};
-    for (Measure measure = first; measure <= last; measure = measure + 1)
-        cells.cells.push_back(cellOf(row, measure));
-    return cells;
+    row.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
+    return row;
 }
 
 // Marks rows that are not on the Pareto front of error and cost.
@@ -117,17 +111,12 @@ constexpr std::size_t fewestWords = 24;
 }  // namespace
 
 output::Table frontTable(const Tradeoff& tradeoff, std::size_t figure) {
-    const Measure error = errorMeasure(figure);
-    output::Table table{
-        {{"row", Column::number}, {"settings", Column::prose}, columnOf(Measure::ms), columnOf(error)}};
+    const std::pair<Measure, std::size_t> shown[] = {{Measure::ms, 0}, {errorMeasure(figure), 0}};
+    output::Table table = headOf(shown);
+    table.sortable = false;
     table.box = "box scroll";
-    for (const std::size_t i : frontOf(tradeoff, figure)) {
-        const TradeoffRow& row = tradeoff.rows[i];
-        table.rows.push_back({{fmt::format("{}", i + 1), settingsCell(row, inWords(row, tradeoff.given)),
-                               cellOf(row, Measure::ms), cellOf(row, error)},
-                              "",
-                              i + 1});
-    }
+    for (const std::size_t i : frontOf(tradeoff, figure))
+        table.rows.push_back(rowOf(tradeoff, i, inWords(tradeoff.rows[i], tradeoff.given), shown));
     return table;
 }
 
@@ -160,10 +149,12 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
 }
 
 std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
-    output::Table table = figureHead(Measure::shadow_error, Measure::gap);
+    const auto shown = figures(Measure::shadow_error, Measure::gap);
+    output::Table table = headOf(shown);
     table.columns.push_back({"dominated in", Column::words, 12});
     for (const ShadowRow& row : shadowRowsOf(tradeoff))
-        table.rows.emplace_back(figureRow(tradeoff, row.row, "shadows", Measure::shadow_error, Measure::gap))
+        table.rows
+            .emplace_back(rowOf(tradeoff, row.row, settingsInWords(tradeoff, row.row, "shadows"), shown))
             .cells.emplace_back(beatenIn(row));
     return blocksOf(
         "Sun shadow, compared with traced rays",
@@ -174,10 +165,11 @@ std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
 }
 
 std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff) {
-    output::Table table = figureHead(Measure::shaded, Measure::differing);
+    const auto shown = figures(Measure::shaded, Measure::differing);
+    output::Table table = headOf(shown);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (tradeoff.rows[i].measured.has(Measure::shaded))
-            table.rows.push_back(figureRow(tradeoff, i, "msaa-edges", Measure::shaded, Measure::differing));
+            table.rows.push_back(rowOf(tradeoff, i, settingsInWords(tradeoff, i, "msaa-edges"), shown));
     return blocksOf("Samples that deferred lighting shades",
                     "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
                     "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "

@@ -101,9 +101,8 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
         const double least = std::min(first, second);
         channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
     }
-    const auto ids = referenceFrame.channels.find(Channel::material_id);
-    if (ids != referenceFrame.channels.end())
-        channel.materials = materialsOf(ids->second, errors, covered, names);
+    if (const Image* const ids = findChannel(referenceFrame, Channel::material_id))
+        channel.materials = materialsOf(*ids, errors, covered, names);
     return channel;
 }
 

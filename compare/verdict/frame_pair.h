@@ -7,22 +7,12 @@
 #include "shared/material/texture_probe.h"
 #include "shared/scene/requirements.h"
 
-#include <map>
 #include <string_view>
 
 namespace diptych {
 
 struct AcrossDevices;  // across_devices.h
 class SurfaceGrid;     // surface_grid.h
-
-// nullptr: no image of the channel.
-inline const Image* findChannel(const std::map<Channel, Image>& images, Channel mode) {
-    const auto found = images.find(mode);
-    return found == images.end() ? nullptr : &found->second;
-}
-inline const Image* findChannel(const Frame& frame, Channel mode) {
-    return findChannel(frame.channels, mode);
-}
 
 // Whether a path with these Settings stores surfaces in fewer bits than float32.
 inline bool isPacked(const Settings& settings) {

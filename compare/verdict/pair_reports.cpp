@@ -4,6 +4,7 @@
 #include "compare/frames/frame_facts.h"
 #include "compare/reference/reference.h"
 #include "compare/run/command_text.h"
+#include "compare/run/progress.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/surface_pixels.h"
@@ -119,8 +120,7 @@ void compareAll(Report& report, const std::vector<Planned>& pairs, const Compare
             report.closer_paths.push_back(closerPathOf(report.frames, pair.panel, {pair.baseline, pair.test},
                                                        comparison.coverage, pair.view->materials));
     }
-    report.diff_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    report.diff_ms = msSince(start);
 }
 
 }  // namespace

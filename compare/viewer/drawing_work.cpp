@@ -4,6 +4,7 @@
 #include "compare/frames/frame_facts.h"
 #include "compare/output/writers.h"
 #include "compare/render/path_plan.h"
+#include "compare/run/progress.h"
 #include "compare/verdict/pair_reports.h"
 #include "compare/viewer/facts.h"
 #include "compare/viewer/left_panel.h"
@@ -35,10 +36,6 @@ constexpr double movingMs = 40;
 constexpr double patienceMs = 250;
 // Number of consecutive recoveries from a lost device before giving up until the next request.
 constexpr int mostRecoveries = 3;
-
-double msSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // Aborts work that is no longer needed.
 struct Superseded {};

@@ -44,14 +44,14 @@ void takeFacts(const Frame& frame, bool timed, PathFacts& facts) {
     facts.notes = frame.notes;
     facts.mean_lights.reset();
     facts.most_lights.reset();
-    const auto found = frame.channels.find(Channel::light_count);
-    if (found == frame.channels.end()) return;
+    const Image* const lights = findChannel(frame, Channel::light_count);
+    if (!lights) return;
     const Coverage covered = coverage(frame, frame);
     double sum = 0, most = 0;
-    for (std::size_t p = 0; p < found->second.pixels(); ++p)
+    for (std::size_t p = 0; p < lights->pixels(); ++p)
         if (covered.covered[p]) {
-            sum += double{found->second.pixel(p)[0]};
-            most = std::max(most, double{found->second.pixel(p)[0]});
+            sum += double{lights->pixel(p)[0]};
+            most = std::max(most, double{lights->pixel(p)[0]});
         }
     facts.mean_lights = covered.count > 0 ? sum / static_cast<double>(covered.count) : 0;
     facts.most_lights = most;

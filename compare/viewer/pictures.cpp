@@ -18,11 +18,6 @@
 namespace diptych::viewer {
 namespace {
 
-const Image* imageOf(const Frame& frame, Channel mode) {
-    const auto found = frame.channels.find(mode);
-    return found == frame.channels.end() ? nullptr : &found->second;
-}
-
 std::string titleOf(const Frame& frame) {
     return frame.origin.file.empty() ? frame.name
                                      : std::filesystem::path(frame.origin.file).filename().string();
@@ -31,7 +26,7 @@ std::string titleOf(const Frame& frame) {
 Panel panelOf(const Frame& frame, const DebugMode& mode, const PictureScale& scale) {
     Panel panel;
     panel.name = titleOf(frame);
-    if (const Image* const image = imageOf(frame, mode.channel)) {
+    if (const Image* const image = findChannel(frame, mode.channel)) {
         panel.picture = channelPicture(mode, frame, scale);
         panel.values = *image;
         return panel;
@@ -146,13 +141,14 @@ std::array<std::uint8_t, 3> signedColor(double t) {
 }
 
 Exposure exposureOf(const Frame& left, const Frame& right, const Look& look) {
-    const Frame& frame = imageOf(left, Channel::lit) ? left : right;
-    return exposureFor(look.picture(), imageOf(frame, Channel::lit), coverage(frame, frame));
+    const Frame& frame = findChannel(left, Channel::lit) ? left : right;
+    return exposureFor(look.picture(), findChannel(frame, Channel::lit), coverage(frame, frame));
 }
 
 DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& look) {
     const DebugMode& mode = debugMode(look.channel());
-    const Image *const baseline = imageOf(left, look.channel()), *const test = imageOf(right, look.channel());
+    const Image *const baseline = findChannel(left, look.channel()), *const test =
+                                                                         findChannel(right, look.channel());
     DifferencePanel panel;
     if (!baseline || !test) {
         panel.missing = fmt::format("only one of the two images has {}", mode.name);
@@ -178,7 +174,7 @@ void makePictures(const Frame& left, const Frame& right, const Look& look, const
     const DebugMode& mode = debugMode(look.channel());
     std::vector<const Frame*> having;
     for (const Frame* frame : {&left, &right})
-        if (imageOf(*frame, look.channel())) having.push_back(frame);
+        if (findChannel(*frame, look.channel())) having.push_back(frame);
     PictureScale scale;
     if (!having.empty()) scale = scaleFor(mode, exposure, having);
     shown.panels = {panelOf(left, mode, scale), panelOf(right, mode, scale)};

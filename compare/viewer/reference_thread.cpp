@@ -109,8 +109,7 @@ std::shared_ptr<const Frame> ReferenceThread::frame(std::initializer_list<Channe
     frame.settings = partial_.settings;
     frame.background = partial_.background;
     for (const Channel mode : modes)
-        if (const auto found = partial_.channels.find(mode); found != partial_.channels.end())
-            frame.channels[mode] = found->second;
+        if (const Image* const image = findChannel(partial_, mode)) frame.channels[mode] = *image;
     Image& lit = frame.channels[Channel::lit];
     if (under && under->width == lit.width && under->height == lit.height)
         for (std::size_t i = 0; i < lit.pixels(); ++i)

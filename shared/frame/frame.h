@@ -177,6 +177,15 @@ struct Frame {
     std::vector<std::string> notes;  // what users must know: deviations from the request
 };
 
+// nullptr: no image of the channel.
+inline const Image* findChannel(const std::map<Channel, Image>& images, Channel mode) {
+    const auto found = images.find(mode);
+    return found == images.end() ? nullptr : &found->second;
+}
+inline const Image* findChannel(const Frame& frame, Channel mode) {
+    return findChannel(frame.channels, mode);
+}
+
 // letGo() for all images of one channel, or of every channel.
 void letGo(const Frame& frame, Channel mode);
 void letGo(const Frame& frame);

@@ -96,10 +96,10 @@ TEST(Precision, BothPathsAreEqualBitForBit) {
             settings.set(option, value);
             const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, shown);
             for (const auto& [mode, image] : frames[0].channels) {
-                const auto other = frames[1].channels.find(mode);
-                if (other == frames[1].channels.end()) continue;
-                EXPECT_EQ(differingPixels(image, other->second), 0u)
-                    << name << " --" << option << " " << value << ", " << debugMode(mode).name;
+                if (const Image* const other = findChannel(frames[1], mode)) {
+                    EXPECT_EQ(differingPixels(image, *other), 0u)
+                        << name << " --" << option << " " << value << ", " << debugMode(mode).name;
+                }
             }
             for (const Frame& frame : frames) {
                 EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << name << " " << value;

@@ -240,10 +240,10 @@ inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = d
 inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t least = 14) {
     std::size_t compared = 0;
     for (const auto& [mode, image] : a.channels) {
-        const auto other = b.channels.find(mode);
-        if (other == b.channels.end()) continue;
+        const Image* const other = findChannel(b, mode);
+        if (!other) continue;
         ++compared;
-        EXPECT_EQ(differingPixels(image, other->second), 0u) << "channel " << debugMode(mode).name;
+        EXPECT_EQ(differingPixels(image, *other), 0u) << "channel " << debugMode(mode).name;
     }
     EXPECT_GE(compared, least);
 }

@@ -53,7 +53,7 @@ struct Shards {
             manifest.shard = {i, count};
             whole.shard = textOf(manifest);
             options.scene_folder.reset();
-            writeWhole(whole, summaryOf(whole), root / ("shard-" + std::to_string(i)), options);
+            writeWhole(whole, joinedOf(whole), root / ("shard-" + std::to_string(i)), options);
             std::filesystem::remove_all(parts);
         }
     }
@@ -77,7 +77,7 @@ struct Shards {
             problems += problem + "\n";
         }
         ReportOptions options;
-        writeWhole(joined.report, summaryOf(joined.report), root / "out", options);
+        writeWhole(joined.report, joinedOf(joined.report), root / "out", options);
         return problems;
     }
     std::string merged() const { return merged({shard}); }

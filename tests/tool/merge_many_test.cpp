@@ -55,7 +55,7 @@ void makeShards(const Folder& folder) {
         options.scene_folder.reset();
         manifest.shard = {static_cast<int>(shard) + 1, static_cast<int>(manyShards)};
         whole.shard = textOf(manifest);
-        writeWhole(whole, summaryOf(whole), folder / fmt::format("shard-{}", shard + 1), options);
+        writeWhole(whole, joinedOf(whole), folder / fmt::format("shard-{}", shard + 1), options);
     }
 }
 

@@ -181,7 +181,7 @@ TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
     WholeReport own;
     own.parts.push_back({writePart(smallReport(), root / "kept", options), root / "kept", true});
     options.scene_folder.reset();
-    writeWhole(own, summaryOf(own), root / "own", options);
+    writeWhole(own, joinedOf(own), root / "own", options);
     EXPECT_EQ(fs::hard_link_count(root / "own/box/lit.png"), 2u);
 }
 
@@ -195,7 +195,7 @@ TEST(HostileParts, JsonHasNoRawControls) {
     WholeReport own;
     own.parts.push_back({writePart(smallReport(name), root / "kept", options), root / "kept", true});
     options.scene_folder.reset();
-    writeWhole(own, summaryOf(own), root / "own", options);
+    writeWhole(own, joinedOf(own), root / "own", options);
     for (const char* text : {"part-frames.json", "part-comparisons.json"}) {
         fs::copy_file(root / "kept/box" / text, shards.shard / "box-1" / text,
                       fs::copy_options::overwrite_existing);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every report prints each metric under its own name, and the worst pixel at its position.
 #include "compare/report/json.h"
+#include "compare/report/picture_diff_json.h"
 #include "compare/report/picture_diff_report.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
@@ -214,7 +215,7 @@ TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
         EXPECT_NEAR(json["metrics"][name].get<double>(), value, 1e-12) << name;
     }
     EXPECT_EQ(json["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
-    const std::string table = pictureDiffTable(diff);
+    const std::string table = diffTable({&diff, 1});
     const auto cells = byHead(lineWith(table, "channel"), lineWith(table, "lit"));
     EXPECT_EQ(cells.at("p99.9"), page::number(expected.at("p999")));
     EXPECT_EQ(cells.at("max"), page::number(expected.at("max")));

@@ -85,11 +85,15 @@ TEST(ReportIndex, ASinglePageBringsAllAsText) {
     EXPECT_EQ(page.find(".png\""), std::string::npos);
 }
 
+// As of writeReport(), without its files.
+std::string indexPageOf(const Report& report) {
+    const ReportLayout layout = layoutOf(report, {});
+    return reportHtml(report, layout, textsOf(report, layout));
+}
+
 TEST(ReportIndex, ALineIsAllThatAnotherComparisonAdds) {
-    // Same layout as writeReport(), without its files.
-    const auto pageOf = [](const Report& report) { return reportHtml(report, layoutOf(report, {})); };
     const Report some = manyOf(30), more = manyOf(50);
-    const std::string few = pageOf(some), many = pageOf(more);
+    const std::string few = indexPageOf(some), many = indexPageOf(more);
     EXPECT_EQ(countOf(many, "<tr data-comparison=\""), 50u);
     EXPECT_EQ(countOf(many, "<img "), countOf(few, "<img ")) << "pictures of the first ones alone";
     EXPECT_LT((many.size() - few.size()) / 20, 1000u) << "bytes a line";
@@ -100,7 +104,7 @@ TEST(ReportIndex, LongListsSayWhereTheRestIs) {
     for (std::size_t i = 0; i < 60; ++i) all.insert(i);
     Report report = manyOf(60, all);
     for (std::size_t i = 0; i < 60; ++i) report.frames[2 * i].notes = {"note " + std::string(i, 'x')};
-    const std::string page = reportHtml(report, layoutOf(report, {}));
+    const std::string page = indexPageOf(report);
     EXPECT_NE(page.find("and 20 more: the comparisons below start with the failed ones"), std::string::npos);
     EXPECT_NE(page.find("and 20 more: report.json has all of them"), std::string::npos);
 }

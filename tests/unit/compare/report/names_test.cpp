@@ -60,7 +60,7 @@ TEST(ReportNames, LayersOfAnyNameHaveTheirFilesAndPlaces) {
     options.metric = "max";
     PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
     ASSERT_EQ(diff.channels.size(), strangeNames.size());
-    writePictureDiff(std::move(diff), {OutputKind::folder, out}, {}, {});
+    writeDiffs({&diff, 1}, out, {}, {});
 
     std::size_t pictures = 0;
     for (const auto& entry : fs::recursive_directory_iterator(out)) {

@@ -4,6 +4,7 @@
 #include "compare/cli/command_diff.h"
 #include "compare/files/frame_exr.h"
 #include "compare/report/json.h"
+#include "compare/report/picture_diff_json.h"
 #include "compare/report/picture_diff_report.h"
 #include "compare/report/report.h"
 #include "compare/verdict/picture_diff.h"
@@ -185,7 +186,7 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
         EXPECT_EQ(diff.passed(), !strict);
         EXPECT_EQ(strict ? diff.failures : Lines{}, strict ? said : Lines{});
         EXPECT_TRUE((strict ? diff.failures : diff.notes).size() >= 2);
-        const std::string table = pictureDiffTable(diff);
+        const std::string table = diffTable({&diff, 1});
         for (const std::string& line : said)
             EXPECT_NE(table.find((strict ? "  FAIL a.exr: " : "\nnote: ") + line + "\n"), std::string::npos)
                 << table;
