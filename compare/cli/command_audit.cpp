@@ -8,6 +8,7 @@
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
+#include "compare/cli/exit_code.h"
 #include "compare/output/writers.h"
 #include "compare/render/host_memory.h"
 #include "compare/run/interruption.h"
@@ -152,7 +153,7 @@ bool compareFails(std::vector<std::string> words, const std::filesystem::path& f
     // that it is in.
     const std::string out = (folder / "trial/report").string();
     words.insert(words.begin() + 1, {"--runs", "0", "--quiet", "--force", "--out", out});
-    return parseCommandLine(words).command.run() == 1;
+    return parseCommandLine(words).command.run() == exit_fail;
 }
 
 audit::AuditQuestion questionOf(const AuditLine& options, const std::filesystem::path& folder) {
@@ -187,7 +188,7 @@ int auditQuantities(const AuditLine& options, const Settings& settings) {
     opened.print(output::inText(audit::closingOf(auditor.audit())));
     if (options.json) printText(json);
     opened.print((opened.out / "index.html").string() + "\n");
-    return auditor.audit().passes() ? 0 : 1;
+    return exitCode(auditor.audit().passes());
 }
 
 int auditRelations(const AuditLine& options, const Settings& settings) {
@@ -214,7 +215,7 @@ int auditRelations(const AuditLine& options, const Settings& settings) {
     for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
     if (options.json) printText(json);
     opened.print((opened.out / "index.html").string() + "\n");
-    return audited.passes() ? 0 : 1;
+    return exitCode(audited.passes());
 }
 
 int runAudit(const AuditLine& options) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/cli/exit_code.h"
 #include "compare/external/calibration.h"
 #include "compare/external/external_frame.h"
 #include "shared/contract/debug_mode.h"
@@ -60,7 +61,7 @@ int runCalibrate(const CalibrateLine& options) {
     progress.wipe();
     printResult(options, jsonText(external::toJson(renderer, deviations)) + "\n",
                 external::inWords(renderer, deviations));
-    return deviations.empty() ? 0 : 1;
+    return exitCode(deviations.empty());
 }
 
 }  // namespace

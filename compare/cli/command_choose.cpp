@@ -3,6 +3,7 @@
 #include "compare/choose/scene_chooser.h"
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/cli/exit_code.h"
 #include "compare/cli/option_groups.h"
 #include "compare/files/linked_file.h"
 #include "compare/files/scene_folders.h"
@@ -135,7 +136,7 @@ int runChoose(const ChooseLine& options) {
         tell((options.out / "index.html").string() + "\n");
     }
     if (options.json) printOut("{}\n", jsonText(toJson(choices)));
-    return settings ? 0 : 1;
+    return exitCode(settings.has_value());
 }
 
 }  // namespace

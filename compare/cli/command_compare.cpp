@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_compare.h"
+#include "compare/cli/exit_code.h"
 
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
@@ -164,9 +165,9 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
                     exposureLine(report, picture), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
     sayErrors(report.errors);
-    if (!report.errors.empty()) return 2;
     // The new baseline replaces the old one, so only the last comparison counts.
-    return (options.update_baseline ? report.comparisons.back().passed() : report.passed()) ? 0 : 1;
+    const bool passed = options.update_baseline ? report.comparisons.back().passed() : report.passed();
+    return exitCode(passed, !report.errors.empty());
 }
 
 int runCompare(const CompareLine& given) {

@@ -58,6 +58,5 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
 // Prints the results of a report of many scenes in `folder`. `all`: includes comparisons that pass.
 void showWhole(const OutputGroup& options, const ReportPart& joined, const std::filesystem::path& folder,
                const Trends* since, bool all);
-int exitCodeOf(const Report& summary);
 
 }  // namespace diptych::cli

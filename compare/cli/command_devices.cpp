@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/cli/exit_code.h"
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
 #include "compare/run/print.h"
@@ -100,7 +101,7 @@ int runDevices(const DevicesLine& options) {
         printOut(
             "To use devices of several drivers at once (compare --against-device), set "
             "VK_DRIVER_FILES=FILE.json:FILE.json\n");
-    return std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }) ? 0 : 1;
+    return exitCode(std::ranges::all_of(probes, [](const auto& of) { return probe::allPassed(of.second); }));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_diff.h"
+#include "compare/cli/exit_code.h"
 
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
@@ -156,7 +157,7 @@ int runDiff(const DiffLine& options) {
     progress.wipe();
     printResult(options, text, text);
     sayErrors(diff.errors);
-    return !diff.errors.empty() ? 2 : passed ? 0 : 1;
+    return exitCode(passed, !diff.errors.empty());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "compare/cli/command.h"
 #include "compare/cli/command_compare.h"
 #include "compare/cli/command_tradeoff.h"
+#include "compare/cli/exit_code.h"
 #include "compare/shards/merge.h"
 #include "compare/tradeoff/all_scenes.h"
 #include "shared/text/counted.h"
@@ -55,10 +56,10 @@ int runMerge(const MergeLine& options) {
     showWhole(options, whole, folder, report.since.get(), false);
     if (joined.problems.empty()) {
         sayErrors(whole.report.errors);
-        return exitCodeOf(whole.report);
+        return exitCode(whole.report.passed(), !whole.report.errors.empty());
     }
     sayProblems(options, joined.problems, folder / "index.html");
-    return 2;
+    return exit_error;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "compare/bench/scene_plan.h"
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/cli/exit_code.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
@@ -73,7 +74,7 @@ int runPlan(const PlanLine& options) {
     }
     checkValidation(device);
     if (options.json) printOut("{}\n", jsonText(Json{{"schema", 1}, {"scenes", scenes}}));
-    return compiles ? 0 : 1;
+    return exitCode(compiles);
 }
 
 }  // namespace

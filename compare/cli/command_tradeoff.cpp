@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_tradeoff.h"
+#include "compare/cli/exit_code.h"
 
 #include "compare/cli/command.h"
 #include "compare/cli/scene_items.h"
@@ -98,7 +99,7 @@ int sweepOne(const TradeoffLine& options, const experiment::SweepRows& rows) {
     if (options.json) printText(json);
     print(tradeoffEnd(sweep.tradeoff()) + (folder / "index.html").string() + "\n");
     sayErrors(errors);
-    return errors.empty() ? 0 : 2;
+    return exitCode(true, !errors.empty());
 }
 
 // Writes the page and the manifest, and returns the manifest. Called first without scenes, which marks the
@@ -133,7 +134,7 @@ int finish(const OutputGroup& options, const fs::path& folder, const shards::Man
            const std::vector<const shards::Item*>& done) {
     showMany(options, folder, manifest, done);
     sayErrors(manifest.errors);
-    return manifest.errors.empty() ? 0 : 2;
+    return exitCode(true, !manifest.errors.empty());
 }
 
 // Many scenes, or a shard of them: a folder for each in `folder`, and a page that links them. An interrupted
@@ -229,7 +230,7 @@ int mergeTradeoffs(const OutputGroup& options, const std::vector<std::string>& s
     if (chosen.problems.empty()) return finish(options, folder, manifest, done);
     showMany(options, folder, manifest, done);
     sayProblems(options, chosen.problems, folder / "index.html");
-    return 2;
+    return exit_error;
 }
 
 Command tradeoffCommand() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_compare.h"
+#include "compare/cli/exit_code.h"
 #include "compare/cli/scene_items.h"
 #include "compare/report/exposure_line.h"
 #include "compare/run/interruption.h"
@@ -75,7 +76,7 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
     noteLeftByOthers(options, KeptReferences(folder, true));
     showWhole(options, joined, folder, report.since.get(), true);
     sayErrors(joined.report.errors);
-    return exitCodeOf(joined.report);
+    return exitCode(joined.report.passed(), !joined.report.errors.empty());
 }
 
 void showWhole(const OutputGroup& options, const ReportPart& joined, const std::filesystem::path& folder,
@@ -90,10 +91,6 @@ void showWhole(const OutputGroup& options, const ReportPart& joined, const std::
                                  exposures.empty() ? "" : fmt::format("pictures: {}\n", exposures),
                                  (folder / "index.html").string()));
     }
-}
-
-int exitCodeOf(const Report& summary) {
-    return !summary.errors.empty() ? 2 : summary.passed() ? 0 : 1;
 }
 
 }  // namespace diptych::cli

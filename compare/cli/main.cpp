@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/cli/command_line.h"
+#include "compare/cli/exit_code.h"
 #include "compare/run/interruption.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
@@ -29,7 +30,7 @@ int fail(const std::string& what, bool json) {
         diptych::printOut("{}\n", diptych::jsonText(object));
         diptych::flushText();
     }
-    return 2;
+    return diptych::cli::exit_error;
 }
 
 // The reader of stdout closed the pipe. Ends the program by SIGPIPE, which was ignored until now so that
@@ -44,7 +45,7 @@ void holdStandardDescriptors() {
     for (const int descriptor : {0, 1, 2})
         if (::fcntl(descriptor, F_GETFD) == -1 &&
             ::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) != descriptor)
-            ::_exit(2);
+            ::_exit(diptych::cli::exit_error);
 }
 
 // Keeps freed memory for the next pipeline: a driver that compiles on the CPU takes and frees tens of
