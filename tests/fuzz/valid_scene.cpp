@@ -2,6 +2,7 @@
 #include "tests/fuzz/valid_scene.h"
 
 #include "shared/scene/model/animated.h"
+#include "shared/scene/model/material_parts.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/motion/posed.h"
 #include "tests/fuzz/fuzz.h"
@@ -79,6 +80,14 @@ void requireSound(const Primitive& p, const Scene& scene) {
     }
 }
 
+// A factor as float32. 0 is also an infinite attenuation distance.
+bool isIn(AnimatedPart part, double value) {
+    const PartFacts facts = factsOf(part);
+    return (value >= double{static_cast<float>(facts.least)} &&
+            value <= double{static_cast<float>(facts.most)}) ||
+           (part == AnimatedPart::attenuation_distance && value == 0);
+}
+
 void requireSound(const Material& material, const Scene& scene) {
     for (const MaterialSlot& member : materialSlots) {
         const TextureSlot& slot = material.*member.texture;
@@ -86,25 +95,14 @@ void requireSound(const Material& material, const Scene& scene) {
         require(slot.texcoord == 0 || slot.texcoord == 1, "a slot reads one of two sets");
         require(finite(slot.u) && finite(slot.v), "a texture's transform is finite");
     }
-    require(finite(material.base_color) && finite(material.emissive) && finite(material.specular_color) &&
-                finite(material.sheen_color) && std::isfinite(material.sheen_roughness) &&
-                std::isfinite(material.iridescence) && std::isfinite(material.iridescence_ior) &&
-                std::isfinite(material.metallic) && std::isfinite(material.roughness) &&
-                std::isfinite(material.normal_scale) && std::isfinite(material.occlusion_strength) &&
-                std::isfinite(material.ior) && std::isfinite(material.specular) &&
-                std::isfinite(material.alpha_cutoff) && std::isfinite(material.clearcoat) &&
-                std::isfinite(material.clearcoat_roughness) &&
-                std::isfinite(material.clearcoat_normal_scale) && std::isfinite(material.anisotropy) &&
+#define IN_RANGE(type, name, ...)                                   \
+    for (const double value : partOf(material, AnimatedPart::name)) \
+        require(isIn(AnimatedPart::name, value), "a material's " #name " is in its range");
+    MATERIAL_FACTORS(IN_RANGE)
+#undef IN_RANGE
+    require(finite(material.emissive) && finite(material.specular_color) &&
                 std::isfinite(material.anisotropy_rotation),
             "a material's factors are finite");
-    for (const float thickness : {material.iridescence_thickness_least, material.iridescence_thickness_most})
-        require(thickness >= 0 && double{thickness} <= maxFilmThickness, "a film has a thickness");
-    require(material.iridescence_ior >= 1, "a film refracts");
-    require(finite(material.attenuation_color) && finite(material.diffuse_transmission_color),
-            "colours of transmitted light are finite");
-    for (const float factor : {material.transmission, material.thickness, material.attenuation_distance,
-                               material.dispersion, material.diffuse_transmission})
-        require(factor >= 0 && std::isfinite(factor), "factors of transmitted light are finite, 0 or more");
 }
 
 void requireTrees(const Scene& scene) {

@@ -80,6 +80,14 @@ struct Asked {
     Light& light() { return lights[0]; }
 };
 
+void alter(float& factor) {
+    factor += 0.125f;
+}
+template <int N>
+void alter(glm::vec<N, float>& factor) {
+    factor[N - 1] += 0.125f;
+}
+
 using Change = std::pair<const char*, void (*)(Asked&)>;
 
 void expectKeysOfTheirOwn(std::span<const Change> changes) {
@@ -171,59 +179,13 @@ TEST(ReferenceKey, IsOfThePictureAndItsLight) {
 
 TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
     const Change changes[] = {
-        {"base colour", [](Asked& a) { a.material().base_color.a = 0.5f; }},
-        {"metallic", [](Asked& a) { a.material().metallic = 0.5f; }},
-        {"roughness", [](Asked& a) { a.material().roughness = 0.5f; }},
-        {"normal scale", [](Asked& a) { a.material().normal_scale = 0.5f; }},
-        {"occlusion strength", [](Asked& a) { a.material().occlusion_strength = 0.5f; }},
-        {"emission", [](Asked& a) { a.material().emissive.b = 0.5f; }},
-        {"index of refraction", [](Asked& a) { a.material().ior = 1.4f; }},
-        {"specular", [](Asked& a) { a.material().specular = 0.5f; }},
-        {"specular colour", [](Asked& a) { a.material().specular_color.r = 0.5f; }},
+        {"emission", [](Asked& a) { alter(a.material().emissive); }},
+        {"specular colour", [](Asked& a) { alter(a.material().specular_color); }},
+        {"direction of anisotropy", [](Asked& a) { alter(a.material().anisotropy_rotation); }},
         {"alpha mode", [](Asked& a) { a.material().alpha_mode = AlphaMode::mask; }},
-        {"alpha cutoff", [](Asked& a) { a.material().alpha_cutoff = 0.25f; }},
         {"double-sided", [](Asked& a) { a.material().double_sided = true; }},
         {"unlit", [](Asked& a) { a.material().unlit = true; }},
         {"specular-glossiness", [](Asked& a) { a.material().specular_glossiness = true; }},
-        {"transmission", [](Asked& a) { a.material().transmission = 0.5f; }},
-        {"lightmap intensity", [](Asked& a) { a.material().lightmap_intensity = 2; }},
-        {"clear coat", [](Asked& a) { a.material().clearcoat = 0.5f; }},
-        {"its roughness", [](Asked& a) { a.material().clearcoat_roughness = 0.5f; }},
-        {"its normals' scale", [](Asked& a) { a.material().clearcoat_normal_scale = 0.5f; }},
-        {"anisotropy", [](Asked& a) { a.material().anisotropy = 0.5f; }},
-        {"its direction", [](Asked& a) { a.material().anisotropy_rotation = 0.5f; }},
-        {"sheen", [](Asked& a) { a.material().sheen_color.g = 0.5f; }},
-        {"the sheen's roughness", [](Asked& a) { a.material().sheen_roughness = 0.5f; }},
-        {"thin film", [](Asked& a) { a.material().iridescence = 0.5f; }},
-        {"its index of refraction", [](Asked& a) { a.material().iridescence_ior = 1.5f; }},
-        {"its least thickness", [](Asked& a) { a.material().iridescence_thickness_least = 50; }},
-        {"its most thickness", [](Asked& a) { a.material().iridescence_thickness_most = 500; }},
-        {"thickness", [](Asked& a) { a.material().thickness = 0.5f; }},
-        {"attenuation colour", [](Asked& a) { a.material().attenuation_color.g = 0.5f; }},
-        {"attenuation distance", [](Asked& a) { a.material().attenuation_distance = 0.5f; }},
-        {"dispersion", [](Asked& a) { a.material().dispersion = 0.5f; }},
-        {"diffuse transmission", [](Asked& a) { a.material().diffuse_transmission = 0.5f; }},
-        {"its colour", [](Asked& a) { a.material().diffuse_transmission_color.b = 0.5f; }},
-        {"slot 0", [](Asked& a) { a.material().base_color_texture.texture = 0; }},
-        {"slot 1", [](Asked& a) { a.material().metallic_roughness_texture.texture = 0; }},
-        {"slot 2", [](Asked& a) { a.material().normal_texture.texture = 0; }},
-        {"slot 3", [](Asked& a) { a.material().occlusion_texture.texture = 0; }},
-        {"slot 4", [](Asked& a) { a.material().emissive_texture.texture = 0; }},
-        {"slot 5", [](Asked& a) { a.material().specular_texture.texture = 0; }},
-        {"slot 6", [](Asked& a) { a.material().specular_color_texture.texture = 0; }},
-        {"slot 7", [](Asked& a) { a.material().lightmap_texture.texture = 0; }},
-        {"slot 8", [](Asked& a) { a.material().clearcoat_texture.texture = 0; }},
-        {"slot 9", [](Asked& a) { a.material().clearcoat_roughness_texture.texture = 0; }},
-        {"slot 10", [](Asked& a) { a.material().clearcoat_normal_texture.texture = 0; }},
-        {"slot 11", [](Asked& a) { a.material().anisotropy_texture.texture = 0; }},
-        {"slot 12", [](Asked& a) { a.material().sheen_color_texture.texture = 0; }},
-        {"slot 13", [](Asked& a) { a.material().sheen_roughness_texture.texture = 0; }},
-        {"slot 14", [](Asked& a) { a.material().iridescence_texture.texture = 0; }},
-        {"slot 15", [](Asked& a) { a.material().iridescence_thickness_texture.texture = 0; }},
-        {"slot 16", [](Asked& a) { a.material().transmission_texture.texture = 0; }},
-        {"slot 17", [](Asked& a) { a.material().thickness_texture.texture = 0; }},
-        {"slot 18", [](Asked& a) { a.material().diffuse_transmission_texture.texture = 0; }},
-        {"slot 19", [](Asked& a) { a.material().diffuse_transmission_color_texture.texture = 0; }},
         {"set of coordinates", [](Asked& a) { a.material().normal_texture.texcoord = 1; }},
         {"transform of u", [](Asked& a) { a.material().normal_texture.u.z = 0.5; }},
         {"transform of v", [](Asked& a) { a.material().normal_texture.v.z = 0.5; }},
@@ -235,6 +197,13 @@ TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
         {"8 bits", [](Asked& a) { a.scene.images[0].rgba[3] = 9; }},
         {"16 bits", [](Asked& a) { a.scene.images[1].rgba16[3] = 9; }},
         {"floats", [](Asked& a) { a.scene.images[2].rgba32[3] = 9; }},
+#define FACTOR(type, name, ...) {#name, [](Asked& a) { alter(a.material().name); }},
+        MATERIAL_FACTORS(FACTOR)
+#undef FACTOR
+#define SLOT(number, name, ...) \
+    {#name "'s texture", [](Asked& a) { a.material().name##_texture.texture = 0; }},
+            MATERIAL_SLOTS(SLOT)
+#undef SLOT
     };
     expectKeysOfTheirOwn(changes);
 }
