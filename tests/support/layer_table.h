@@ -144,8 +144,10 @@ inline const std::vector<TestedLayer>& testedLayers() {
           // 0: infinite, which files express by leaving it out.
           {volume, "attenuationDistance", &M::attenuation_distance, P::attenuation_distance, none,
            number(0.5f), 1e-12, large, C::attenuation_distance},
-          {volume, "attenuationColor", &M::attenuation_color, P::attenuation_color, white, color, 0, 1, C::attenuation_color},
-          {"dispersion", "dispersion", &M::dispersion, P::dispersion, none, number(5), 0, large, C::dispersion}},
+          {volume, "attenuationColor", &M::attenuation_color, P::attenuation_color, white, color, 0, 1,
+           C::attenuation_color},
+          {"dispersion", "dispersion", &M::dispersion, P::dispersion, none, number(5), 0, large,
+           C::dispersion}},
          {{glass, "transmissionTexture", gpu::SLOT_transmission, C::transmission, "r"},
           {volume, "thicknessTexture", gpu::SLOT_thickness, C::transmission_thickness, "g", 1}}},
         {"diffuse_transmission", gpu::LAYER_DIFFUSE_TRANSMISSION,
