@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> strangeNames{"a/b",   "a_b", "a~2fb",       "a~b",      "a b",      "A/B",
                                             "../up", "/",   ".hidden",     "<i>x</i>", "x\"'&",    "c0?x@1,2",
-                                            "50%",   "#",   "gr\xc3\xbcn", "a\\b",     "new\nline"};
+                                            "50%",   "#",   "gr\xc3\xbcn", "a\\b",     "new\tline"};
 
 TEST(ReportNames, OfAFileAreSafeAndNoTwoBecomeTheSame) {
     EXPECT_EQ(nameOfFile("lit_diffuse"), "lit_diffuse") << "ours stay";

@@ -119,7 +119,7 @@ TEST(BuiltinNumbers, AreThoseThatBaselinesWereMadeOf) {
         {"triangle", 1737515066u},      {"empty", 1309757157u},         {"background", 662143898u},
         {"range_edge", 315821471u},     {"calibration", 3381496432u},   {"suns", 1757800087u},
         {"points", 1569577319u},        {"spots", 2244738307u},         {"areas", 674039729u},
-        {"tangents", 1455413647u},      {"motion", 976141544u},         {"unlit", 1758236040u},
+        {"tangents", 3687582923u},      {"motion", 976141544u},         {"unlit", 1758236040u},
         {"array", 829286550u},          {"covered", 690928902u}};
     for (const BuiltinName& builtin : builtinNames()) {
         const auto found = known.find(builtin.name);
