@@ -16,7 +16,7 @@ inline Ran runHiding(const Folder& scratch, const std::string& hidden, const std
     return runShell(scratch,
                     "env DIPTYCH_HIDE='" + hidden +
                         "' VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation:VK_LAYER_DIPTYCH_hide "
-                        "VK_LAYER_PATH=/usr/share/vulkan/explicit_layer.d:'" DIPTYCH_LAYER
+                        "VK_LAYER_PATH=/usr/share/vulkan/explicit_layer.d:'" DIPTYCH_HIDE_LAYER
                         "' '" DIPTYCH_PROGRAM "' " +
                         arguments,
                     scratch.path());
