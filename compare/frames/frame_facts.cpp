@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace diptych {
 
@@ -124,6 +126,14 @@ std::vector<std::uint32_t> repairNonfinite(Image& image) {
             if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(most, p[c]);
     }
     return repaired;
+}
+
+void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>& pixels) {
+    if (pixels.empty()) return;
+    std::vector<std::uint32_t>& all = frame.repaired[channel];
+    std::vector<std::uint32_t> both;
+    std::ranges::set_union(all, pixels, std::back_inserter(both));
+    all = std::move(both);
 }
 
 std::vector<std::string> repairedInWords(const Frame& frame) {

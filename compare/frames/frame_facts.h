@@ -41,6 +41,9 @@ std::optional<std::string> overflowInWords(const Image& lit, LitFormat format);
 // pixels.
 std::vector<std::uint32_t> repairNonfinite(Image& image);
 
+// Adds repaired pixels of one of a channel's images: of any sample, through the G-buffer, before blending.
+void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>& pixels);
+
 // One line for each repaired channel: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
 // ...".
 std::vector<std::string> repairedInWords(const Frame& frame);

@@ -20,7 +20,6 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -126,15 +125,6 @@ private:
         return request;
     }
 
-    // Adds pixels of any of a channel's images: of all samples, through the G-buffer, before blending.
-    void addRepaired(Channel channel, const Repaired& pixels) {
-        if (pixels.empty() || !isRequested(channel)) return;
-        Repaired& all = frame_.repaired[channel];
-        Repaired both;
-        std::ranges::set_union(all, pixels, std::back_inserter(both));
-        all = std::move(both);
-    }
-
     // Keeps lit from before blending, if lit was requested.
     void takeUnblended(const CapturedImage& read, Image image) {
         if (!isRequested(Channel::lit)) return;
@@ -152,7 +142,7 @@ private:
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured,
                      [this](const CapturedImage& read, Image image, const Repaired& repaired) {
-                         addRepaired(read.mode, repaired);
+                         if (isRequested(read.mode)) addRepaired(frame_, read.mode, repaired);
                          if (read.before_blending) return takeUnblended(read, std::move(image));
                          if (read.sample > 0) {
                              keepInFile(image.data);

@@ -28,7 +28,8 @@ void replaceAll(std::string& text, std::string_view what, const std::string& by)
         text.replace(at, what.size(), by);
 }
 
-// The parts' devices, in order of first use.
+// The parts' devices, in order of first use. joinedOf() has taken what the parts' comparisons hold, not their
+// number.
 std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
     std::vector<DrawnOn> devices;
     for (const PlacedPart& placed : whole.parts) {

@@ -65,7 +65,7 @@ bool shines(const Light& light) {
 ShownArea shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place) {
     const gpu::AreaLight& light = *lights.shapeOf(i);
     std::size_t kind = 0, past_kind = lights.firstArea() + lights.areas[0];
-    while (i >= past_kind) past_kind += lights.areas[++kind];
+    while (kind + 1 < lights.areas.size() && i >= past_kind) past_kind += lights.areas[++kind];
     const double r = double{light.radius}, half = glm::length(glm::dvec3(light.x));
     const double cosine = glm::dot(glm::dvec3(light.direction), to_place);
     if (areaKinds[kind] == LightKind::tube) {

@@ -200,7 +200,7 @@ private:
 
     Keyframes keyframes(int index, const OutputShape& shape, const std::string& who) {
         if (static_cast<std::size_t>(index) >= file_->samplers.size())
-            fail(who, fmt::format("sampler {}, but the file has {}", index, file_->samplers.size()));
+            fail(who, fmt::format("sampler {}, but the animation has {}", index, file_->samplers.size()));
         const tinygltf::AnimationSampler& file = file_->samplers[static_cast<std::size_t>(index)];
         Keyframes result;
         if (file.interpolation == "STEP")

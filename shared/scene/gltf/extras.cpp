@@ -4,6 +4,7 @@
 #include "shared/scene/gltf/value.h"
 #include "shared/scene/lights/json_fields.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/scene/model/animated.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"
 
@@ -22,8 +23,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* ours = "diptych";
-// maxIntensity keeps the product with any texel finite in float32.
-constexpr double maxCount = 2147483647, maxIntensity = 1e12;
+constexpr double maxCount = 2147483647;
 
 // The object "diptych" in the "extras" of `owner`. Keys that are not `known` get a note.
 const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
@@ -112,7 +112,8 @@ Lightmap lightmapOf(const Json& material, std::size_t textures, const std::strin
                 return static_cast<int>(index);
             };
             if (!fields.find("index")) fields.fail("index", "is missing; give a texture");
-            const double intensity = fields.number("intensity", 1, 0, maxIntensity);
+            const double intensity =
+                fields.number("intensity", 1, 0, factsOf(AnimatedPart::lightmap_intensity).most);
             const int texcoord = whole("texCoord", 1, 2);
             result = {whole("index", 0, static_cast<double>(textures)), texcoord, intensity};
         });

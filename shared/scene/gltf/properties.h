@@ -7,6 +7,7 @@
 #include "shared/contract/material.h"
 #include "shared/scene/model/animated.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -178,8 +179,8 @@ constexpr auto normalInfo = scaledInfo("scale", Part::normal_scale),
                occlusionInfo = scaledInfo("strength", Part::occlusion_strength),
                coatNormalInfo = scaledInfo("scale", Part::clearcoat_normal_scale);
 
-// Materials are read in the order of these tables (material.cpp). The first factor of an extension that a
-// material may lack is its weight.
+// Materials are read in the order of these tables (material.cpp). A layer's first property is its weight: 0
+// removes the layer.
 constexpr Property metallicRoughness[] = {
     animated("baseColorFactor", Part::base_color), animated("metallicFactor", Part::metallic),
     animated("roughnessFactor", Part::roughness), map("baseColorTexture", gpu::SLOT_base_color),
@@ -236,6 +237,9 @@ constexpr Property materialExtensions[] = {object("KHR_materials_ior", ior),
                                            object("KHR_materials_volume", volume),
                                            object("KHR_materials_dispersion", dispersion),
                                            object("KHR_materials_diffuse_transmission", diffuseTransmission)};
+static_assert(std::ranges::all_of(materialExtensions, [](const Property& extension) {
+    return extension.properties.empty() || extension.properties.front().part;
+}));
 constexpr Property material[] = {name(),
                                  object("pbrMetallicRoughness", metallicRoughness),
                                  animated("alphaCutoff", Part::alpha_cutoff),

@@ -45,7 +45,7 @@ const std::vector<Example> examples = {
     {"a setting", {"pixel_lights", "pixel-lights"}},
     {"a setting whose values have names", {"LightKernel", "settings.light_kernel", "light-kernel"}},
     {"a report format", {"reportJunit", "junit.xml"}},
-    {"a factor of a layer", {"clearcoat_normal_scale"}},
+    {"a factor without a channel", {"clearcoat_normal_scale"}},
     {"a command", {"X(calibrate)", "calibrateCommand", "\"calibrate\""}},
     {"a column of results", {"X(registers", "Measure::registers", "\"registers\": {"}},
     {"an output format", {"std::string inCsv"}},

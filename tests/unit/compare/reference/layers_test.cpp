@@ -66,7 +66,12 @@ protected:
                 return shading.sheen;
             case gpu::LAYER_DIFFUSE_TRANSMISSION:
                 return shading.from_behind;
+            case gpu::LAYER_ANISOTROPY:
+            case gpu::LAYER_IRIDESCENCE:
+            case gpu::LAYER_TRANSMISSION:
+                return glm::dvec3(0);
             default:
+                ADD_FAILURE() << "is its own part known?";
                 return glm::dvec3(0);
         }
     }

@@ -75,6 +75,13 @@ TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {
     EXPECT_EQ(image.at(1, 0, 1), most);
     EXPECT_EQ(image.at(2, 1, 0), 0.0f);
     EXPECT_EQ(image.at(2, 1, 2), -most);
+
+    Frame frame;
+    addRepaired(frame, Channel::normals, {});
+    EXPECT_TRUE(frame.repaired.empty());
+    addRepaired(frame, Channel::normals, {1, 5});
+    addRepaired(frame, Channel::normals, {0, 5, 7});
+    EXPECT_EQ(frame.repaired.at(Channel::normals), (std::vector<std::uint32_t>{0, 1, 5, 7}));
 }
 
 TEST(FrameFacts, ACameraIsStatedInDegreesOrAsAHeight) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Layers of materials: every factor and texture of layer_table.h, tangents, animation.
+#include "shared/scene/gltf/properties.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/tangents.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -24,6 +26,29 @@ using namespace diptych;
 using Json = nlohmann::json;
 
 namespace {
+
+// A layer, a slot or a factor without a row of layer_table.h would have no test.
+TEST(LayerTable, HasAllOfTheContractAndOfTheSchema) {
+    std::set<gpu::uint> bits, slots;
+    std::set<AnimatedPart> weights, parts;
+    for (const TestedLayer& layer : testedLayers()) {
+        bits.insert(layer.bit);
+        weights.insert(layer.factors[0].part);
+        for (const LayerFactor& f : layer.factors) parts.insert(f.part);
+        for (const LayerTexture& t : layer.textures) slots.insert(t.slot);
+    }
+#define LAYER_ROW(name, bit, factor) EXPECT_TRUE(bits.contains(bit)) << #name;
+    MATERIAL_LAYERS(LAYER_ROW)
+#define SLOT_ROW(number, name, colors, reads, layer, factor, words) \
+    EXPECT_TRUE(gpu::LAYER_##layer == gpu::LAYER_BASE || slots.contains(number)) << #name;
+    MATERIAL_SLOTS(SLOT_ROW)
+    for (const gltf::schema::Property& extension : gltf::schema::materialExtensions) {
+        if (extension.properties.empty() || !weights.contains(*extension.properties[0].part)) continue;
+        for (const gltf::schema::Property& p : extension.properties)
+            EXPECT_TRUE(p.part ? parts.contains(*p.part) : slots.contains(static_cast<gpu::uint>(p.slot)))
+                << p.key;
+    }
+}
 
 Json coated(Json coat) {
     return Json{{"extensions", {{"KHR_materials_clearcoat", std::move(coat)}}}};
