@@ -15,7 +15,7 @@ CONTRACT_BEGIN
 CONTRACT_CONST(uint, SET_FRAME, 0);         // read by every pass of a frame
 CONTRACT_CONST(uint, SET_MATERIAL, 1);      // one material: textures at SLOT_*, then its factors
 CONTRACT_CONST(uint, SET_LISTS, 1);         // compute shaders that build light lists: light_list.h
-CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: the attachments GBUFFER_*, depth and others
+CONTRACT_CONST(uint, SET_GBUFFER, 2);       // deferred lighting: GBUFFER_SET_BINDINGS
 CONTRACT_CONST(uint, SET_PARTIAL_SUMS, 3);  // sums of the preceding light batches
 
 CONTRACT_END

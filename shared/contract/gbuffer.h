@@ -3,8 +3,8 @@
 // device's rounding on writes to a render target has no effect (lavapipe truncates halves), and forward+
 // can compute exactly what deferred will read.
 //
-// compact and standard store GBUFFER_WORDS, one in each attachment; standard has the two normals in NORMALS.
-// full stores float32:
+// compact and standard store GBUFFER_WORDS: one in each attachment, both normals of standard in NORMALS, and
+// the words of layers one after the other. full stores float32:
 //   albedo    albedo, occlusion                 specular  dielectric F0, F90
 //   normals   normal, roughness                 emission  emission, id
 //   params    geometric normal, metallic        lightmap  lightmap, 1
@@ -75,8 +75,8 @@
     THREE(iridescence, 1, IRIDESCENCE, 8, IRIDESCENCE_IOR, 9, IRIDESCENCE_THICKNESS, 15)                 \
     TWO(diffuse_transmission, 3, DIFFUSE_TRANSMISSION_COLOR, 8, DIFFUSE_TRANSMISSION, 8)
 
-// Values of each layer in a Surface (shaders/lib/surface/surface.glsl), 0 without the layer. Each is also a
-// channel, but anisotropy_turn: that of anisotropy_direction.
+// Values of each layer in a Surface (shaders/lib/surface/surface.glsl), 0 without the layer. Each is the
+// channel of the same name; anisotropy_turn is the channel anisotropy_direction.
 // type  name
 #define CLEARCOAT_VALUES(X)                                                                           \
     X(vec3, clearcoat_normal)             /* unit, shading */                                         \

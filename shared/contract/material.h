@@ -8,10 +8,10 @@
 // has one, and how to read it: TEXEL_*.
 // number  name  colours  reads  layer  factor  words
 //   colours  srgb: red, green and blue are sRGB-encoded, alpha is linear; linear: all are
-//   reads    the components that have an effect; with specular_glossiness also the alpha of specular_color
-//   layer    LAYER_* without which none has; BASE: always
-//   factor   of the components, in the CPU's Material; of metallic_roughness, that of green
-//   words    its name in messages
+//   reads    the components that a shader reads; with specular_glossiness also the alpha of specular_color
+//   layer    LAYER_* that reads the slot; BASE: every material does
+//   factor   the CPU's Material member that multiplies these components; of metallic_roughness, green's
+//   words    the slot's name in messages
 // clang-format off
 #define MATERIAL_SLOTS(X) \
     X(0,  base_color,            srgb,   rgba, BASE,         base_color,          "base colour")          \
@@ -32,7 +32,7 @@
     X(14, iridescence,           linear, r,    IRIDESCENCE,  iridescence,         "iridescence")          \
     X(15, iridescence_thickness, linear, g,    IRIDESCENCE,  iridescence_thickness_most, "film thickness") \
     X(16, transmission,          linear, r,    TRANSMISSION, transmission,        "transmission")         \
-    /* of both transmissions, if they have a volume: readsSlot() */                                       \
+    /* either transmission reads it, if the material has a volume: readsSlot() */                         \
     X(17, thickness,             linear, g,    BASE,         thickness,           "thickness")            \
     X(18, diffuse_transmission,  srgb,   a,    DIFFUSE_TRANSMISSION, diffuse_transmission,                \
           "diffuse transmission")                                                                         \

@@ -29,8 +29,8 @@ struct View {
     uint point_light_count;
     uint spot_light_count;
     uint area_ends[AREA_KIND_COUNT];  // of each kind's indices among the area lights
-    vec3 ambient;             // W/(sr m^2), uniform
-    float specular_aa_limit;  // kappa of shaders/lib/surface/specular_aa.glsl
+    vec3 ambient;                     // W/(sr m^2), uniform
+    float specular_aa_limit;          // kappa of shaders/lib/surface/specular_aa.glsl
     // Addresses of the lights' buffers, for FEATURE_addressed_lights.
     uvec2 lights;
     uvec2 spot_cones;

@@ -37,10 +37,11 @@ struct GpuLights {
     std::size_t firstSpot() const { return directional + point; }
     std::size_t firstArea() const { return firstSpot() + spot; }
 
-    // Null unless light `i` is a spot, or an area light.
+    // The cone of light `i`; null unless it is a spot.
     const gpu::SpotCone* coneOf(std::size_t i) const {
         return i >= firstSpot() && i < firstArea() ? &spot_cones[i - firstSpot()] : nullptr;
     }
+    // The shape of light `i`; null unless it is an area light.
     const gpu::AreaLight* shapeOf(std::size_t i) const {
         return i >= firstArea() ? &area_lights[i - firstArea()] : nullptr;
     }

@@ -21,9 +21,9 @@ inline constexpr unsigned r = 1, g = 2, b = 4, a = 8, rg = r | g, gb = g | b, rg
 struct MaterialSlot {
     TextureSlot Material::*texture;
     bool srgb;                           // colour components are sRGB-encoded; alpha is always linear
-    unsigned components;                 // that have an effect
-    std::uint32_t layer;                 // LAYER_* without which none has
-    bool (*hasFactor)(const Material&);  // whether it is not 0
+    unsigned components;                 // that a shader reads
+    std::uint32_t layer;                 // LAYER_* that reads the slot
+    bool (*hasFactor)(const Material&);  // the slot's factor is not 0
     const char* words;                   // its name in messages
 };
 
