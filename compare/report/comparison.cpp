@@ -23,6 +23,11 @@ using output::Text;
 
 namespace {
 
+// What is measured, or its limit. Where it fails, the digits show that.
+std::string beside(const Criterion& c, double value, double other) {
+    return digitsApart(value, (c.least ? c.measured < c.limit : c.measured > c.limit) ? other : value);
+}
+
 std::string explainedWords(const ChannelDiff& channel) {
     std::string words = fmt::format("explained by the encoding: largest error {}, mean {}",
                                     page::number(channel.stats.max), page::number(channel.stats.mean));
@@ -120,10 +125,11 @@ output::Table channelTable(const Comparison& comparison, const std::string& id, 
                 });
     addCriterion({.title = "judged by", .style = "soft by"}, "nothing",
                  [](const Criterion& criterion) { return criterion.figure; });
-    addCriterion({"measured", Column::number}, either("-", ""),
-                 [](const Criterion& criterion) { return digitsApart(criterion.measured, criterion.limit); });
+    addCriterion({"measured", Column::number}, either("-", ""), [](const Criterion& criterion) {
+        return beside(criterion, criterion.measured, criterion.limit);
+    });
     addCriterion({"limit", Column::number}, either("-", ""), [](const Criterion& criterion) {
-        const std::string limit = digitsApart(criterion.limit, criterion.measured);
+        const std::string limit = beside(criterion, criterion.limit, criterion.measured);
         return either((criterion.least ? ">= " : "") + limit, (criterion.least ? "\u2265 " : "") + limit);
     });
     add({.title = "used", .where = Column::page, .style = "optional"},
@@ -145,8 +151,8 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
         text.spans.emplace_back(explainedWords(channel));
     else if (const auto& c = channel.criterion)
         text.spans.emplace_back(
-            fmt::format("{} {}, {} {} allowed", c->figure, digitsApart(c->measured, c->limit),
-                        c->least ? "at least" : "at most", digitsApart(c->limit, c->measured)));
+            fmt::format("{} {}, {} {} allowed", c->figure, beside(*c, c->measured, c->limit),
+                        c->least ? "at least" : "at most", beside(*c, c->limit, c->measured)));
     else
         text.spans.emplace_back("differs");
     if (s.different > 0 && s.worst_x >= 0)

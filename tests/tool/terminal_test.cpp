@@ -120,7 +120,7 @@ TEST(Terminal, NamesOfLayersPassAFilter) {
     const Folder folder;
     Image rgb(4, 3, 3), other(4, 3, 3);
     std::ranges::fill(other.data, 0.5f);
-    const std::string layer = evil + "\n";
+    const std::string& layer = evil;
     writeExr(folder / "a.exr", {{{"R", "G", "B"}, &rgb}, {{layer + ".R", layer + ".G", layer + ".B"}, &rgb}});
     writeExr(folder / "b.exr",
              {{{"R", "G", "B"}, &other}, {{layer + ".R", layer + ".G", layer + ".B"}, &other}});
