@@ -26,7 +26,7 @@ output::Text cell(double value, bool best) {
 void addMetrics(std::vector<Block>& blocks, const Report& report, const CloserPath& closer) {
     const auto name = [&](std::size_t k) { return report.frames[closer.paths[k]].name; };
     Table table{
-        .columns = {{.title = "errors", .style = "soft"},
+        .columns = {{.title = "errors", .style = "soft wide"},
                     {name(0), Column::number},
                     {name(1), Column::number},
                     {"between them", Column::number}},

@@ -23,7 +23,8 @@ using output::Text;
 
 namespace {
 
-// What is measured, or its limit. Where it fails, the digits show that.
+// Prints `value`, the measured one or its limit; of a criterion that fails, with the digits that tell it from
+// `other`.
 std::string beside(const Criterion& c, double value, double other) {
     return digitsApart(value, (c.least ? c.measured < c.limit : c.measured > c.limit) ? other : value);
 }

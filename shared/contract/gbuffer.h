@@ -17,9 +17,9 @@
 // ids exists if a packed id has too few bits.
 // layers to layers 5 have up to four words each, only for what materials have. A layer that the surface lacks
 // is words of 0.
-// shaded exists with MSAA, when every attachment is multisampled. It stores the depth (float32) where the
-// surface was evaluated in the pixel, at the mean location of the samples that its triangle covers, and a
-// mask of these samples beside one of those that alpha leaves.
+// shaded exists with MSAA, when every attachment is multisampled. It stores the mask of samples that the
+// triangle covers, the mask of those that alpha keeps, and the depth (float32) at the covered samples' mean
+// location, where the surface was evaluated.
 // If there are more than MAX_COLOR_ATTACHMENTS, a second pass draws the last layers.
 #ifndef DIPTYCH_CONTRACT_GBUFFER_H
 #define DIPTYCH_CONTRACT_GBUFFER_H

@@ -83,7 +83,7 @@ struct TestedLayer {
         factors[0].set(m, glm::vec3(0));
         return m;
     }
-    // What a texture's channel shows by a texel, where the layer is.
+    // The channel's value where the surface has the layer and the texture has this texel.
     glm::dvec3 shown(const LayerTexture& t, const Material& m, const glm::dvec4& texel) const {
         const glm::dvec3 factor(factors[t.factor].of(m)), read = t.read(texel);
         return t.between ? glm::mix(factor, glm::dvec3(factors[t.factor + 1].of(m)), read.x) : factor * read;

@@ -11,7 +11,7 @@
 #define CHANNEL_IMAGE(number, name) \
     layout(set = SET_GBUFFER, binding = number) uniform texture2D channel_##name;
 SURFACE_CHANNELS(CHANNEL_IMAGE)
-// The channel of STORED_LAYERS' only vec2: a direction, of which the Surface has the turn about its normal.
+// The Surface stores the direction of highlights as a turn about its normal, the channel as a vector.
 #define channel_anisotropy_turn channel_anisotropy_direction
 
 Surface surfaceFromChannels(const ivec2 p) {

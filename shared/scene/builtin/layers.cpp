@@ -12,7 +12,7 @@
 namespace diptych::builtin {
 namespace {
 
-// Textures of the layers; a scene makes those that it reads.
+// Textures of the layers. A scene makes only those that its rows read.
 struct Maps {
     TextureSlot relief = {}, ripples = {}, coat = {}, brushed = {}, sheen = {}, film = {};
     TextureSlot transmission = {}, thickness = {}, diffuse = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What skins, animations and instances are read from, and how much memory they may take.
+// Helpers that read skins, animations and instances, and the budget of their decoded bytes.
 #pragma once
 
 #include "shared/scene/gltf/accessor.h"

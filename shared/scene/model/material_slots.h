@@ -36,7 +36,7 @@ inline constexpr std::array<MaterialSlot, gpu::SLOT_COUNT> materialSlots{MATERIA
 inline const TextureSlot& slotOf(const Material& material, std::size_t slot) {
     return material.*materialSlots[slot].texture;
 }
-// Of a slot that has one.
+// The slot must have a texture.
 inline const Texture& textureOf(const Scene& scene, const TextureSlot& slot) {
     return scene.textures[static_cast<std::size_t>(slot.texture)];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the reference does alike with every layer of layer_table.h: reading, channels, weights, limits.
+// The reference reads, shades and limits every layer of layer_table.h.
 #include "compare/reference/ambient.h"
 #include "compare/reference/brdf.h"
 #include "compare/reference/lobe_sampler.h"

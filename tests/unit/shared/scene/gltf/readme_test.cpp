@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page says what is read: it names every extension of the schema.
+// The glTF README names every extension of the schema.
 #include "shared/scene/gltf/properties.h"
 #include "tests/support/sources.h"
 
