@@ -20,7 +20,7 @@ struct Span {
         words,    // style: CSS classes
         name,     // may break after its underscores
         foreign,  // right-to-left letters do not affect their surroundings
-        strong,   // breaks like a name
+        strong,
         title,    // a heading in a box's summary
         link,     // style: address; breaks like a name
         verdict,  // style: pass or fail

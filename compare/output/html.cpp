@@ -48,7 +48,7 @@ std::string markupOf(const Span& span) {
         case Span::foreign:
             return page::isolated(span.text);
         case Span::strong:
-            return fmt::format("<b>{}</b>", page::breakable(span.text));
+            return fmt::format("<b>{}</b>", markup(span.text));
         case Span::title:
             return fmt::format("<h3>{}</h3>", markup(span.text));
         case Span::link:

@@ -41,7 +41,7 @@ void addMetrics(std::vector<Block>& blocks, const Report& report, const CloserPa
             table.rows.push_back({{metric, cell(first, first < second), cell(second, second < first),
                                    number(value(channel.between))}});
         };
-        table.rows.push_back({{Span(channel.mode->name, Span::strong), "", "", ""}});
+        table.rows.push_back({{Span(channel.mode->name, Span::name), "", "", ""}, "head"});
         add("mean", [](const PathError& error) { return error.stats.mean; });
         add("p99", [](const PathError& error) { return error.stats.p99; });
         add("p99.9", [](const PathError& error) { return error.stats.p999; });

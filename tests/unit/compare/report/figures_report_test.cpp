@@ -180,7 +180,7 @@ TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
         std::string row;
         for (const auto& errors : {deferred, forward, between})
             row += fmt::format(" {}", page::number(ofPixels(errors).at(figure)));
-        const std::size_t at = table.find(fmt::format("<td class=\"soft\">{}</td>", name));
+        const std::size_t at = table.find(fmt::format("<td class=\"soft wide\">{}</td>", name));
         std::istringstream cells(withoutTags(table.substr(at, table.find("</tr>", at) - at)));
         std::string found, cell;
         cells >> cell;
