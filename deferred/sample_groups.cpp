@@ -81,7 +81,7 @@ FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages
                                      .format = word,
                                      .extent = {gpu::FURTHER_WIDTH, rows},
                                      .usage = VK_IMAGE_USAGE_STORAGE_BIT,
-                                     .with_picture = true});
+                                     .with_image = true});
         passes.draw("group samples").color(further.count, Load::clear);
     }
     frame.groups = sampledImage(passes, inputs, "groups of samples", depthFormat);

@@ -116,7 +116,7 @@ std::vector<Quantity> amountQuantities() {
          .lacks = {lacksLocalLight},
          .push = pushLights,
          .variants = {{"assign", "tiled"}, {"assign", "every"}},
-         .same_picture = true,
+         .same_image = true,
          .whole = true,
          .predict = predictLights},
         {.name = "triangles",

@@ -100,7 +100,7 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
     });
     if (of.changed)
         for (const char* shown : {"given", "changed", "used"})
-            json["pictures"].push_back(pictureName(relation, of.series, shown));
+            json["pictures"].push_back(imageName(relation, of.series, shown));
     return json;
 }
 

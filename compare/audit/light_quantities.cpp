@@ -159,7 +159,7 @@ std::vector<Quantity> lightQuantities() {
          .magnitudes = ladder(1e-12, 1e12),
          .push = pushIntensity,
          .variants = {{"lit-format", "fp16"}, {"lit-format", "b10g11r11"}},
-         .same_picture = true,
+         .same_image = true,
          .light = true,
          .predict = predictIntensity},
         {.name = "range",

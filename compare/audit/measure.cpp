@@ -4,9 +4,9 @@
 #include "compare/experiment/errors.h"
 #include "compare/experiment/kept.h"
 #include "compare/frames/frame_facts.h"
+#include "compare/image/channel_image.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"
-#include "compare/picture/picture.h"
 #include "compare/render/reference_frame.h"
 #include "compare/verdict/neighbours.h"
 #include "shared/contract/debug_mode.h"
@@ -41,12 +41,12 @@ ChannelStats statsOf(Channel mode, const Frame& truth, const Frame& test, const 
 
 // 99th percentile over pixels of the largest component difference between images of lit, as a fraction of
 // white. Both use the truth's exposure.
-double pictureError(const Frame& truth, const Frame& test, const Coverage& where, double exposure) {
-    PictureScale scale;
+double imageError(const Frame& truth, const Frame& test, const Coverage& where, double exposure) {
+    ImageScale scale;
     scale.exposure = exposureFor({}, &truth.channels.at(Channel::lit), where);
     scale.exposure.factor *= exposure;
-    const Image8 a = channelPicture(debugMode(Channel::lit), truth, scale),
-                 b = channelPicture(debugMode(Channel::lit), test, scale);
+    const Image8 a = channelImage(debugMode(Channel::lit), truth, scale),
+                 b = channelImage(debugMode(Channel::lit), test, scale);
     std::vector<double> apart;
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
@@ -197,7 +197,7 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
     outcome.measured[Measure::light_p999] = knownOrInfinite(light.p999);
     outcome.worst_x = light.worst_x;
     outcome.worst_y = light.worst_y;
-    if (exposure > 0) outcome.measured[Measure::light_p99] = pictureError(truth.lit, lit, opaque, exposure);
+    if (exposure > 0) outcome.measured[Measure::light_p99] = imageError(truth.lit, lit, opaque, exposure);
     const Image &there = truth.rays.channels.at(Channel::material_id),
                 &here = rays.channels.at(Channel::material_id);
     Coverage alike = coverage(truth.rays, truth.rays);
@@ -255,7 +255,7 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
             try {
                 Renderer& drawer = faulty_renderer ? *faulty_renderer : renderer;
                 frame = drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
-                if (fault_.picture) fault_.picture(pushed, frame);
+                if (fault_.image) fault_.image(pushed, frame);
             } catch (const std::exception& error) {
                 failed = error.what();
             }
@@ -270,13 +270,13 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
     Step step{magnitude, std::vector<Outcome>(series.size())};
     try {
         // A quantity that only changes images is rendered once.
-        const bool kept = quantity && quantity->of_pictures && !fault_.scene && !fault_.picture;
+        const bool kept = quantity && quantity->of_images && !fault_.scene && !fault_.image;
         Drawn own;
-        Drawn& drawn = kept ? pictures_ : own;
+        Drawn& drawn = kept ? images_ : own;
         if (drawn.frames.empty() || drawn.frames.size() != series.size()) drawn = draw(pushed, series);
         std::optional<Truth> same;
         std::optional<double> moved;
-        if (quantity && quantity->same_picture) {
+        if (quantity && quantity->same_image) {
             same = original(pushed.settings.size);
             if (quantity->light) multiply(same->lit.channels.at(Channel::lit), magnitude);
             if (quantity->lengths) multiply(same->rays.channels.at(Channel::depth), magnitude);

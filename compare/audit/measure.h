@@ -81,10 +81,10 @@ public:
     Measurer(Device& device, const Subject& subject, std::function<void(const std::string&)> onStep);
 
     // An injected fault for tests: the paths render another scene than the truth, or their image is
-    // changed. `channels`: channels that `picture` reads, beside lit and depth.
+    // changed. `channels`: channels that `image` reads, beside lit and depth.
     struct Fault {
         std::function<void(Case&)> scene{};
-        std::function<void(const Case&, Frame&)> picture{};
+        std::function<void(const Case&, Frame&)> image{};
         std::vector<Channel> channels{};
     };
     void plant(Fault fault) { fault_ = std::move(fault); }
@@ -121,7 +121,7 @@ private:
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
     std::map<std::pair<int, int>, Truth> original_;  // by image width and height
-    Drawn pictures_;                                 // of a quantity that only changes images
+    Drawn images_;                                   // of a quantity that only changes images
     Fault fault_{};
 };
 

@@ -64,9 +64,9 @@ struct Quantity {
     std::vector<Change> variants = {};
     // Whether the image stays that of the original scene, which is then the truth. `light`, `lengths`:
     // except that its light or its lengths are multiplied by the magnitude.
-    bool same_picture = false, light = false, lengths = false;
-    bool of_pictures = false;  // only changes Case::exposure, so frames stay the same
-    bool whole = false;        // magnitudes are integers
+    bool same_image = false, light = false, lengths = false;
+    bool of_images = false;  // only changes Case::exposure, so frames stay the same
+    bool whole = false;      // magnitudes are integers
     // Prediction: the magnitude at which arithmetic fails in any scene, and why; or, if it depends on scene,
     // Settings or the relative error that a path reaches there, a function of them.
     double fails_at = Predicted::never;

@@ -130,7 +130,7 @@ void RelationMeasurer::draw(Drawn& drawn, const Case& of, std::span<const Settin
     }
 }
 
-Image RelationMeasurer::packedLight(const Case& of, const PictureMap& map) {
+Image RelationMeasurer::packedLight(const Case& of, const PixelMap& map) {
     Settings settings = of.settings;
     settings.path = unencoded_path;
     SceneViews views(of.scene);

@@ -76,7 +76,7 @@ struct FrameResult {
 };
 
 // Maps the changed image back onto the original one.
-Frame mappedBack(const Frame& changed, const PictureMap& map);
+Frame mappedBack(const Frame& changed, const PixelMap& map);
 
 // `changed`: mapped back.
 FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance);
@@ -119,7 +119,7 @@ private:
     void draw(Drawn& drawn, const Case& of, std::span<const Settings> settings, bool reference);
     // Change of lit by the G-buffer's encoding, as forward+ shades it, W x H x 1: a case's, mapped back; or
     // the sum of both cases.
-    Image packedLight(const Case& of, const PictureMap& map);
+    Image packedLight(const Case& of, const PixelMap& map);
     Image packedLight(const Related& related);
     RelationTolerance toleranceOf(const Relation& relation, const Related& related,
                                   const Settings& settings) const;

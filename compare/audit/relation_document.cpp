@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/report.h"
 #include "compare/files/listed_folder.h"
+#include "compare/image/channel_image.h"
 #include "compare/metrics/channel.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
-#include "compare/picture/picture.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/png.h"
@@ -65,12 +65,12 @@ std::string summaryOf(const RelationResult& of, const ReportDevice& device) {
     return (worst.comparison.used() > 0 ? worst.series.words() + ": " : "") + worstInWords(worst);
 }
 
-output::Box picturesOf(const RelationResult& of, const SeriesResult& series) {
+output::Box imagesOf(const RelationResult& of, const SeriesResult& series) {
     output::Box box{"related", {}};
     for (const auto& [shown, words] :
          {std::pair{"given", "original"}, {"changed", "changed"}, {"used", "error / allowed"}})
-        box.blocks.emplace_back(output::Picture{pictureName(*of.relation, series.series, shown), words,
-                                                fmt::format("{}, {}", words, series.series.words())});
+        box.blocks.emplace_back(output::ImageBlock{imageName(*of.relation, series.series, shown), words,
+                                                   fmt::format("{}, {}", words, series.series.words())});
     return box;
 }
 
@@ -125,20 +125,20 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
 // lit with the original image's exposure.
 Image8 shownLit(const Frame& frame, const Frame& given) {
     const DebugMode& mode = debugMode(Channel::lit);
-    PictureScale scale;
+    ImageScale scale;
     scale.exposure = exposureFor({}, &given.channels.at(mode.channel), coverage(given, given));
-    return channelPicture(mode, frame, scale);
+    return channelImage(mode, frame, scale);
 }
 
-void putPictures(ListedFolder& folder, const Relation& relation, const SeriesResult& of) {
-    const auto put = [&](const char* shown, const Image8& picture) {
-        const std::string file = pictureName(relation, of.series, shown);
+void putImages(ListedFolder& folder, const Relation& relation, const SeriesResult& of) {
+    const auto put = [&](const char* shown, const Image8& image) {
+        const std::string file = imageName(relation, of.series, shown);
         folder.list(file);
-        writePng(folder / file, picture);
+        writePng(folder / file, image);
     };
     put("given", shownLit(*of.given, *of.given));
     put("changed", shownLit(*of.changed, *of.given));
-    put("used", errorPicture(of.comparison.used_by_pixel, 1));
+    put("used", errorMap(of.comparison.used_by_pixel, 1));
 }
 
 }  // namespace
@@ -198,7 +198,7 @@ std::vector<Block> blocksOf(const RelationResult& of, const ReportDevice& device
                                 debugMode(channel.mode).name, counted(channel.beyond, "pixel"), channel.x,
                                 channel.y, number(channel.error), number(channel.allowed)));
         blocks.emplace_back(list);
-        if (series.changed) blocks.emplace_back(picturesOf(of, series));
+        if (series.changed) blocks.emplace_back(imagesOf(of, series));
     }
     return blocks;
 }
@@ -213,7 +213,7 @@ std::vector<Block> closingOf(const RelationAudit& audit) {
                                   count("broken"), count("does not apply"))}};
 }
 
-std::string pictureName(const Relation& relation, const Series& series, std::string_view shown) {
+std::string imageName(const Relation& relation, const Series& series, std::string_view shown) {
     std::string stem = fmt::format("{}-{}", relation.name, nameOf(series.path));
     for (const Change& change : series.changes)
         if (change.option == "gbuffer") stem += fmt::format("-{}", change.value);
@@ -224,7 +224,7 @@ std::string writeRelations(const RelationAudit& audit, const std::filesystem::pa
     ListedFolder folder(path, relationsManifest, force);
     for (const RelationResult& of : audit.relations)
         for (const SeriesResult& series : of.series)
-            if (series.changed) putPictures(folder, *of.relation, series);
+            if (series.changed) putImages(folder, *of.relation, series);
     folder.put("index.html", relationsHtml(audit, folder.files()));
     return folder.finish(toJson(audit));
 }

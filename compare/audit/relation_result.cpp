@@ -339,7 +339,7 @@ void divide(Image& image, double by) {
     for (float& value : image.data) value = static_cast<float>(value / by);
 }
 
-Image cut(const Image& image, const PictureMap& map) {
+Image cut(const Image& image, const PixelMap& map) {
     Image part(image.width - 2 * map.border, image.height - 2 * map.border, image.components);
     for (int y = 0; y < part.height; ++y)
         for (int x = 0; x < part.width; ++x) {
@@ -380,7 +380,7 @@ const ChannelResult* FrameResult::worst() const {
     return found == channels.end() || found->x < 0 ? nullptr : &*found;
 }
 
-Frame mappedBack(const Frame& changed, const PictureMap& map) {
+Frame mappedBack(const Frame& changed, const PixelMap& map) {
     Frame back;
     back.settings = changed.settings;
     back.settings.size.width -= 2 * map.border;

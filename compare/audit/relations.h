@@ -16,7 +16,7 @@
 namespace diptych::audit {
 
 // Maps pixels of the changed image to the original one, and their values.
-struct PictureMap {
+struct PixelMap {
     int border = 0;         // pixels on each side that only the changed image has
     bool mirrored = false;  // left and right are swapped, after removing the border
     double light = 1;       // factor of radiance
@@ -28,7 +28,7 @@ struct PictureMap {
 // The two cases of a relation; both are the original one until it changes them.
 struct Related {
     Case base, changed;
-    PictureMap map{};
+    PixelMap map{};
     bool own_base = false;  // the base differs from the original case
 };
 

@@ -69,7 +69,7 @@ std::string_view verdictOf(const SeriesResult& result);
 // Likely cause; empty if nothing is broken.
 std::string blameInWords(const RelationResult& result, const ReportDevice& device);
 
-// One relation: its name, verdict and worst pixel; if it is broken, every series with pictures.
+// One relation: its name, verdict and worst pixel; if it is broken, every series with images.
 std::vector<output::Block> blocksOf(const RelationResult& result, const ReportDevice& device);
 // Numbers of relations that hold, are broken and do not apply.
 std::vector<output::Block> closingOf(const RelationAudit& audit);
@@ -81,6 +81,6 @@ nlohmann::ordered_json toJson(const RelationAudit& audit);
 std::string writeRelations(const RelationAudit& audit, const std::filesystem::path& folder, bool force);
 
 // An image file of a broken series; `shown`: given, changed or used: "moved-deferred-full-given.png".
-std::string pictureName(const Relation& relation, const Series& series, std::string_view shown);
+std::string imageName(const Relation& relation, const Series& series, std::string_view shown);
 
 }  // namespace diptych::audit

@@ -13,7 +13,7 @@ std::string lacksLists(const Subject& subject) {
     return subject.given.settings.assign == Assignment::every ? "--assign every has no lists" : "";
 }
 
-// Draws the two pictures with these values of an option.
+// Draws the two images with these values of an option.
 void compareValues(Related& related, const char* option, const char* base, const char* changed) {
     related.own_base = true;
     related.base.settings.set(option, base);

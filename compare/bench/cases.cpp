@@ -385,7 +385,7 @@ std::string modeName(const Settings& settings, const ModeParts& parts) {
     return fmt::format("{}, {}{}", nameOf(settings.path), nameOf(settings.assign), ending(parts));
 }
 
-bool drawsAnotherPicture(Assignment assign) {
+bool drawsAnotherImage(Assignment assign) {
     return assign == Assignment::per_object;
 }
 
@@ -394,7 +394,7 @@ std::string BenchRow::name() const {
 }
 
 std::string BenchRow::assignLabel() const {
-    return fmt::format("{}{}{}", nameOf(settings.assign), drawsAnotherPicture(settings.assign) ? " *" : "",
+    return fmt::format("{}{}{}", nameOf(settings.assign), drawsAnotherImage(settings.assign) ? " *" : "",
                        ending(parts));
 }
 

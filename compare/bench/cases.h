@@ -30,7 +30,7 @@ struct GrowthPoint {
     double value;
 };
 
-// A material's layer and the share of the picture that it covers: --table layers.
+// A material's layer and the share of the image that it covers: --table layers.
 struct Cover {
     std::string_view kind;  // parameter of builtin:covered; empty: no layer
     int percent = 0;
@@ -91,7 +91,7 @@ struct BenchRow : experiment::Row {
     std::vector<PassRegisters> registers{};  // --compile-on
 
     std::string name() const;         // "forward_plus, clustered, list, 4 samples"
-    std::string assignLabel() const;  // without the path; with a star if it draws another picture
+    std::string assignLabel() const;  // without the path; with a star if it draws another image
     std::string label() const;        // name() with the star
     std::string point() const;        // "1e+06 triangles", "5 % coated"; empty: --table modes or msaa
     std::string lightsInWords() const;
@@ -118,7 +118,7 @@ std::string modeName(const Settings& settings, const ModeParts& parts);
 // Parts of the Settings that the options vary.
 ModeParts partsOf(const BenchOptions& options, const Settings& settings);
 // Whether the assignment evaluates only some lights per pixel, so that its image differs.
-bool drawsAnotherPicture(Assignment assign);
+bool drawsAnotherImage(Assignment assign);
 // "forward_plus, every, 640x360, 1024 lights"
 std::string skipName(const BenchRow& skip);
 

@@ -58,7 +58,7 @@ std::vector<Conclusion> conclusionsOf(const Bench& bench) {
     if (bench.options.table == BenchTable::growth || bench.options.table == BenchTable::layers) return {};
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)
-        if (!drawsAnotherPicture(row.settings.assign)) left.push_back(&row);
+        if (!drawsAnotherImage(row.settings.assign)) left.push_back(&row);
     std::vector<Conclusion> conclusions;
     while (!left.empty()) {
         std::vector<const BenchRow*> group;

@@ -60,7 +60,7 @@ double memoryMib(const BenchRow& row);
 std::vector<std::string> growthInWords(const Bench& bench);
 
 // --table layers: time, memory and registers of three ways to draw layered materials, by the share of the
-// picture that they cover and by lights.
+// image that they cover and by lights.
 struct LayerWay {
     bool has_gbuffer;
     Layers layers;  // with a G-buffer
@@ -91,7 +91,7 @@ std::vector<std::string> layersInWords(const Bench& bench);
 
 std::vector<output::Block> layerBlocks(const Bench& bench);
 
-// Bytes per pixel of all images that have the picture's size.
+// Bytes per pixel of all full-size images.
 std::uint64_t imageBytesPerPixel(const BenchRow& row);
 
 // --table msaa: time and memory by samples per pixel, forward+ with and without transparency, and deferred.
@@ -116,7 +116,7 @@ std::vector<SampleTable> sampleTables(const Bench& bench);
 
 // Bytes per sample of depth and, for deferred, the G-buffer.
 std::uint64_t bytesPerSample(const BenchRow& row);
-// Images of the picture's size.
+// full-size images.
 double imageMib(const BenchRow& row);
 
 // One sentence per path: bytes per sample, and the totals at 1920x1080.

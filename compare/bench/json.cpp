@@ -22,7 +22,7 @@ Json rowJson(const BenchRow& row) {
                  {"assign", nameOf(row.settings.assign)},
                  {"transparency", nameOf(row.settings.transparency)},
                  {"lighting", nameOf(row.settings.lighting)},
-                 {"same_picture", !drawsAnotherPicture(row.settings.assign)},
+                 {"same_picture", !drawsAnotherImage(row.settings.assign)},
                  {"size", jsonOf(row.settings.size)},
                  {"light_count", orNull(row.requested_lights)},
                  {"assign_ms", passMs(row, "assign")},

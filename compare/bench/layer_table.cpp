@@ -133,7 +133,7 @@ std::vector<std::string> LayerRow::fastestNames() const {
 
 std::uint64_t imageBytesPerPixel(const BenchRow& row) {
     const Size& size = row.settings.size;
-    return row.whole(Measure::picture_bytes) /
+    return row.whole(Measure::full_size_bytes) /
            (static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height));
 }
 

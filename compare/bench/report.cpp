@@ -113,7 +113,7 @@ std::vector<Block> remarks(const Bench& bench) {
     }
     for (const std::string& words : commonNotes(bench)) notes.items.emplace_back(words);
     if (std::ranges::any_of(bench.rows,
-                            [](const BenchRow& row) { return drawsAnotherPicture(row.settings.assign); }))
+                            [](const BenchRow& row) { return drawsAnotherImage(row.settings.assign); }))
         notes.items.emplace_back(starMeans);
     if (!notes.items.empty()) blocks.insert(blocks.end(), {Heading{2, "Notes"}, notes});
     return blocks;

@@ -50,7 +50,7 @@ std::uint64_t bytesPerSample(const BenchRow& row) {
 }
 
 double imageMib(const BenchRow& row) {
-    return mebibytes(row.whole(Measure::picture_bytes));
+    return mebibytes(row.whole(Measure::full_size_bytes));
 }
 
 std::vector<std::string> memoryInWords(const SampleTable& table) {

@@ -173,7 +173,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     const experiment::ReferenceFrames& references =
         references_
             .insert_or_assign(where, experiment::drawReferenceFrames(loaded.renderer, truth, cameras,
-                                                                     question_.picture, drawing, false))
+                                                                     question_.image, drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
     experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
@@ -244,7 +244,7 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
     RenderOptions drawing = question_.drawing;
     drawing.progress = {};
     const experiment::ReferenceFrames references =
-        experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.picture, drawing, false);
+        experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.image, drawing, false);
     experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.figure, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = evaluator.judge(chosen.settings)[question_.budget.figure];

@@ -25,7 +25,7 @@ struct Question {
     Budget budget;
     bool explain = false;  // also report scene properties that decide between the paths
     RenderOptions drawing;
-    PictureChoice picture;
+    ImageChoice image;
 };
 
 // An error measure. Throws std::runtime_error if --figure names none.

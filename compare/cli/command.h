@@ -36,7 +36,7 @@ Command makeCommand(Command words, auto describe, auto resolve, auto run) {
     words.describe = [line, describe](CLI::App& app) { describe(app, *line); };
     words.resolve = [line, resolve] { resolve(*line); };
     words.run = [line, run] {
-        if constexpr (std::is_base_of_v<PictureGroup, Line>)
+        if constexpr (std::is_base_of_v<ImageGroup, Line>)
             if (line->list_channels) return listChannels(line->json);
         return run(std::as_const(*line));
     };

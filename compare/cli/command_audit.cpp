@@ -63,7 +63,7 @@ void describeAudit(CLI::App& app, AuditLine& options) {
     app.get_option("--size")->description("picture size, WxH (160x90)");
     app.get_option("--shadows")->description("shadow technique (off, except for shadow quantities)");
     acceptUnread(app, {"--path", "--runs"});
-    acceptUnread(app, picture_group);
+    acceptUnread(app, image_group);
 }
 
 void resolveAudit(AuditLine& options) {

@@ -52,7 +52,7 @@ void describeBench(CLI::App& app, BenchLine& options) {
                  "--table layers: also the registers of shading, from this device's compiler", "Benchmark");
     addOutput(app, options);
     acceptUnread(app, {"--kernels"});
-    acceptUnread(app, picture_group);
+    acceptUnread(app, image_group);
 }
 
 void resolveBench(BenchLine& options) {

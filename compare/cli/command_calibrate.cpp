@@ -36,10 +36,10 @@ external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const exter
     external::Attempt attempt =
         external::drawExternally(renderer, scene, views.at(viewRequest(settings)), settings);
     if (attempt.frame && attempt.frame->channels.contains(Channel::lit))
-        shown.picture = std::move(attempt.frame->channels.at(Channel::lit));
+        shown.image = std::move(attempt.frame->channels.at(Channel::lit));
     else
         shown.problem = attempt.frame ? "its picture has no R, G, B" : attempt.problem;
-    if (lamp == external::Lamp::none && shown.picture.empty())
+    if (lamp == external::Lamp::none && shown.image.empty())
         refuse("renderer {}: {}", renderer.file.string(), shown.problem);
     return shown;
 }
@@ -50,14 +50,14 @@ int runCalibrate(const CalibrateLine& options) {
     Progress progress(progressOutput(options));
     const Stage stage(progress, "calibrate");
     const Scene charts = loadScene("builtin:calibration");
-    std::vector<external::Shown> pictures;
+    std::vector<external::Shown> images;
     for (const external::Lamp lamp : external::lamps) {
         const double done =
-            static_cast<double>(pictures.size()) / static_cast<double>(std::size(external::lamps));
+            static_cast<double>(images.size()) / static_cast<double>(std::size(external::lamps));
         stage.at(done, fmt::format("charts under {}", external::nameOf(lamp)));
-        pictures.push_back(shownUnder(charts, lamp, renderer));
+        images.push_back(shownUnder(charts, lamp, renderer));
     }
-    const std::vector<external::Deviation> deviations = external::deviationsOf(charts, pictures);
+    const std::vector<external::Deviation> deviations = external::deviationsOf(charts, images);
     progress.wipe();
     printResult(options, jsonText(external::toJson(renderer, deviations)) + "\n",
                 external::inWords(renderer, deviations));

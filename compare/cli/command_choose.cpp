@@ -50,7 +50,7 @@ void describeChoose(CLI::App& app, ChooseLine& options) {
                  "samples, materials, triangles and size, and the value at which each would reverse the "
                  "choice; renders a few hundred more frames");
     acceptUnread(app, {"--path", "--runs"});
-    acceptUnread(app, picture_group);
+    acceptUnread(app, image_group);
 }
 
 // Parses "64MiB". Empty for an empty word.
@@ -100,11 +100,10 @@ void checkChooseOptions(const ChooseLine& options) {
 }
 
 Question questionOf(const ChooseLine& options) {
-    return {
-        options.settings,      options.camera_given ? options.cameras : std::vector<std::string>(),
-        options.grid,          {figureNamed(options.figure_word), options.error, options.ms, options.bytes},
-        options.explain,       renderOptions(options),
-        pictureChoice(options)};
+    return {options.settings,    options.camera_given ? options.cameras : std::vector<std::string>(),
+            options.grid,        {figureNamed(options.figure_word), options.error, options.ms, options.bytes},
+            options.explain,     renderOptions(options),
+            imageChoice(options)};
 }
 
 int runChoose(const ChooseLine& options) {

@@ -12,7 +12,7 @@
 #include "compare/verdict/baseline.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +81,7 @@ void checkAgainstDevice(const CompareLine& options, const std::vector<Settings>&
 }
 
 // A baseline file is an image of one scene, camera and time.
-void checkOnePicture(const CompareLine& options, const std::vector<Settings>& settings) {
+void checkOneImage(const CompareLine& options, const std::vector<Settings>& settings) {
     if (options.scenes.size() != 1 || settings.size() != 2)
         refuse("--baseline {}: a file holds one view; give one scene, one camera{}",
                options.baseline_file.string(), options.times.size() > 1 ? " and one time" : "");
@@ -106,14 +106,14 @@ void noteUnused(const CompareLine& options) {
 // The file of --baseline; empty without one, or if this command writes the first.
 std::optional<Frame> readBaseline(const CompareLine& options, const std::vector<Settings>& settings) {
     if (options.baseline_file.empty()) return {};
-    checkOnePicture(options, settings);
+    checkOneImage(options, settings);
     if (options.update_baseline && !std::filesystem::exists(options.baseline_file)) return {};
     return frameFromExr(options.baseline_file);
 }
 
 int compareOneScene(const CompareLine& options, const std::vector<Settings>& settings,
                     std::optional<Frame> baseline, const std::filesystem::path& folder) {
-    const PictureChoice picture = pictureChoice(options);
+    const ImageChoice image = imageChoice(options);
     CompareOptions compare = compareOptions(options);
     const experiment::Compared compared = comparedOf(options);
     Progress progress(progressOutput(options));
@@ -154,7 +154,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     for (const Comparison& comparison : report.comparisons) rows.push_back(indexRowOf(report, comparison));
     const auto since = sinceOf(options, report, rows);
     const std::string json = writeReport(report, folder,
-                                         {picture, options.single_file, options.keep, options.force,
+                                         {image, options.single_file, options.keep, options.force,
                                           stage.part(explained, 1), std::nullopt, since});
     kept.remove();
     progress.wipe();
@@ -162,7 +162,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     printResult(
         options, json,
         fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report), sinceText(since.get(), report),
-                    exposureLine(report, picture), (folder / "index.html").string()));
+                    exposureLine(report, image), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
     sayErrors(report.errors);
     // The new baseline replaces the old one, so only the last comparison counts.
@@ -197,7 +197,7 @@ experiment::Compared comparedOf(const CompareLine& options) {
 }
 
 ExplanationQuestion explanationOf(const CompareLine& options) {
-    return {options.explain, options.settings, options.sides, renderOptions(options), options.picture};
+    return {options.explain, options.settings, options.sides, renderOptions(options), options.image};
 }
 
 bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>& baseline) {
@@ -246,7 +246,7 @@ void resolveCompare(CompareLine& options) {
                                       {{{"all", Twice::all}, {"lit", Twice::lit}, {"none", Twice::none}}});
     resolveBaseline(options);
     if (options.update_baseline &&
-        (options.baseline_file.empty() || !pictureName(options.baseline_file).part.empty()))
+        (options.baseline_file.empty() || !imageName(options.baseline_file).part.empty()))
         refuse("--update-baseline: needs --baseline FILE.exr (without ?part=), the file to replace");
     resolveRenderers(options);
     if (options.pixel_word) options.pixel = pixelOf(*options.pixel_word);

@@ -22,7 +22,7 @@ struct DevicesLine : SceneGroup {
 
 void describeDevices(CLI::App& app, DevicesLine& options) {
     addSettings(app, options);
-    addPicture(app, options);
+    addImage(app, options);
     addDevice(app, options);
     app.add_flag("--probe", options.probe,
                  "run the shaders' functions on millions of inputs and compare them with double precision, "
@@ -30,7 +30,7 @@ void describeDevices(CLI::App& app, DevicesLine& options) {
     addFiles(app, options, "not accepted: devices writes no file; use --json");
     addOutput(app, options);
     acceptUnread(app, {"--out", "--force"});
-    for (const char* unread : {pixel_group, picture_group}) acceptUnread(app, unread);
+    for (const char* unread : {pixel_group, image_group}) acceptUnread(app, unread);
 }
 
 using ProbeResults = std::map<int, std::vector<probe::Result>>;  // key: device index

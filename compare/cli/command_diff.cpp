@@ -5,9 +5,9 @@
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
 #include "compare/cli/verdict_words.h"
-#include "compare/files/picture_folders.h"
-#include "compare/report/picture_diff_json.h"
-#include "compare/report/picture_diff_report.h"
+#include "compare/files/image_folders.h"
+#include "compare/report/image_diff_json.h"
+#include "compare/report/image_diff_report.h"
 #include "shared/text/counted.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace diptych::cli {
 namespace {
 
 void describeDiff(CLI::App& app, DiffLine& options) {
-    PictureDiffOptions& diff = options.diff;
-    addOption(app, "images", options.pictures, "A B", "reference and test image")->expected(2)->required();
+    ImageDiffOptions& diff = options.diff;
+    addOption(app, "images", options.images, "A B", "reference and test image")->expected(2)->required();
     app.option_defaults()->group(selection_group);
     addOption(app, "--metric", options.metric_word, "NAME",
               "metric for the verdict: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)");
@@ -60,8 +60,8 @@ void describeDiff(CLI::App& app, DiffLine& options) {
 }
 
 void resolveDiff(DiffLine& options) {
-    PictureDiffOptions& diff = options.diff;
-    refuseLineBreaks(options.pictures);
+    ImageDiffOptions& diff = options.diff;
+    refuseLineBreaks(options.images);
     resolveKeep(options);
     resolveSelection(options);
     diff.selection = options.selection;
@@ -94,25 +94,25 @@ double outputBytes(const std::optional<Output>& output) {
 }
 
 // Compares all images whose names exist in both folders.
-void diffFolders(FolderDiff& diff, PictureDiffOptions settings, const Stage& stage) {
+void diffFolders(FolderDiff& diff, ImageDiffOptions settings, const Stage& stage) {
     namespace fs = std::filesystem;
     const fs::path left = diff.reference, right = diff.test;
-    PictureFolders folders = pictureFolders(left, right);
+    ImageFolders folders = imageFolders(left, right);
     const auto all = static_cast<double>(folders.both.size());
     for (std::size_t i = 0; i < folders.both.size(); ++i) {
         const std::string& name = folders.both[i];
         const auto done = static_cast<double>(i);
         settings.progress = stage.part(measuring * done / all, measuring * (done + 1) / all).about(name);
         try {
-            diff.pictures.push_back(diffPictures((left / name).string(), (right / name).string(), settings));
-            diff.pictures.back().name = name;
+            diff.images.push_back(diffImages((left / name).string(), (right / name).string(), settings));
+            diff.images.back().name = name;
         } catch (const std::system_error&) {
             throw;  // errors of this machine, such as a full disk, end the command
         } catch (const std::runtime_error& error) {
             diff.errors.push_back({name, error.what()});
         }
     }
-    if (diff.pictures.empty())
+    if (diff.images.empty())
         refuse("none of {} can be compared; the first: {}", counted(folders.both.size(), "image"),
                diff.errors.front().message);
     diff.reference_alone = std::move(folders.reference_alone);
@@ -123,37 +123,37 @@ int runDiff(const DiffLine& options) {
     const std::optional<Output> output =
         options.out.empty() ? std::nullopt : std::optional(outputOf(options.out));
     if (output) checkReplaceable(*output, "report.json", options.force);
-    PictureDiffOptions settings = options.diff;
+    ImageDiffOptions settings = options.diff;
     settings.output_bytes = outputBytes(output);
     if (!options.tolerances.empty()) settings.rules = readRules(options.tolerances);
-    const bool folders = std::ranges::all_of(options.pictures, [](const std::string& name) {
-        std::error_code ignored;  // diffPictures() reports unreadable files
+    const bool folders = std::ranges::all_of(options.images, [](const std::string& name) {
+        std::error_code ignored;  // diffImages() reports unreadable files
         return std::filesystem::is_directory(name, ignored);
     });
     const bool asReport = output && output->kind == OutputKind::folder;
     if (folders && output && !asReport)
         refuse("-o {}: comparing two folders writes a report folder; give a name without an extension",
                output->path.string());
-    FolderDiff diff{options.pictures.at(0), options.pictures.at(1), {}, {}, {}, {}};
+    FolderDiff diff{options.images.at(0), options.images.at(1), {}, {}, {}, {}};
     Progress progress(progressOutput(options));
     const Stage stage(progress, diff.test);
     if (folders) {
         diffFolders(diff, std::move(settings), stage);
     } else {
         settings.progress = stage.part(0, measuring);
-        diff.pictures.push_back(diffPictures(diff.reference, diff.test, settings));
+        diff.images.push_back(diffImages(diff.reference, diff.test, settings));
         stage.at(measuring, "write");
     }
-    const std::string text = !options.json ? diffTable(diff.pictures, diff.errors, diff.failures())
+    const std::string text = !options.json ? diffTable(diff.images, diff.errors, diff.failures())
                              : folders     ? folderDiffJson(diff)
-                                           : pictureDiffJson(diff.pictures.front());
+                                           : imageDiffJson(diff.images.front());
     const bool passed = diff.passed();
     if (asReport)
-        writeDiffs(diff.pictures, output->path,
+        writeDiffs(diff.images, output->path,
                    {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
                    wordsOfWhatCounts(options), diff.errors, diff.failures());
     else if (output)
-        writeDiffErrors(diff.pictures.front(), *output);
+        writeDiffErrors(diff.images.front(), *output);
     progress.wipe();
     printResult(options, text, text);
     sayErrors(diff.errors);
@@ -163,7 +163,7 @@ int runDiff(const DiffLine& options) {
 }  // namespace
 
 std::vector<std::string> wordsOfWhatCounts(const DiffLine& options) {
-    const PictureDiffOptions &diff = options.diff, defaults;
+    const ImageDiffOptions &diff = options.diff, defaults;
     WordList words;
     words.add("--tolerances", options.tolerances.string());
     words.add("--metric", diff.metric, defaults.metric);

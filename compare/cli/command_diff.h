@@ -3,13 +3,13 @@
 #pragma once
 
 #include "compare/cli/option_groups.h"
-#include "compare/verdict/picture_diff.h"
+#include "compare/verdict/image_diff.h"
 
 namespace diptych::cli {
 
 struct DiffLine : OutputGroup, SelectionGroup, RulesGroup, KeepGroup {
-    std::vector<std::string> pictures;  // reference and test
-    PictureDiffOptions diff;            // all but the rules
+    std::vector<std::string> images;  // reference and test
+    ImageDiffOptions diff;            // all but the rules
     std::string metric_word;
     std::optional<double> tolerance_given;
 };

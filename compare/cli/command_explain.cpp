@@ -7,7 +7,7 @@
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
 #include "compare/explain/explanations.h"
-#include "compare/explain/pictures.h"
+#include "compare/explain/images.h"
 #include "compare/explain/write.h"
 #include "compare/external/external_frame.h"
 #include "compare/files/frame_exr.h"
@@ -15,7 +15,7 @@
 #include "compare/run/command_text.h"
 #include "compare/run/print.h"
 #include "compare/run/still_working.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>
@@ -89,13 +89,13 @@ Settings testOf(const ExplainLine& options, const Settings& baseline, std::strin
 }
 
 // Prints the explanation, and writes it if -o is given.
-void leave(const ExplainLine& options, const PictureChoice& picture, const Explanation& explanation,
-           const ExplainedPictures& of, const Frame& baseline, const Frame& test) {
+void leave(const ExplainLine& options, const ImageChoice& image, const Explanation& explanation,
+           const ExplainedImages& of, const Frame& baseline, const Frame& test) {
     std::string json;
     if (!options.out.empty())
-        json = writeExplanation(
-            explanation, of, {litPicture(baseline, baseline, picture), litPicture(test, baseline, picture)},
-            options.out, options.force);
+        json = writeExplanation(explanation, of,
+                                {litImage(baseline, baseline, image), litImage(test, baseline, image)},
+                                options.out, options.force);
     wipeProgress();
     if (options.json) {
         printOut("{}", json.empty() ? jsonText(toJson(explanation, of)) + "\n" : json);
@@ -139,7 +139,7 @@ Settings checkedBaseline(const ExplainLine& options) {
 }
 
 void addCommands(const ExplainLine& options, const Settings& baseline, const Settings& test,
-                 ExplainedPictures& of) {
+                 ExplainedImages& of) {
     const bool external = !options.renderers.empty(), across = !options.against_device.empty();
     std::vector<std::string> again =
         withWords(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
@@ -159,13 +159,13 @@ void addCommands(const ExplainLine& options, const Settings& baseline, const Set
 
 int explainScene(const ExplainLine& options) {
     const Settings baseline = checkedBaseline(options);
-    ExplainedPictures of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
+    ExplainedImages of{options.scenes.front(), std::string(nameOf(options.baseline)), ""};
     const bool external = !options.renderers.empty();
     const Settings test =
         external || !options.against_device.empty() ? baseline : testOf(options, baseline, of.test);
     if (external) of.test = options.renderers.front().name;
     addCommands(options, baseline, test, of);
-    const PictureChoice picture = pictureChoice(options);
+    const ImageChoice image = imageChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, of.scene);
     const Scene scene = loadShown(of.scene, options.settings, stage.part(0, 0.1));
@@ -200,17 +200,17 @@ int explainScene(const ExplainLine& options) {
         checkValidation(*other);
     }
     checkValidation(device);
-    leave(options, picture, explanation, of, a, b);
+    leave(options, image, explanation, of, a, b);
     return 0;
 }
 
 bool isExr(const std::string& name) {
-    const auto ending = pictureName(name).file.extension();
+    const auto ending = imageName(name).file.extension();
     return ending == ".exr" || ending == ".EXR";
 }
 
 // Reads an EXR. Settings that it does not declare come from the command line.
-Frame readPicture(const ExplainLine& options, const std::string& file) {
+Frame readImage(const ExplainLine& options, const std::string& file) {
     Frame frame = frameFromExr(file);
     frame.name = file;
     if (frame.scene.empty()) {
@@ -233,7 +233,7 @@ Frame readPicture(const ExplainLine& options, const std::string& file) {
 int explainFiles(const ExplainLine& options) {
     Progress progress(progressOutput(options));
     std::optional<StillWorking> working(std::in_place, Stage(progress, options.scenes[1]).part(0, 0), "read");
-    const Frame a = readPicture(options, options.scenes[0]), b = readPicture(options, options.scenes[1]);
+    const Frame a = readImage(options, options.scenes[0]), b = readImage(options, options.scenes[1]);
     working.reset();
     if (options.scene_file.empty() && !a.scene.empty() && !b.scene.empty() && a.scene != b.scene)
         refuse(
@@ -254,13 +254,13 @@ int explainFiles(const ExplainLine& options) {
                options.scenes[1]);
     std::vector<std::string> words{"explain", options.scenes[0], options.scenes[1]};
     if (!options.scene_file.empty()) words = withOption(std::move(words), "--scene", options.scene_file);
-    ExplainedPictures of{
+    ExplainedImages of{
         where,
         options.scenes[0],
         options.scenes[1],
         {{"Explain it again", shellLine(words)},
          {"Every channel of both", shellLine({"diff", options.scenes[0], options.scenes[1]})}}};
-    const PictureChoice picture = pictureChoice(options);
+    const ImageChoice image = imageChoice(options);
     const Stage stage(progress, where);
     const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
     Device device(deviceOptions(options));
@@ -270,7 +270,7 @@ int explainFiles(const ExplainLine& options) {
     Renderer renderer(device, views);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.3, 1));
     checkValidation(device);
-    leave(options, picture, explanation, of, a, b);
+    leave(options, image, explanation, of, a, b);
     return 0;
 }
 

@@ -49,7 +49,7 @@ public:
           made_(made),
           output_(outputIn(options)),
           shown_(shownChannels(options)),
-          picture_(pictureChoice(options)),
+          image_(imageChoice(options)),
           result_(resultOf(made)) {
         // Fail before rendering if an output cannot be replaced.
         if (output_.kind == OutputKind::folder) {
@@ -74,11 +74,11 @@ public:
         } else {
             const std::vector<fs::path> files = filesOf(number);
             const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
-            writeFrame(frame, made_, {output_.kind, file}, shown_, picture_);
+            writeFrame(frame, made_, {output_.kind, file}, shown_, image_);
             entry["file"] = file.string();
             if (output_.kind == OutputKind::png)
                 for (const fs::path& of : files) entry["files"].push_back(of.string());
-            place = files.size() == 1 ? file : file.parent_path() / pictureNames(files);
+            place = files.size() == 1 ? file : file.parent_path() / imageNames(files);
         }
         if (!options_.json && !options_.quiet) print(frame, place, number);
     }
@@ -99,16 +99,16 @@ private:
     // Files of one image. Only for outputs that are not folders.
     std::vector<fs::path> filesOf(int number) const {
         const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
-        return output_.kind == OutputKind::png ? pictureFiles(file, shown_) : std::vector{file};
+        return output_.kind == OutputKind::png ? imageFiles(file, shown_) : std::vector{file};
     }
 
     // The first image sets the exposure of all; automatic exposure per image would flicker.
     void chooseExposure(const Frame& first) {
-        exposure_line_ = exposureLine(first, picture_);
-        if (picture_.exposure || picture_.ev100) return;
+        exposure_line_ = exposureLine(first, image_);
+        if (image_.exposure || image_.ev100) return;
         const Image* const lit = findChannel(first, Channel::lit);
         if (output_.kind == OutputKind::exr || !lit) return;
-        picture_.exposure = exposureFor(picture_, lit, coverage(first, first)).factor;
+        image_.exposure = exposureFor(image_, lit, coverage(first, first)).factor;
         exposure_line_ += "; chosen from the first image, used for all";
     }
 
@@ -116,11 +116,11 @@ private:
     fs::path writeInFolder(const Frame& frame, int number, Json& entry) {
         const std::string ending = numberOf(number, options_.frames);
         const std::string exr = fmt::format("{}.{}.exr", frame.name, ending);
-        writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, shown_, picture_);
+        writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, shown_, image_);
         files_.push_back(exr);
         for (const DebugMode* mode : shown_) {
             files_.push_back(fmt::format("{}.{}.png", mode->name, ending));
-            writeFrame(frame, made_, {OutputKind::png, *folder_ / files_.back()}, {mode}, picture_);
+            writeFrame(frame, made_, {OutputKind::png, *folder_ / files_.back()}, {mode}, image_);
         }
         entry["file"] = (output_.path / exr).string();
         return output_.path / exr;
@@ -141,7 +141,7 @@ private:
     const ReportDevice made_;
     const Output output_;
     const ShownChannels shown_;
-    PictureChoice picture_;
+    ImageChoice image_;
     Json result_;
     std::optional<OutputFolder> folder_;
     std::vector<std::string> files_;  // within folder_

@@ -31,7 +31,7 @@ void describePlan(CLI::App& app, PlanLine& options) {
                  "compile each pipeline for this device and print the compiler's statistics", "Plan");
     addOutput(app, options);
     acceptUnread(app, {"--out", "--force", "--runs"});
-    acceptUnread(app, picture_group);
+    acceptUnread(app, image_group);
 }
 
 int runPlan(const PlanLine& options) {

@@ -71,18 +71,18 @@ std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings
 }
 
 // Writes the output atomically. Returns the location of each Frame.
-std::vector<std::filesystem::path> writeAll(const RenderLine& options, const PictureChoice& picture,
+std::vector<std::filesystem::path> writeAll(const RenderLine& options, const ImageChoice& image,
                                             const std::vector<Frame>& frames, Json& result,
                                             const ReportDevice& device, const Stage& progress) {
     const Output output = outputIn(options);
     const ShownChannels shown = shownChannels(options);
     if (output.kind != OutputKind::folder) {
         progress.at(0, "write");
-        writeFrame(frames.front(), device, output, shown, picture);
+        writeFrame(frames.front(), device, output, shown, image);
         if (output.kind != OutputKind::png) return {output.path};
-        const std::vector<std::filesystem::path> files = pictureFiles(output.path, shown);
+        const std::vector<std::filesystem::path> files = imageFiles(output.path, shown);
         for (const std::filesystem::path& file : files) result["frames"][0]["files"].push_back(file.string());
-        return {files.size() == 1 ? output.path : output.path.parent_path() / pictureNames(files)};
+        return {files.size() == 1 ? output.path : output.path.parent_path() / imageNames(files)};
     }
     const auto earlier = [&] { return earlierIn(output, frames.size(), options.force); };
     OutputFolder folder(output.path);
@@ -92,7 +92,7 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Pic
         progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
         const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
         if (!inner.empty()) folder.makeFolders({inner + "/lit.exr"});
-        for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, picture))
+        for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, image))
             files.push_back(inner.empty() ? name : inner + "/" + name);
         places.push_back(inner.empty() ? output.path : output.path / inner);
         result["frames"][i]["file"] = places.back().string();
@@ -111,14 +111,14 @@ int runRender(const RenderLine& options) {
     const std::vector<Settings> settings = settingsOf(options, {options.settings.path});
     checkChannels(options);
     noteIgnored(options);
-    const PictureChoice picture = pictureChoice(options);
+    const ImageChoice image = imageChoice(options);
     const Output output = outputIn(options);
     const std::size_t count = settings.size() * options.scenes.size();
     if (count > 1 && output.kind != OutputKind::folder)
         refuse("-o {}: a file holds one Frame, but several are rendered; give a folder",
                output.path.string());
     if (output.kind == OutputKind::png)
-        for (const std::filesystem::path& file : pictureFiles(output.path, shownChannels(options)))
+        for (const std::filesystem::path& file : imageFiles(output.path, shownChannels(options)))
             checkReplaceable({OutputKind::png, file}, single_manifest, options.force);
     else
         checkFolder(output, count, options.force);
@@ -137,7 +137,7 @@ int runRender(const RenderLine& options) {
         result["frames"].back()["file"] = output.path.string();
     }
     const std::vector<std::filesystem::path> places =
-        writeAll(options, picture, frames, result, made,
+        writeAll(options, image, frames, result, made,
                  Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
     kept.remove();
     progress.wipe();
@@ -147,7 +147,7 @@ int runRender(const RenderLine& options) {
         printOut("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
                  frame.settings.size.height,
                  frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
-        if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, picture));
+        if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, image));
         for (const std::string& line : frame.notes) printOut("  note: {}\n", line);
         for (const std::string& line : repairedInWords(frame)) printOut("  note: {}\n", line);
     }
@@ -238,7 +238,7 @@ double drawnShare(const RenderOptions& render) {
     return framesIn(render) / (framesIn(render) + 5);
 }
 
-std::string pictureNames(const std::vector<std::filesystem::path>& files) {
+std::string imageNames(const std::vector<std::filesystem::path>& files) {
     std::string names;
     for (const std::filesystem::path& file : files)
         names += (names.empty() ? "" : ", ") + file.filename().string();

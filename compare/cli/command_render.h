@@ -47,7 +47,7 @@ ReportDevice madeBy(const std::optional<Device>& device);
 // (lavapipe, gallery, 1280x720, all channels).
 double drawnShare(const RenderOptions& render);
 // "x.lit.png, x.normals.png"
-std::string pictureNames(const std::vector<std::filesystem::path>& files);
+std::string imageNames(const std::vector<std::filesystem::path>& files);
 
 // render --frames N: numbered images of one scene, each written as soon as it is rendered.
 int runFrames(const RenderLine& options);

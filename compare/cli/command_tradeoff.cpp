@@ -66,8 +66,8 @@ void checkTradeoffOptions(const TradeoffLine& options) {
 int sweepOne(const TradeoffLine& options, const experiment::SweepRows& rows) {
     const std::filesystem::path folder =
         outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffManifest);
-    SweepQuestion question{options.scenes.front(), options.cameras,        options.settings,       rows,
-                           options.grid.empty(),   renderOptions(options), pictureChoice(options), folder};
+    SweepQuestion question{options.scenes.front(), options.cameras,        options.settings,     rows,
+                           options.grid.empty(),   renderOptions(options), imageChoice(options), folder};
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);

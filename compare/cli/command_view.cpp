@@ -8,7 +8,7 @@
 #include "compare/viewer/keys.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/scene/load.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"
@@ -164,13 +164,13 @@ int runView(const ViewLine& given) {
     if (!options.baseline_file.empty()) {
         view.look.against = viewer::Against::file;
         view.look.file = options.baseline_file;
-        if (!std::filesystem::exists(pictureName(options.baseline_file).file))
+        if (!std::filesystem::exists(imageName(options.baseline_file).file))
             refuse("--baseline {}: no such file", options.baseline_file.string());
     }
-    const PictureChoice picture = pictureChoice(options);
-    view.look.exposure = picture.exposure;
-    view.look.ev100 = picture.ev100;
-    view.look.tonemap = picture.tonemap;
+    const ImageChoice image = imageChoice(options);
+    view.look.exposure = image.exposure;
+    view.look.ev100 = image.ev100;
+    view.look.tonemap = image.tonemap;
     if (options.pixel) view.pixel = viewer::PixelPlace{options.pixel->x, options.pixel->y};
     if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
                        view.pixel->y >= view.subject.settings.size.height))

@@ -45,7 +45,7 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
         judgedOptions(renderOptions(options), settings, isTraced(settings, {}),
                       !options.against_device.empty(), options.twice),
         explanationOf(options),
-        {pictureChoice(options), options.single_file, options.keep, options.force},
+        {imageChoice(options), options.single_file, options.keep, options.force},
         folder,
         resumeKey(options, asked),
         [&](const std::string& line) { note(options, line); },

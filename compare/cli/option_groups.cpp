@@ -2,7 +2,7 @@
 #include "compare/cli/option_groups.h"
 
 #include "compare/cli/add_option.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/text/did_you_mean.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ void resolveBaseline(BaselineGroup& options) {
         }
         names.emplace_back(name);
     }
-    if (pictureName(word).file.extension() != ".exr")
+    if (imageName(word).file.extension() != ".exr")
         refuse("--baseline {}: is not deferred, forward_plus, reference or an .exr file{}", word,
                didYouMean(word, names));
     options.baseline_file = word;
@@ -36,7 +36,7 @@ void addRenderers(CLI::App& app, RendererGroup& options, const char* does) {
         app, "--renderer", options.renderer_files, "NAME=FILE.json",
         fmt::format("{}; repeatable. The file gives its command, see compare/external/renderer.schema.json",
                     does))
-        ->group(picture_group);
+        ->group(image_group);
 }
 
 void resolveRenderers(RendererGroup& options) {

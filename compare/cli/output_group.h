@@ -25,7 +25,7 @@ namespace diptych::cli {
 
 // Headings of --help.
 inline constexpr const char* pixel_group = "Settings (may change a pixel)";
-inline constexpr const char* picture_group = "Channels and pictures";
+inline constexpr const char* image_group = "Channels and pictures";
 inline constexpr const char* output_group = "Output";
 inline constexpr const char* selection_group = "Comparison";
 inline constexpr const char* device_group = "Device and timing";

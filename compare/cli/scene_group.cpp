@@ -107,18 +107,18 @@ void resolveTimes(SettingsGroup& options) {
                options.frames);
 }
 
-void resolveChannels(PictureGroup& options) {
-    const auto& words = options.picture_words;
+void resolveChannels(ImageGroup& options) {
+    const auto& words = options.image_words;
     options.debug_given = !words.debug.empty();
     if (options.debug_given) options.shown = channelNamed(words.debug, "--debug");
     if (options.heat) options.shown = Channel::light_count;
     if (words.channels != "all") options.channels = channelsNamed(words.channels);
 }
 
-void checkExposure(const PictureChoice& picture) {
-    if (picture.exposure && !(*picture.exposure > 0 && std::isfinite(*picture.exposure)))
-        refuse("--exposure {}: must be above 0 and finite", *picture.exposure);
-    if (picture.ev100 && !std::isfinite(*picture.ev100)) refuse("--ev100 {}: must be finite", *picture.ev100);
+void checkExposure(const ImageChoice& image) {
+    if (image.exposure && !(*image.exposure > 0 && std::isfinite(*image.exposure)))
+        refuse("--exposure {}: must be above 0 and finite", *image.exposure);
+    if (image.ev100 && !std::isfinite(*image.ev100)) refuse("--ev100 {}: must be finite", *image.ev100);
 }
 
 }  // namespace
@@ -163,27 +163,27 @@ void addSides(CLI::App& app, SettingsGroup& options) {
             ->group(pixel_group);
 }
 
-void addPicture(CLI::App& app, PictureGroup& options) {
-    app.option_defaults()->group(picture_group);
-    addOption(app, "--debug", options.picture_words.debug, "NAME|NUMBER",
+void addImage(CLI::App& app, ImageGroup& options) {
+    app.option_defaults()->group(image_group);
+    addOption(app, "--debug", options.image_words.debug, "NAME|NUMBER",
               "channel that the picture shows (lit)");
     app.add_flag(
         "--heat", options.heat,
         "the picture shows the number of lights each pixel evaluates, with a legend; overrides --debug");
-    addOption(app, "--channels", options.picture_words.channels, "NAME|NUMBER,...",
+    addOption(app, "--channels", options.image_words.channels, "NAME|NUMBER,...",
               "channels to render, separated by commas (all); render: one PNG each");
     app.add_flag("--list-channels", options.list_channels, "list all channels and exit");
     CLI::Option* exposure =
-        addOption(app, "--exposure", options.picture.exposure, "F", "factor on the radiance, pictures only");
+        addOption(app, "--exposure", options.image.exposure, "F", "factor on the radiance, pictures only");
     CLI::Option* ev100 =
-        addOption(app, "--ev100", options.picture.ev100, "F", "exposure value at ISO 100, pictures only")
+        addOption(app, "--ev100", options.image.ev100, "F", "exposure value at ISO 100, pictures only")
             ->excludes(exposure);
     addOption(app, "--match-exposure", options.match_exposure, "FILE",
               "use the automatic exposure of this EXR or HDR file")
         ->excludes(exposure)
         ->excludes(ev100);
     app.add_flag_callback(
-        "--no-tonemap", [&options] { options.picture.tonemap = false; },
+        "--no-tonemap", [&options] { options.image.tonemap = false; },
         "clip instead of tone mapping, pictures only");
 }
 
@@ -210,7 +210,7 @@ void addCompileOn(CLI::App& app, std::string& device, const char* does, const ch
 void addScene(CLI::App& app, SceneGroup& options, const char* scenes_help, const std::string& except) {
     addOption(app, "scenes", options.scenes, "SCENE...", scenes_help);
     addSettings(app, options, except);
-    addPicture(app, options);
+    addImage(app, options);
     addDevice(app, options);
     addOption(app, "--runs", options.runs_given, "N",
               fmt::format("timed frames; 0 measures no time ({})", options.runs));
@@ -224,7 +224,7 @@ void resolveScene(SceneGroup& options) {
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
     options.runs = options.runs_given.value_or(options.runs);
     if (options.runs < 0) refuse("--runs {}: must be 0 or more", options.runs);
-    checkExposure(options.picture);
+    checkExposure(options.image);
     resolveTimes(options);
 }
 
@@ -268,8 +268,8 @@ std::vector<Settings> settingsOf(const SettingsGroup& options, const std::vector
     return all;
 }
 
-PictureChoice pictureChoice(const PictureGroup& options) {
-    PictureChoice choice = options.picture;
+ImageChoice imageChoice(const ImageGroup& options) {
+    ImageChoice choice = options.image;
     if (!options.match_exposure.empty()) choice.exposure = exposureOfFile(options.match_exposure);
     return choice;
 }

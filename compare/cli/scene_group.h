@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Options of every command that renders: scenes, Settings, channels and pictures, device.
+// Options of every command that renders: scenes, Settings, channels and images, device.
 #pragma once
 
 #include "compare/cli/output_group.h"
 #include "compare/frames/frame_facts.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"
 #include "compare/render/shown_scene.h"
@@ -42,18 +42,18 @@ struct SettingsGroup {
     } settings_words;  // as parsed
 };
 
-struct PictureGroup {
+struct ImageGroup {
     Channel shown = Channel::lit;   // of the image
     bool debug_given = false;       // by --debug
     bool heat = false;              // --heat: shows the light count, overriding --debug
     std::vector<Channel> channels;  // debug modes, ascending; empty: all supported
-    PictureChoice picture;
+    ImageChoice image;
     std::filesystem::path match_exposure;  // image that sets the exposure; empty: none
     bool list_channels = false;
 
     struct {
         std::string debug, channels;
-    } picture_words;  // as parsed
+    } image_words;  // as parsed
 };
 
 struct DeviceGroup {
@@ -62,7 +62,7 @@ struct DeviceGroup {
     bool validate = false;
 };
 
-struct SceneGroup : OutputGroup, SettingsGroup, PictureGroup, DeviceGroup {
+struct SceneGroup : OutputGroup, SettingsGroup, ImageGroup, DeviceGroup {
     std::vector<std::string> scenes;
     bool scene_given = false;  // by a scene argument
     int runs = 2;              // timed frames
@@ -74,12 +74,12 @@ inline constexpr const char* many_scenes_help =
     "glTF files, builtin:NAME, folders, patterns as 'scenes/**/*.glb', lists as @scenes.txt "
     "(builtin:gallery)";
 
-// The scenes, whose help is given, Settings but one, pictures, device and runs. --frames and --fps are
+// The scenes, whose help is given, Settings but one, images, device and runs. --frames and --fps are
 // hidden.
 void addScene(CLI::App& app, SceneGroup& options, const char* scenes_help, const std::string& except = "");
 // Its parts.
 void addSettings(CLI::App& app, SettingsGroup& options, const std::string& except = "");
-void addPicture(CLI::App& app, PictureGroup& options);
+void addImage(CLI::App& app, ImageGroup& options);
 void addDevice(CLI::App& app, DeviceGroup& options);
 // --deferred and --forward-plus
 void addSides(CLI::App& app, SettingsGroup& options);
@@ -107,7 +107,7 @@ inline double timeOfFrame(const SettingsGroup& options, int frame) {
 }
 
 // The exposure of the options. Reads the file of --match-exposure.
-PictureChoice pictureChoice(const PictureGroup& options);
+ImageChoice imageChoice(const ImageGroup& options);
 // --list-channels. Returns the exit code.
 int listChannels(bool json);
 

@@ -41,8 +41,8 @@ Json askedOf(const ShardedGroup& options, const std::vector<Settings>& settings,
             asked["paths"].push_back(nameOf(one.path));
     asked["channels"] = options.channels;
     asked["runs"] = options.runs;
-    asked["exposure"] = {options.picture.exposure.value_or(0), options.picture.ev100.value_or(0),
-                         options.picture.tonemap};
+    asked["exposure"] = {options.image.exposure.value_or(0), options.image.ev100.value_or(0),
+                         options.image.tonemap};
     addContents(asked, {{"match-exposure", options.match_exposure}, {"timings", options.timings}});
     asked.update(own);
     return asked;

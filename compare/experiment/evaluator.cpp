@@ -24,10 +24,10 @@ std::vector<Settings> fromEachCamera(const Settings& settings, const ReferenceFr
 FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
-    const std::pair picture(camera, key.value());
-    if (const auto known = judged_.find(picture); known != judged_.end()) return known->second;
+    const std::pair image(camera, key.value());
+    if (const auto known = judged_.find(image); known != judged_.end()) return known->second;
     FrameErrors errors = references_.errors[camera]->forFigure(figureIndex(), lit);
-    if (errors.pixels.empty()) judged_.emplace(picture, errors);
+    if (errors.pixels.empty()) judged_.emplace(image, errors);
     return errors;
 }
 

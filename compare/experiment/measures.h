@@ -41,7 +41,7 @@ struct NamedMeasure {
     X(buffer_bytes, "bytes", "buffers", "bytes", largest, "buffers", "device memory of buffers")             \
     X(gbuffer_bytes, "bytes", "gbuffer_per_pixel", "bytes", largest, "per pixel",                            \
       "attachments and depth, all samples")                                                                  \
-    X(picture_bytes, "bytes", "picture_images", "bytes", largest, "full-size images",                        \
+    X(full_size_bytes, "bytes", "picture_images", "bytes", largest, "full-size images",                      \
       "part of the images that has the frame's size")                                                        \
     X(lights, "counters", "lights", "count", largest, "lights", "all lights, the sun too")                   \
     X(nonfinite_pixels, "counters", "nonfinite_pixels", "count", sum, "not finite",                          \

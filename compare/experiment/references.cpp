@@ -27,7 +27,7 @@ Settings seenFrom(const Frame& reference, Settings settings) {
 }
 
 ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
-                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const std::vector<std::string>& cameras, const ImageChoice& choice,
                                     const RenderOptions& options, bool shadows) {
     RenderOptions drawing = litOptions(options, shadows && given.shadows != Shadows::off);
     drawing.runs = 0;

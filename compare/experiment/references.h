@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/experiment/errors.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/render/renderer.h"
 #include "shared/scene/requirements.h"
 
@@ -23,7 +23,7 @@ struct ReferenceFrames {
 
 // `shadows`: also renders channels that evaluate shadows, if shadows are on.
 ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
-                                    const std::vector<std::string>& cameras, const PictureChoice& choice,
+                                    const std::vector<std::string>& cameras, const ImageChoice& choice,
                                     const RenderOptions& options, bool shadows = true);
 
 // Renders lit, and material_id to detect the background. `shadows`: also channels that evaluate shadows.

@@ -101,7 +101,7 @@ void Measures::set(const FrameBytes& bytes) {
     (*this)[Measure::image_bytes] = static_cast<double>(bytes.images);
     (*this)[Measure::buffer_bytes] = static_cast<double>(bytes.buffers);
     (*this)[Measure::gbuffer_bytes] = static_cast<double>(bytes.gbuffer_per_pixel);
-    (*this)[Measure::picture_bytes] = static_cast<double>(bytes.picture_images);
+    (*this)[Measure::full_size_bytes] = static_cast<double>(bytes.full_size_images);
 }
 
 void Measures::set(const FrameCounters& counters) {

@@ -102,12 +102,12 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         for (std::size_t i = 0; i < effective.size(); ++i)
             if ((subset >> i & 1) != 0) some.push_back(effective[i]);
         if (std::ranges::adjacent_find(some, {}, &Convention::option) != some.end()) continue;
-        Image picture = trial.draw(withConventions(said, some));
-        const double distance = trial.distance(picture);
+        Image image = trial.draw(withConventions(said, some));
+        const double distance = trial.distance(image);
         if (!(distance < least)) continue;
         least = distance;
         best = std::move(some);
-        nearest = std::move(picture);
+        nearest = std::move(image);
     }
     // Each must be worth its change beside all others; after a removal, all are tested again.
     for (std::size_t i = 0; i < best.size();) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An explanation for terminal, page and folder.
-#include "compare/explain/pictures.h"
+#include "compare/explain/images.h"
 #include "compare/explain/write.h"
 #include "compare/files/listed_folder.h"
 #include "compare/output/writers.h"
@@ -23,8 +23,8 @@ using output::Block;
 using output::Box;
 using output::Column;
 using output::Heading;
+using output::ImageBlock;
 using output::Paragraph;
-using output::Picture;
 using output::Span;
 using page::number;
 
@@ -109,7 +109,7 @@ output::Table deviceTable(const Explanation& e) {
     return table;
 }
 
-output::List remarks(const Explanation& e, const ExplainedPictures& of) {
+output::List remarks(const Explanation& e, const ExplainedImages& of) {
     output::List list{{}, "box says"};
     const auto add = [&](const std::string& line) { list.items.emplace_back(line); };
     if (e.nonfinite > 0)
@@ -132,13 +132,13 @@ output::List remarks(const Explanation& e, const ExplainedPictures& of) {
 }
 
 // Images of writeExplanation(), all on one scale but lit.
-std::vector<Block> pictureBlocks(const Explanation& e, const ExplainedPictures& of) {
+std::vector<Block> imageBlocks(const Explanation& e, const ExplainedImages& of) {
     Box maps{
         "maps",
-        {Picture{litFiles[0], "lit of the baseline", {Span(of.baseline, Span::foreign), ", the baseline"}},
-         Picture{litFiles[1], "lit of the test", Span(of.test, Span::foreign)}}};
+        {ImageBlock{litFiles[0], "lit of the baseline", {Span(of.baseline, Span::foreign), ", the baseline"}},
+         ImageBlock{litFiles[1], "lit of the test", Span(of.test, Span::foreign)}}};
     const auto add = [&](const std::string& file, const std::string& alt, output::Text caption) {
-        maps.blocks.emplace_back(Picture{file, alt, std::move(caption)});
+        maps.blocks.emplace_back(ImageBlock{file, alt, std::move(caption)});
     };
     if (e.distance > 0) add(differenceFile, "their difference", "difference");
     for (std::size_t i = 0; i < e.causes.size(); ++i)
@@ -174,7 +174,7 @@ std::string headlineOf(const Explanation& e) {
                        listed(e.devices));
 }
 
-std::vector<Block> blocksOf(const Explanation& e, const ExplainedPictures& of) {
+std::vector<Block> blocksOf(const Explanation& e, const ExplainedImages& of) {
     std::vector<Block> blocks{
         Heading{2, {"Why lit differs: ", Span(of.scene, Span::foreign)}}, Paragraph{headlineOf(e)},
         Paragraph{fmt::format("lit of {} differs from that of {} by {} W/(sr m^2) on average, FLIP {}",
@@ -186,7 +186,7 @@ std::vector<Block> blocksOf(const Explanation& e, const ExplainedPictures& of) {
     return blocks;
 }
 
-std::string explanationHtml(const Explanation& e, const ExplainedPictures& of) {
+std::string explanationHtml(const Explanation& e, const ExplainedImages& of) {
     output::Document page{
         .title = "why lit differs, " + of.scene,
         .heading = of.scene,
@@ -197,25 +197,24 @@ std::string explanationHtml(const Explanation& e, const ExplainedPictures& of) {
     const auto add = [&](const std::vector<Block>& blocks) {
         page.blocks.insert(page.blocks.end(), blocks.begin(), blocks.end());
     };
-    add(pictureBlocks(e, of));
+    add(imageBlocks(e, of));
     Box commands{"box", {}};
-    for (const ExplainedPictures::Command& command : of.commands)
+    for (const ExplainedImages::Command& command : of.commands)
         commands.blocks.emplace_back(
             Paragraph{{command.does + " ", Span(command.line, Span::command)}, "again"});
     if (!of.commands.empty()) add({Heading{2, "Commands"}, commands});
     return inHtml(page);
 }
 
-std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
+std::string writeExplanation(const Explanation& explanation, const ExplainedImages& of,
                              std::array<Image8, 2> lit, const std::filesystem::path& path, bool force) {
     ListedFolder folder(path, explanationManifest, force);
-    std::vector<NamedPicture> pictures = explanationMaps(explanation);
-    for (std::size_t side = 0; side < 2; ++side)
-        pictures.push_back({litFiles[side], std::move(lit.at(side))});
-    pictures.push_back({dominantFile, dominantPicture(explanation, pictures.back().picture)});
-    for (const NamedPicture& picture : pictures) folder.list(picture.name);
-    tbb::parallel_for(std::size_t{0}, pictures.size(),
-                      [&](std::size_t i) { writePng(folder / pictures[i].name, pictures[i].picture); });
+    std::vector<NamedImage> images = explanationMaps(explanation);
+    for (std::size_t side = 0; side < 2; ++side) images.push_back({litFiles[side], std::move(lit.at(side))});
+    images.push_back({dominantFile, dominantImage(explanation, images.back().image)});
+    for (const NamedImage& image : images) folder.list(image.name);
+    tbb::parallel_for(std::size_t{0}, images.size(),
+                      [&](std::size_t i) { writePng(folder / images[i].name, images[i].image); });
     folder.put("index.html", explanationHtml(explanation, of));
     return folder.finish(toJson(explanation, of));
 }

@@ -3,7 +3,7 @@
 
 #include "compare/explain/conventions.h"
 #include "compare/explain/explain.h"
-#include "compare/explain/pictures.h"
+#include "compare/explain/images.h"
 #include "compare/explain/write.h"
 #include "compare/frames/frame_facts.h"
 #include "compare/render/reference_frame.h"
@@ -52,11 +52,11 @@ std::vector<Block> linesOf(const std::string& line, Block page) {
 
 // The part of an explanation that a report shows. `shown`: an image of the scene, of the same size, as
 // background of the map of causes.
-Explained explainedOf(const Explanation& explanation, const ExplainedPictures& of, const Image8& shown) {
+Explained explainedOf(const Explanation& explanation, const ExplainedImages& of, const Image8& shown) {
     Explained explained{linesOf(headlineOf(explanation), output::Box{"", blocksOf(explanation, of)}),
                         jsonText(toJson(explanation, of), -1),
                         {}};
-    if (!explanation.causes.empty()) explained.map = dominantPicture(explanation, shown);
+    if (!explanation.causes.empty()) explained.map = dominantImage(explanation, shown);
     return explained;
 }
 
@@ -95,7 +95,7 @@ Explained explained(const ExplanationQuestion& question, Device& device, ShownSc
         again[0]->settings = right.settings;
     }
     const Frame &a = again[0] ? *again[0] : left, &b = again[1] ? *again[1] : right;
-    ExplainedPictures of{right.scene, left.name, right.name};
+    ExplainedImages of{right.scene, left.name, right.name};
     if (!file) {
         std::vector<std::string> words =
             explainWords(right.scene, external ? left.settings : right.settings, left.settings.path, {});
@@ -106,7 +106,7 @@ Explained explained(const ExplanationQuestion& question, Device& device, ShownSc
                         shellLine(withOption(std::move(words), "-o", "diptych-explanation"))}};
     }
     const Explanation explanation = explain(device, drawing.renderer, drawing.scene, a, b, progress);
-    return explainedOf(explanation, of, litPicture(b, a, question.picture));
+    return explainedOf(explanation, of, litImage(b, a, question.image));
 }
 
 }  // namespace

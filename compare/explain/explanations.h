@@ -2,7 +2,7 @@
 // Explanations of lit differences, for a report.
 #pragma once
 
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/render/renderer.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"
@@ -24,7 +24,7 @@ struct ExplanationQuestion {
     Settings settings;  // of the scene's variant and environment
     SideSettings sides;
     RenderOptions drawing;
-    PictureChoice picture;
+    ImageChoice image;
 };
 // Adds explanations; verdicts do not change. A comparison that cannot be explained gets the reason.
 void addExplanations(const ExplanationQuestion& question, Device& device, Report& report,

@@ -94,7 +94,7 @@ Json termsJson(const PixelBreakdown& breakdown) {
 
 }  // namespace
 
-nlohmann::ordered_json toJson(const Explanation& e, const ExplainedPictures& of) {
+nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
     const auto deviceJson = [&](const DeviceShare& part) -> Json {
         return {{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}};
     };

@@ -16,7 +16,7 @@
 namespace diptych {
 
 // Names of the explained images: "deferred", and the test's differing Settings, such as "--haze on".
-struct ExplainedPictures {
+struct ExplainedImages {
     // A shell command, and its purpose: "Explain it again".
     struct Command {
         std::string does, line;
@@ -29,20 +29,20 @@ struct ExplainedPictures {
 
 // "lit differs because of albedo 69.1 %, roughness 10.9 %, ...; unexplained 0.0 %".
 std::string headlineOf(const Explanation& explanation);
-// The headline, the causes, the unexplained part and remarks; without pictures.
-std::vector<output::Block> blocksOf(const Explanation& explanation, const ExplainedPictures& of);
+// The headline, the causes, the unexplained part and remarks; without images.
+std::vector<output::Block> blocksOf(const Explanation& explanation, const ExplainedImages& of);
 
-nlohmann::ordered_json toJson(const Explanation& explanation, const ExplainedPictures& of);
+nlohmann::ordered_json toJson(const Explanation& explanation, const ExplainedImages& of);
 
 // index.html, without external resources but the images of writeExplanation().
-std::string explanationHtml(const Explanation& explanation, const ExplainedPictures& of);
+std::string explanationHtml(const Explanation& explanation, const ExplainedImages& of);
 
 inline constexpr const char* explanationManifest = "explain.json";
 
 // Writes index.html, explain.json and the images. Replaces an earlier explanation atomically; replaces
-// anything else only with `force`. `lit`: litPicture() of both sides. Returns the text of explain.json.
+// anything else only with `force`. `lit`: litImage() of both sides. Returns the text of explain.json.
 // Throws std::runtime_error naming the folder or file.
-std::string writeExplanation(const Explanation& explanation, const ExplainedPictures& of,
+std::string writeExplanation(const Explanation& explanation, const ExplainedImages& of,
                              std::array<Image8, 2> lit, const std::filesystem::path& folder, bool force);
 
 }  // namespace diptych

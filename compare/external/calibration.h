@@ -39,7 +39,7 @@ ChartReference referenceUnder(const Scene& charts, Lamp lamp);
 struct Shown {
     Lamp lamp = Lamp::none;
     ChartReference truth;
-    Image picture;  // empty: missing
+    Image image;  // empty: missing
     std::string problem{};
 };
 
@@ -56,10 +56,10 @@ struct Deviation {
     nlohmann::ordered_json correction = nlohmann::ordered_json::object();
 };
 
-// `pictures`: one per lamp, Lamp::none required. Detects deviations above 0.15 degrees of field of view,
+// `images`: one per lamp, Lamp::none required. Detects deviations above 0.15 degrees of field of view,
 // 0.2 pixels of position and 12 % of intensity. Empty if there are none. Throws std::invalid_argument
 // without the image for Lamp::none.
-std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> pictures);
+std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> images);
 
 // The result, for a terminal and for scripts.
 std::string inWords(const Renderer& renderer, std::span<const Deviation> deviations);

@@ -129,8 +129,8 @@ std::string problemOf(const std::string& how, const Ended& ended) {
 
 }  // namespace
 
-Frame readPicture(const fs::path& file, const fs::path& after, const InputCorrections& corrections,
-                  const Size& size) {
+Frame readImage(const fs::path& file, const fs::path& after, const InputCorrections& corrections,
+                const Size& size) {
     const timespec then = writtenAt(after), now = writtenAt(file);
     if (std::pair(now.tv_sec, now.tv_nsec) < std::pair(then.tv_sec, then.tv_nsec))
         throw std::runtime_error("its picture is older than its job");
@@ -168,14 +168,14 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         attempt.output = ended.output;
         if (const std::string how = howItEnded(ended, renderer.timeout); !how.empty())
             throw std::runtime_error(problemOf(how, ended));
-        Frame picture = readPicture(job.picture, job.file, renderer.corrections, settings.size);
+        Frame image = readImage(job.image, job.file, renderer.corrections, settings.size);
         Frame frame = describedFrame(scene, view, settings);
         frame.name = renderer.name;
         frame.settings.path = Path::reference;
-        frame.channels = std::move(picture.channels);
+        frame.channels = std::move(image.channels);
         frame.origin.file = renderer.file.string();
         frame.origin.external = true;
-        frame.origin.left_out = std::move(picture.origin.left_out);
+        frame.origin.left_out = std::move(image.origin.left_out);
         std::erase(frame.origin.left_out, "A");  // pixel coverage
         frame.origin.granted = inWords(renderer.corrections);
         frame.made_in_ms = ended.ms;

@@ -30,7 +30,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
 
 // Reads the pixels of `file` and applies `corrections`. Throws std::runtime_error, one line without the
 // file's name, if they do not match the request. `after`: a file written before the renderer started.
-Frame readPicture(const std::filesystem::path& file, const std::filesystem::path& after,
-                  const InputCorrections& corrections, const Size& size);
+Frame readImage(const std::filesystem::path& file, const std::filesystem::path& after,
+                const InputCorrections& corrections, const Size& size);
 
 }  // namespace diptych::external

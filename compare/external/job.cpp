@@ -136,7 +136,7 @@ public:
     Job write() {
         Job job;
         job.file = folder_ / "job.json";
-        job.picture = folder_ / "picture.exr";
+        job.image = folder_ / "picture.exr";
         SceneView passed = view_;
         passed.view = passedView(view_.view, corrections_);
         passed.lights = passedLights(view_.lights, corrections_);
@@ -157,7 +157,7 @@ public:
                         {"exposure", nullptr},
                         {"tone_curve", nullptr},
                         {"output",
-                         {{"file", job.picture.string()},
+                         {{"file", job.image.string()},
                           {"format", "exr"},
                           {"pixels", "float"},
                           {"origin", "top left"},

@@ -17,7 +17,7 @@ namespace diptych::external {
 struct Job {
     std::string text;                // the JSON on one line: the last argument
     std::filesystem::path file;      // the JSON as a file
-    std::filesystem::path picture;   // output
+    std::filesystem::path image;     // output
     std::vector<std::string> notes;  // scene features that it cannot express, one line each
 };
 

@@ -35,31 +35,31 @@ std::optional<Mark> markOf(const Image& ids, int material) {
     return mark;
 }
 
-double brightness(const Image& picture, int x, int y) {
+double brightness(const Image& image, int x, int y) {
     double most = 0;
-    for (int c = 0; c < std::min(picture.components, 3); ++c) {
-        const double value = picture.at(x, y, c);
+    for (int c = 0; c < std::min(image.components, 3); ++c) {
+        const double value = image.at(x, y, c);
         if (std::isfinite(value)) most = std::max(most, value);
     }
     return most;
 }
 
 // Pixels around `place` with more than half of the maximum, which also works under a tone curve.
-std::optional<Mark> shownAround(const Image& picture, const glm::dvec2& place, double reach) {
-    const glm::dvec2 corner = place + glm::dvec2(picture.width, picture.height) / 2.0;
+std::optional<Mark> shownAround(const Image& image, const glm::dvec2& place, double reach) {
+    const glm::dvec2 corner = place + glm::dvec2(image.width, image.height) / 2.0;
     const int left = std::max(0, static_cast<int>(corner.x - reach)),
-              right = std::min(picture.width, static_cast<int>(corner.x + reach) + 1),
+              right = std::min(image.width, static_cast<int>(corner.x + reach) + 1),
               top = std::max(0, static_cast<int>(corner.y - reach)),
-              bottom = std::min(picture.height, static_cast<int>(corner.y + reach) + 1);
+              bottom = std::min(image.height, static_cast<int>(corner.y + reach) + 1);
     double most = 0;
     for (int y = top; y < bottom; ++y)
-        for (int x = left; x < right; ++x) most = std::max(most, brightness(picture, x, y));
+        for (int x = left; x < right; ++x) most = std::max(most, brightness(image, x, y));
     if (!(most > 1e-6)) return {};
     Mark mark;
     for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x)
-            if (brightness(picture, x, y) > 0.5 * most) {
-                mark.place += fromMiddle(picture, x, y);
+            if (brightness(image, x, y) > 0.5 * most) {
+                mark.place += fromMiddle(image, x, y);
                 ++mark.area;
             }
     mark.place /= mark.area;
@@ -86,18 +86,16 @@ Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // Refines `guess` from at least `least` marks. Empty if a mark that must be visible is not found.
-std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& picture,
-                                const Placement& guess) {
+std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& image, const Placement& guess) {
     constexpr std::size_t least = 4;
     std::vector<double> told_x, told_y, shown_x, shown_y;
     for (const Mark& mark : marks) {
         const double radius = 1.3 * std::sqrt(mark.area / glm::pi<double>()) * guess.scale.x;
         const double reach = radius + 5;
         const glm::dvec2 place = guess(mark.place);
-        if (std::abs(place.x) + reach > picture.width / 2.0 ||
-            std::abs(place.y) + reach > picture.height / 2.0)
+        if (std::abs(place.x) + reach > image.width / 2.0 || std::abs(place.y) + reach > image.height / 2.0)
             continue;  // may be clipped
-        const std::optional<Mark> shown = shownAround(picture, place, reach);
+        const std::optional<Mark> shown = shownAround(image, place, reach);
         const double area = mark.area * guess.scale.x * guess.scale.y;
         if (!shown || shown->area < 0.6 * area || shown->area > 1.6 * area) return {};
         told_x.push_back(guess.mirrored ? -mark.place.x : mark.place.x);
@@ -120,8 +118,7 @@ std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& pic
 
 }  // namespace
 
-std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks,
-                                       const Image& picture) {
+std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks, const Image& image) {
     std::vector<Mark> expected;
     for (const int material : marks)
         if (const std::optional<Mark> mark = markOf(ids, material)) expected.push_back(*mark);
@@ -131,17 +128,17 @@ std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>&
         for (const bool mirrored : {false, true})
             for (double scale = 0.5; scale < 2.05; scale *= step) {
                 Placement guess{upside_down, mirrored, glm::dvec2(scale), glm::dvec2(0), 0};
-                std::optional<Placement> found = fitted(expected, picture, guess);
+                std::optional<Placement> found = fitted(expected, image, guess);
                 if (found)
-                    found = fitted(expected, picture, *found);  // search windows around the refined
-                                                                // positions
+                    found = fitted(expected, image, *found);  // search windows around the refined
+                                                              // positions
                 if (found && (!best || found->residual < best->residual)) best = found;
             }
     constexpr double most = 1;  // pixels; squares sampled at pixel centres have an error of 0.1
     return best && best->residual < most ? best : std::nullopt;
 }
 
-std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& picture,
+std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& image,
                                   const Placement& placement) {
     constexpr int edge = 3;  // pixels that a filter may mix with neighbours
     std::vector<double> values[3];
@@ -157,11 +154,11 @@ std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& p
         for (int x = 0; x < ids.width; ++x) {
             if (ids.at(x, y) != static_cast<float>(material) || !isInside(x, y)) continue;
             const glm::dvec2 at =
-                placement(fromMiddle(ids, x, y)) + glm::dvec2(picture.width, picture.height) / 2.0;
+                placement(fromMiddle(ids, x, y)) + glm::dvec2(image.width, image.height) / 2.0;
             const int px = static_cast<int>(std::floor(at.x)), py = static_cast<int>(std::floor(at.y));
-            if (px < 0 || py < 0 || px >= picture.width || py >= picture.height) continue;
+            if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
             for (int c = 0; c < 3; ++c)
-                values[c].push_back(picture.at(px, py, std::min(c, picture.components - 1)));
+                values[c].push_back(image.at(px, py, std::min(c, image.components - 1)));
         }
     if (values[0].empty()) return {};
     glm::dvec3 median;

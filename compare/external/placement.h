@@ -25,14 +25,14 @@ struct Placement {
     }
 };
 
-// `ids`: expected material_id, with `marks` as emitters of radiance 1 on black. `picture`: same size, any
+// `ids`: expected material_id, with `marks` as emitters of radiance 1 on black. `image`: same size, any
 // monotonic tone curve. Uses the centroid of each mark in a window; handles flips and scales from 1/2 to
 // 2. Empty if the residual exceeds a pixel.
-std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks, const Image& picture);
+std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>& marks, const Image& image);
 
 // Per-component median over a material's pixels in the image, away from its edges. Empty if none are
 // visible.
-std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& picture,
+std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& image,
                                   const Placement& placement);
 
 }  // namespace diptych::external

@@ -8,7 +8,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/exr.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/text/json.h"
 #include "shared/text/json_at.h"
 #include "shared/text/named.h"
@@ -33,7 +33,7 @@ std::string valueOr(const Attributes& attributes, const char* key, const char* f
 }
 
 // Metadata of our own files.
-void readOrigin(const PictureFile& file, Frame& frame) {
+void readOrigin(const ImageFile& file, Frame& frame) {
     const Attributes& a = file.attributes;
     frame.scene = valueOr(a, "scene", "?");
     frame.origin.device = valueOr(a, "device");
@@ -44,12 +44,12 @@ void readOrigin(const PictureFile& file, Frame& frame) {
         frame.camera = cameraFrom(JsonAt<nlohmann::json>(parseJson(a.at("camera")), "camera"));
 }
 
-bool isOurs(const PictureFile& file) {
+bool isOurs(const ImageFile& file) {
     return valueOr(file.attributes, "software") == softwareName && file.attributes.contains("settings");
 }
 
 // Uncertainty of a sampled reference, as written.
-void readUncertainty(PictureFile& file, Frame& frame) {
+void readUncertainty(ImageFile& file, Frame& frame) {
     frame.uncertainty = takeUncertainty(file);
     if (frame.uncertainty.empty()) return;
     const std::string relative = valueOr(file.attributes, "relative_uncertainty");
@@ -83,7 +83,7 @@ void writeFrameExr(const std::filesystem::path& file, const Frame& frame, const 
 }
 
 Frame frameFromExr(const std::filesystem::path& path) {
-    PictureFile file = readPicture(path);
+    ImageFile file = readImage(path);
     return named(path.string(), [&] {
         Frame frame;
         frame.name = "baseline";
@@ -98,7 +98,7 @@ Frame frameFromExr(const std::filesystem::path& path) {
         frame.origin.not_applied = file.notes.not_applied;
         frame.origin.not_applied.insert(frame.origin.not_applied.end(), file.notes.in_part.begin(),
                                         file.notes.in_part.end());
-        for (PictureChannel& channel : channelsOf(std::move(file), {})) {
+        for (ImageChannel& channel : channelsOf(std::move(file), {})) {
             const DebugMode* mode = findDebugMode(channel.name);
             if (mode && mode->name == channel.name && mode->width == channel.image.components)
                 frame.channels[mode->channel] = std::move(channel.image);

@@ -44,7 +44,7 @@ Image8 picked(const Image8& coded, const std::vector<std::size_t>& components) {
 
 // Converts colours from the layer's primaries. Other channels, such as normals written as R, G, B, do not
 // change.
-void convert(PictureChannel& channel, const PictureLayer& layer) {
+void convert(ImageChannel& channel, const ImageLayer& layer) {
     if (layer.to_rec709 && channel.kind == ChannelKind::color && channel.image.components == 3)
         convertColors(channel.image, *layer.to_rec709);
 }
@@ -52,7 +52,7 @@ void convert(PictureChannel& channel, const PictureLayer& layer) {
 // Splits a layer into channels with one meaning each.
 class Splitter {
 public:
-    Splitter(PictureLayer layer, std::vector<PictureChannel>& out) : layer_(std::move(layer)), out_(out) {
+    Splitter(ImageLayer layer, std::vector<ImageChannel>& out) : layer_(std::move(layer)), out_(out) {
         left_.assign(layer_.channels.size(), true);
     }
 
@@ -68,8 +68,8 @@ public:
     }
 
 private:
-    PictureLayer layer_;
-    std::vector<PictureChannel>& out_;
+    ImageLayer layer_;
+    std::vector<ImageChannel>& out_;
     std::vector<bool> left_;
 
     // Grey Y becomes R, G, B, so that it can be compared with colours and by FLIP. Integers are no light.
@@ -77,7 +77,7 @@ private:
         if (layer_.sample == "uint") return;
         for (std::size_t i = 0; i < layer_.channels.size(); ++i)
             if (left_[i] && layer_.channels[i] == "Y") {
-                PictureChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
+                ImageChannel channel{"lit", {"Y"}, layer_.sample, ChannelKind::color, {}};
                 if (layer_.image.empty())
                     channel.coded = coded({i});
                 else
@@ -114,7 +114,7 @@ private:
     }
 
     void put(const std::vector<std::size_t>& components, const std::string& name) {
-        PictureChannel channel{name, {}, layer_.sample, {}, {}};
+        ImageChannel channel{name, {}, layer_.sample, {}, {}};
         for (const std::size_t i : components) {
             channel.channels.push_back(layer_.channels[i]);
             left_[i] = false;
@@ -155,8 +155,8 @@ std::string alphaOf(const std::string& color) {
 
 // If the renaming names a whole colour layer, as in "lit=ViewLayer.Combined": renamings of its colour and
 // alpha.
-std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renaming) {
-    for (const PictureLayer& layer : file.layers) {
+std::vector<Renaming> spelledOut(const ImageFile& file, const Renaming& renaming) {
+    for (const ImageLayer& layer : file.layers) {
         if (renaming.channels != Names{layer.name}) continue;
         std::vector<Renaming> all{{renaming.name, {}}};
         for (const char* wanted : {"R", "G", "B", "A"}) {
@@ -173,20 +173,20 @@ std::vector<Renaming> spelledOut(const PictureFile& file, const Renaming& renami
 }
 
 // Channels of a renaming as one channel; empty unless the file has all of them.
-std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renaming) {
+std::optional<ImageChannel> renamed(ImageFile& file, const Renaming& renaming) {
     struct Place {
-        PictureLayer* layer;
+        ImageLayer* layer;
         std::size_t component;
     };
     std::vector<Place> places;
     for (const std::string& wanted : renaming.channels)
-        for (PictureLayer& layer : file.layers)
+        for (ImageLayer& layer : file.layers)
             if (const auto found = std::ranges::find(layer.channels, wanted); found != layer.channels.end()) {
                 places.push_back({&layer, static_cast<std::size_t>(found - layer.channels.begin())});
                 break;
             }
     if (places.size() != renaming.channels.size()) return {};
-    PictureChannel channel{renaming.name, renaming.channels, places[0].layer->sample, {}, {}};
+    ImageChannel channel{renaming.name, renaming.channels, places[0].layer->sample, {}, {}};
     channel.kind = kindOf(channel.name, channel.channels, channel.type);
     channel.image = Image(file.width, file.height, static_cast<int>(places.size()));
     for (std::size_t c = 0; c < places.size(); ++c) {
@@ -198,8 +198,8 @@ std::optional<PictureChannel> renamed(PictureFile& file, const Renaming& renamin
     return channel;
 }
 
-void remove(PictureFile& file, const Names& channels) {
-    for (PictureLayer& layer : file.layers) {
+void remove(ImageFile& file, const Names& channels) {
+    for (ImageLayer& layer : file.layers) {
         std::vector<std::size_t> kept;
         for (std::size_t i = 0; i < layer.channels.size(); ++i)
             if (std::ranges::count(channels, layer.channels[i]) == 0) kept.push_back(i);
@@ -209,20 +209,20 @@ void remove(PictureFile& file, const Names& channels) {
         for (const std::size_t i : kept) names.push_back(layer.channels[i]);
         layer.channels = std::move(names);
     }
-    std::erase_if(file.layers, [](const PictureLayer& layer) { return layer.channels.empty(); });
+    std::erase_if(file.layers, [](const ImageLayer& layer) { return layer.channels.empty(); });
 }
 
-std::string list(const std::vector<PictureChannel>& channels) {
+std::string list(const std::vector<ImageChannel>& channels) {
     Names names;
-    for (const PictureChannel& channel : channels) names.push_back(channel.name);
+    for (const ImageChannel& channel : channels) names.push_back(channel.name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 // Moves distinct integers that round to the same float32 to neighbouring floats. The difference then
 // shows, though not its exact size.
-void keepDistinct(const PictureChannel& a, PictureChannel& b) {
+void keepDistinct(const ImageChannel& a, ImageChannel& b) {
     if (a.exact.empty() && b.exact.empty()) return;
-    const auto valueAt = [](const PictureChannel& c, std::size_t i) {
+    const auto valueAt = [](const ImageChannel& c, std::size_t i) {
         return c.exact.empty() ? double{c.image.data[i]} : static_cast<double>(c.exact[i]);
     };
     for (std::size_t i = 0; i < a.image.pixels(); ++i)
@@ -232,16 +232,16 @@ void keepDistinct(const PictureChannel& a, PictureChannel& b) {
 
 // A colour without alpha is opaque (PNG, third edition, 12.8; OpenEXR: a missing A reads as 1). If only
 // `has` has a colour's alpha, adds an alpha of 1 to `lacks`. Returns the names of added channels.
-Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChannel>& lacks) {
-    const auto find = [](const std::vector<PictureChannel>& channels, const std::string& name) {
-        return std::ranges::find(channels, name, &PictureChannel::name);
+Names addOpaque(const std::vector<ImageChannel>& has, std::vector<ImageChannel>& lacks) {
+    const auto find = [](const std::vector<ImageChannel>& channels, const std::string& name) {
+        return std::ranges::find(channels, name, &ImageChannel::name);
     };
     Names added;
-    for (const PictureChannel& alpha : has) {
+    for (const ImageChannel& alpha : has) {
         if (componentOf(alpha.name) != "A" || find(lacks, alpha.name) != lacks.end()) continue;
         const std::string color = alpha.name == "A" ? "lit" : alpha.name.substr(0, alpha.name.size() - 2);
         if (find(has, color) == has.end() || find(lacks, color) == lacks.end()) continue;
-        PictureChannel opaque{alpha.name, alpha.channels, alpha.type, alpha.kind, {}};
+        ImageChannel opaque{alpha.name, alpha.channels, alpha.type, alpha.kind, {}};
         if (alpha.image.empty())
             opaque.coded = {alpha.coded.width, alpha.coded.height, 1,
                             std::vector<std::uint8_t>(alpha.coded.data.size(), 255)};
@@ -256,14 +256,14 @@ Names addOpaque(const std::vector<PictureChannel>& has, std::vector<PictureChann
 
 // The only colours of two images with different colour names. Null if either image has not exactly one, or
 // if both names are debug modes.
-std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChannel>& a,
-                                                        std::vector<PictureChannel>& b) {
-    const auto only = [](std::vector<PictureChannel>& channels) -> PictureChannel* {
-        const auto isColour = [](const PictureChannel& c) { return c.kind == ChannelKind::color; };
+std::pair<ImageChannel*, ImageChannel*> onlyColours(std::vector<ImageChannel>& a,
+                                                    std::vector<ImageChannel>& b) {
+    const auto only = [](std::vector<ImageChannel>& channels) -> ImageChannel* {
+        const auto isColour = [](const ImageChannel& c) { return c.kind == ChannelKind::color; };
         if (std::ranges::count_if(channels, isColour) != 1) return nullptr;
         return &*std::ranges::find_if(channels, isColour);
     };
-    PictureChannel *const first = only(a), *const second = only(b);
+    ImageChannel *const first = only(a), *const second = only(b);
     if (!first || !second || first->name == second->name ||
         (findDebugMode(first->name) && findDebugMode(second->name)))
         return {};
@@ -271,7 +271,7 @@ std::pair<PictureChannel*, PictureChannel*> onlyColours(std::vector<PictureChann
 }
 
 // Renames the test's only colour, and its alpha, like the reference's. Returns a note, or an empty string.
-std::string pairColours(std::vector<PictureChannel>& reference, std::vector<PictureChannel>& test) {
+std::string pairColours(std::vector<ImageChannel>& reference, std::vector<ImageChannel>& test) {
     const auto [a, b] = onlyColours(reference, test);
     if (!a) return {};
     const std::string
@@ -279,16 +279,16 @@ std::string pairColours(std::vector<PictureChannel>& reference, std::vector<Pict
             "{} of the reference is compared with {} of the test: each is the only colour of its image",
             a->name, oneLine(b->name, 60)),
         alpha = alphaOf(b->name);
-    for (PictureChannel& channel : test)
+    for (ImageChannel& channel : test)
         if (channel.name == alpha) channel.name = alphaOf(a->name);
     b->name = a->name;
     return note;
 }
 
 // A --map option that gives two channels of equal width one name.
-std::string mapText(const std::vector<PictureChannel>& reference, const std::vector<PictureChannel>& test) {
-    for (const PictureChannel& a : reference)
-        for (const PictureChannel& b : test)
+std::string mapText(const std::vector<ImageChannel>& reference, const std::vector<ImageChannel>& test) {
+    for (const ImageChannel& a : reference)
+        for (const ImageChannel& b : test)
             if (a.components() == b.components() && a.channels.size() == b.channels.size())
                 return fmt::format("--map '{}={}' compares these two", oneLine(a.name, 60),
                                    oneLine(fmt::format("{}", fmt::join(b.channels, ",")), 200));
@@ -297,7 +297,7 @@ std::string mapText(const std::vector<PictureChannel>& reference, const std::vec
 
 // Sets the kind of a's three components if either image shows that they are no light. Returns a note on R, G,
 // B that are taken as something else, or an empty string.
-std::string setKind(PictureChannel& a, const PictureChannel& b) {
+std::string setKind(ImageChannel& a, const ImageChannel& b) {
     if (a.components() != 3) return {};
     a.kind = std::max(a.kind, b.kind);
     const bool negative = a.kind == ChannelKind::color && (isNegative(a.image) || isNegative(b.image));
@@ -316,8 +316,8 @@ std::string setKind(PictureChannel& a, const PictureChannel& b) {
 
 }  // namespace
 
-std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::string>& names) {
-    std::vector<PictureChannel> channels;
+std::vector<ImageChannel> channelsOf(ImageFile file, const std::vector<std::string>& names) {
+    std::vector<ImageChannel> channels;
     Names used;
     for (const std::string& words : names) {
         for (const Renaming& renaming : spelledOut(file, renamingOf(words)))
@@ -328,14 +328,14 @@ std::vector<PictureChannel> channelsOf(PictureFile file, const std::vector<std::
     }
     remove(file, used);
     takeUncertainty(file);
-    for (PictureLayer& layer : file.layers) Splitter(std::move(layer), channels).split();
+    for (ImageLayer& layer : file.layers) Splitter(std::move(layer), channels).split();
     return channels;
 }
 
-Image takeUncertainty(PictureFile& file) {
+Image takeUncertainty(ImageFile& file) {
     const auto software = file.attributes.find("software");
     if (software == file.attributes.end() || software->second != softwareName) return {};
-    const auto layer = std::ranges::find_if(file.layers, [](const PictureLayer& l) {
+    const auto layer = std::ranges::find_if(file.layers, [](const ImageLayer& l) {
         return l.channels == std::vector<std::string>{uncertainty_channel};
     });
     if (layer == file.layers.end()) return {};
@@ -344,10 +344,10 @@ Image takeUncertainty(PictureFile& file) {
     return uncertainty;
 }
 
-void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std::string>& names) {
-    const auto channelsIn = [](const PictureFile& file) {
+void checkNames(ImageFile& reference, ImageFile& test, const std::vector<std::string>& names) {
+    const auto channelsIn = [](const ImageFile& file) {
         Names all;
-        for (const PictureLayer& layer : file.layers)
+        for (const ImageLayer& layer : file.layers)
             all.insert(all.end(), layer.channels.begin(), layer.channels.end());
         return oneLine(fmt::format("{}", fmt::join(all, ", ")));
     };
@@ -361,7 +361,7 @@ void checkNames(PictureFile& reference, PictureFile& test, const std::vector<std
     }
 }
 
-MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector<PictureChannel> test,
+MatchedChannels matchChannels(std::vector<ImageChannel> reference, std::vector<ImageChannel> test,
                               const std::vector<std::string>& wanted) {
     MatchedChannels matched;
     const auto isWanted = [&](const std::string& name) {
@@ -375,11 +375,11 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
             matched.notes.push_back(fmt::format("{}: {} has none, so it counts as opaque: 1 everywhere", name,
                                                 lacking ? "the test" : "the reference"));
     std::vector<std::string> inBoth;
-    for (const PictureChannel& a : reference)
-        if (std::ranges::count(test, a.name, &PictureChannel::name) > 0) inBoth.push_back(a.name);
-    for (PictureChannel& a : reference) {
+    for (const ImageChannel& a : reference)
+        if (std::ranges::count(test, a.name, &ImageChannel::name) > 0) inBoth.push_back(a.name);
+    for (ImageChannel& a : reference) {
         if (!isWanted(a.name)) continue;
-        const auto b = std::ranges::find(test, a.name, &PictureChannel::name);
+        const auto b = std::ranges::find(test, a.name, &ImageChannel::name);
         if (b == test.end()) {
             matched.one_sided.push_back({a.name, "the reference"});
             continue;
@@ -398,15 +398,14 @@ MatchedChannels matchChannels(std::vector<PictureChannel> reference, std::vector
         keepDistinct(a, *b);
         if (std::string note = setKind(a, *b); !note.empty()) matched.notes.push_back(std::move(note));
         const Metric metric = metricOf(a.name, a.channels.size(), a.kind);
-        const auto stored = [](PictureChannel& c) {
-            return StoredPicture{std::move(c.image), std::move(c.coded), c.components()};
+        const auto stored = [](ImageChannel& c) {
+            return StoredImage{std::move(c.image), std::move(c.coded), c.components()};
         };
         matched.channels.push_back(
             {a.name, a.kind, metric, a.type, b->type, a.channels, stored(a), stored(*b)});
     }
-    for (const PictureChannel& b : test)
-        if (isWanted(b.name) &&
-            std::ranges::find(reference, b.name, &PictureChannel::name) == reference.end())
+    for (const ImageChannel& b : test)
+        if (isWanted(b.name) && std::ranges::find(reference, b.name, &ImageChannel::name) == reference.end())
             matched.one_sided.push_back({b.name, "the test"});
     const auto both = inReference == inTest
                           ? "both have " + inTest

@@ -59,13 +59,13 @@ bool isPlainFolder(const fs::path& name) {
 
 // Both formats name the software before the pixels. Compares the EXR attribute (name, type, size, value)
 // and the PNG chunk (size, type, keyword, text) byte for byte.
-bool isOurPicture(const fs::path& file) {
+bool isOurImage(const fs::path& file) {
     using namespace std::string_literals;
     std::string head;
     try {
-        InputFile picture(file);
-        head.resize(std::min<std::uint64_t>(picture.size(), 1 << 16));
-        picture.read(std::as_writable_bytes(std::span(head)));
+        InputFile image(file);
+        head.resize(std::min<std::uint64_t>(image.size(), 1 << 16));
+        image.read(std::as_writable_bytes(std::span(head)));
     } catch (const std::runtime_error&) {
         return false;
     }

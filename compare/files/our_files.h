@@ -33,6 +33,6 @@ std::vector<std::filesystem::path> foldersOf(const std::filesystem::path& name);
 std::vector<std::string> manifestFiles(const std::filesystem::path& folder, const std::string& manifest);
 
 // Whether an EXR or PNG names diptych as its software.
-bool isOurPicture(const std::filesystem::path& file);
+bool isOurImage(const std::filesystem::path& file);
 
 }  // namespace diptych

@@ -88,7 +88,7 @@ void checkReplaceable(const Output& output, const std::string& manifest, bool fo
     const bool ours =
         output.kind == OutputKind::folder
             ? fs::is_directory(there) && (isEmpty(output.path) || isOurManifest(output.path / manifest))
-            : fs::is_regular_file(there) && isOurPicture(output.path);
+            : fs::is_regular_file(there) && isOurImage(output.path);
     if (!ours) fail(output.path, "exists and was not written by diptych; --force replaces it");
 }
 

@@ -36,16 +36,16 @@ double magnitude(const float* p, int components, ChannelKind kind) {
     return std::sqrt(squares);
 }
 
-double meanMagnitude(const PictureRows& picture, ChannelKind kind, const Coverage& coverage) {
+double meanMagnitude(const ImageRows& image, ChannelKind kind, const Coverage& coverage) {
     double sum = 0;
     std::size_t count = 0;
     std::vector<float> buffer;
-    for (int y = 0; y < picture.height; ++y) {
-        const float* p = picture.row(y, buffer);
-        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
-        for (int x = 0; x < picture.width; ++x, p += picture.components)
-            if (covered[x] && finite(p, picture.components)) {
-                sum += magnitude(p, picture.components, kind);
+    for (int y = 0; y < image.height; ++y) {
+        const float* p = image.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(image.width);
+        for (int x = 0; x < image.width; ++x, p += image.components)
+            if (covered[x] && finite(p, image.components)) {
+                sum += magnitude(p, image.components, kind);
                 ++count;
             }
     }
@@ -61,8 +61,8 @@ using Histogram = std::vector<std::uint64_t>;
 class Ranks {
 public:
     // `first`: histogram of the non-zero errors by first digit. `zeros`: count of the others.
-    Ranks(const PictureRows& baseline, const PictureRows& test, const Coverage& coverage,
-          const PixelError& error, const Histogram& first, std::uint64_t zeros)
+    Ranks(const ImageRows& baseline, const ImageRows& test, const Coverage& coverage, const PixelError& error,
+          const Histogram& first, std::uint64_t zeros)
         : baseline_(baseline),
           test_(test),
           coverage_(coverage),
@@ -151,14 +151,14 @@ private:
         }
     }
 
-    const PictureRows &baseline_, &test_;
+    const ImageRows &baseline_, &test_;
     const Coverage& coverage_;
     const PixelError& error_;
     const Histogram& first_;
     std::uint64_t zeros_, count_;
 };
 
-void checkAlike(const PictureRows& a, const PictureRows& b, std::size_t covered) {
+void checkAlike(const ImageRows& a, const ImageRows& b, std::size_t covered) {
     if (a.width != b.width || a.height != b.height || a.components != b.components || a.pixels() != covered)
         throw std::runtime_error(fmt::format("images of {}x{}x{} and {}x{}x{} cannot be compared", a.width,
                                              a.height, a.components, b.width, b.height, b.components));
@@ -182,28 +182,28 @@ bool showsBlended(const Frame& frame, std::size_t pixel) {
 
 }  // namespace
 
-bool isBlack(const PictureRows& picture, const Coverage& coverage) {
+bool isBlack(const ImageRows& image, const Coverage& coverage) {
     std::vector<float> buffer;
-    for (int y = 0; y < picture.height; ++y) {
-        const float* p = picture.row(y, buffer);
-        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
-        for (int x = 0; x < picture.width; ++x, p += picture.components)
-            if (covered[x] && std::any_of(p, p + picture.components, [](float v) { return v != 0; }))
+    for (int y = 0; y < image.height; ++y) {
+        const float* p = image.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(image.width);
+        for (int x = 0; x < image.width; ++x, p += image.components)
+            if (covered[x] && std::any_of(p, p + image.components, [](float v) { return v != 0; }))
                 return false;
     }
     return true;
 }
 
-double litShare(const PictureRows& picture, const Coverage& coverage) {
+double litShare(const ImageRows& image, const Coverage& coverage) {
     std::vector<float> buffer;
     std::size_t all = 0, lit = 0;
-    for (int y = 0; y < picture.height; ++y) {
-        const float* p = picture.row(y, buffer);
-        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(picture.width);
-        for (int x = 0; x < picture.width; ++x, p += picture.components) {
+    for (int y = 0; y < image.height; ++y) {
+        const float* p = image.row(y, buffer);
+        const std::uint8_t* covered = coverage.covered.data() + size(y) * size(image.width);
+        for (int x = 0; x < image.width; ++x, p += image.components) {
             if (!covered[x]) continue;
             ++all;
-            lit += std::any_of(p, p + picture.components, [](float v) { return v != 0; });
+            lit += std::any_of(p, p + image.components, [](float v) { return v != 0; });
         }
     }
     return all == 0 ? 0 : static_cast<double>(lit) / static_cast<double>(all);
@@ -234,7 +234,7 @@ Coverage coverage(const Frame& a, const Frame& b) {
     return coverage;
 }
 
-PixelError::PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage)
+PixelError::PixelError(Metric metric, ChannelKind kind, const ImageRows& baseline, const Coverage& coverage)
     : metric_(metric), components_(baseline.components) {
     if (metric == Metric::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
     if (isAngle(metric) && components_ != 3)
@@ -259,8 +259,8 @@ double PixelError::operator()(const float* test, const float* baseline) const {
     return infinity;
 }
 
-ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& baseline,
-                          const PictureRows& test, const Coverage& coverage) {
+ChannelStats channelStats(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
+                          const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
     const PixelError error(metric, kind, baseline, coverage);
     ChannelStats stats;
@@ -297,7 +297,7 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& ba
     return stats;
 }
 
-Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
+Image errorImage(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
                  const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
     const PixelError error(metric, kind, baseline, coverage);

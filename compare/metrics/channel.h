@@ -5,7 +5,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
-#include "shared/image/picture_rows.h"
+#include "shared/image/image_rows.h"
 
 #include <array>
 #include <cstddef>
@@ -27,9 +27,9 @@ Coverage coverage(const Frame& a, const Frame& b);
 Coverage everyPixel(std::size_t pixels);
 
 // Whether all components of all covered pixels are 0.
-bool isBlack(const PictureRows& picture, const Coverage& coverage);
+bool isBlack(const ImageRows& image, const Coverage& coverage);
 // Fraction of covered pixels that are not 0; 0 if none is covered.
-double litShare(const PictureRows& picture, const Coverage& coverage);
+double litShare(const ImageRows& image, const Coverage& coverage);
 
 // Statistics over the covered pixels, in the channel's unit (angular, axial: degrees); 0 if none is
 // covered. All may be infinite: a NaN or infinity has infinite error against anything else, which no
@@ -58,7 +58,7 @@ struct ChannelStats {
 // Two NaNs are equal, and so are equal infinities.
 class PixelError {
 public:
-    PixelError(Metric metric, ChannelKind kind, const PictureRows& baseline, const Coverage& coverage);
+    PixelError(Metric metric, ChannelKind kind, const ImageRows& baseline, const Coverage& coverage);
     double operator()(const float* test, const float* baseline) const;
     double floor() const { return floor_; }  // relative: least denominator; else 0
 
@@ -70,11 +70,11 @@ private:
 
 // Statistics of `test` against `baseline`. Throws std::runtime_error if their sizes or components differ.
 // Deterministic: sums are double, in pixel order. Takes a few MB for any size.
-ChannelStats channelStats(Metric metric, ChannelKind kind, const PictureRows& baseline,
-                          const PictureRows& test, const Coverage& coverage);
+ChannelStats channelStats(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
+                          const Coverage& coverage);
 
 // The errors behind the statistics, W x H x 1; 0 in the background, infinite errors are +infinity.
-Image errorImage(Metric metric, ChannelKind kind, const PictureRows& baseline, const PictureRows& test,
+Image errorImage(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
                  const Coverage& coverage);
 
 // Tolerance in units in the last place of a pixel's largest component between two pipelines on a GPU. Its

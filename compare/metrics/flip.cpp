@@ -37,7 +37,7 @@ bool within(const float* p, float least, float most) {
     return std::min({p[0], p[1], p[2]}) >= least && std::max({p[0], p[1], p[2]}) <= most;
 }
 
-void checkPair(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
+void checkPair(const ImageRows& reference, const ImageRows& test, const FlipOptions& options) {
     if (reference.components != 3 || test.components != 3 || reference.width != test.width ||
         reference.height != test.height || reference.pixels() == 0)
         throw std::runtime_error(fmt::format(
@@ -54,7 +54,7 @@ void checkPair(const PictureRows& reference, const PictureRows& test, const Flip
 }
 
 // Finds and counts holes.
-FlipPair inspect(const PictureRows& reference, const PictureRows& test, FlipResult& result) {
+FlipPair inspect(const ImageRows& reference, const ImageRows& test, FlipResult& result) {
     FlipPair pair{reference, test, {}};
     std::mutex lock;
     tbb::parallel_for(tbb::blocked_range<int>(0, reference.height, 32), [&](const auto& rows) {
@@ -116,7 +116,7 @@ double checkedExposure(double stops) {
     return stops;
 }
 
-void chooseExposures(const PictureRows& reference, const HdrFlipOptions& options, HdrFlipResult& result) {
+void chooseExposures(const ImageRows& reference, const HdrFlipOptions& options, HdrFlipResult& result) {
     ExposureRange range;
     if (!options.start_exposure || !options.stop_exposure)
         range = exposureRange(reference, options.tone_mapper);
@@ -134,13 +134,13 @@ void chooseExposures(const PictureRows& reference, const HdrFlipOptions& options
 
 // Linear luminances (Rec.709) of the finite pixels; negative components count as 0. `lit`: only positive
 // luminances.
-metrics::Order luminances(const PictureRows& picture, bool lit) {
-    return {picture.pixels(), [&picture, lit](std::size_t from, std::size_t to, const auto& use) {
-                const std::size_t width = size(picture.width);
+metrics::Order luminances(const ImageRows& image, bool lit) {
+    return {image.pixels(), [&image, lit](std::size_t from, std::size_t to, const auto& use) {
+                const std::size_t width = size(image.width);
                 std::vector<float> buffer, values;
                 while (from < to) {
                     const std::size_t x = from % width, n = std::min(width - x, to - from);
-                    const float* p = picture.row(static_cast<int>(from / width), buffer) + 3 * x;
+                    const float* p = image.row(static_cast<int>(from / width), buffer) + 3 * x;
                     values.clear();
                     for (std::size_t i = 0; i < n; ++i, p += 3) {
                         if (!finite(p, 3)) continue;
@@ -201,7 +201,7 @@ double pixelsPerDegree(double distance, double width, int pixels) {
     return distance * (pixels / width) * (std::numbers::pi / 180);
 }
 
-ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper) {
+ExposureRange exposureRange(const ImageRows& reference, ToneMapper mapper) {
     constexpr std::array shares{1.0, 0.5};
     const std::vector<float> ranks = luminances(reference, false).nearestRanks(shares);
     const float most = ranks[0];
@@ -212,7 +212,7 @@ ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper) {
             std::clamp(std::log2(bright / median), -mostStops, mostStops)};
 }
 
-FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const FlipOptions& options) {
+FlipResult ldrFlip(const ImageRows& reference, const ImageRows& test, const FlipOptions& options) {
     checkPair(reference, test, options);
     FlipResult result;
     const FlipPair pair = inspect(reference, test, result);
@@ -222,13 +222,13 @@ FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const 
     return result;
 }
 
-HdrFlipResult hdrFlip(const PictureRows& reference, const PictureRows& test, const HdrFlipOptions& options) {
+HdrFlipResult hdrFlip(const ImageRows& reference, const ImageRows& test, const HdrFlipOptions& options) {
     checkPair(reference, test, options);
     return HdrFlipAgainst(reference, options, 0)(test);
 }
 
 struct HdrFlipAgainst::State {
-    State(const PictureRows& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
+    State(const ImageRows& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
         checkPair(r, r, o);
         chooseExposures(r, o, begun);
         const double step =
@@ -242,7 +242,7 @@ struct HdrFlipAgainst::State {
     }
 
     // Computes only the error map; returns the pair.
-    FlipPair compare(const PictureRows& test, HdrFlipResult& result) const {
+    FlipPair compare(const ImageRows& test, HdrFlipResult& result) const {
         checkPair(reference, test, options);
         result = begun;
         FlipPair pair = inspect(reference, test, result);
@@ -255,7 +255,7 @@ struct HdrFlipAgainst::State {
         return pair;
     }
 
-    const PictureRows reference;
+    const ImageRows reference;
     const HdrFlipOptions options;
     const FlipFilters filters{options.pixels_per_degree};
     HdrFlipResult begun;  // has the exposures
@@ -263,19 +263,19 @@ struct HdrFlipAgainst::State {
     std::optional<FilteredReference> kept;
 };
 
-HdrFlipAgainst::HdrFlipAgainst(const PictureRows& reference, const HdrFlipOptions& options,
+HdrFlipAgainst::HdrFlipAgainst(const ImageRows& reference, const HdrFlipOptions& options,
                                std::size_t most_bytes)
     : state_(std::make_unique<const State>(reference, options, most_bytes)) {}
 HdrFlipAgainst::~HdrFlipAgainst() = default;
 
-HdrFlipResult HdrFlipAgainst::operator()(const PictureRows& test) const {
+HdrFlipResult HdrFlipAgainst::operator()(const ImageRows& test) const {
     HdrFlipResult result;
     const FlipPair pair = state_->compare(test, result);
     pool(pair, state_->options.covered, result);
     return result;
 }
 
-HdrFlipAgainst::Mean HdrFlipAgainst::mean(const PictureRows& test) const {
+HdrFlipAgainst::Mean HdrFlipAgainst::mean(const ImageRows& test) const {
     HdrFlipResult result;
     const FlipPair pair = state_->compare(test, result);
     const metrics::Order order = counted(pair, state_->options.covered, result.error);

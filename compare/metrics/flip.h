@@ -7,7 +7,7 @@
 
 #include "compare/metrics/flip_rows.h"
 #include "shared/image/image.h"
-#include "shared/image/picture_rows.h"
+#include "shared/image/image_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -61,10 +61,9 @@ struct HdrFlipResult : FlipResult {
 // the other weights are renormalized. The result does not depend on the number of threads.
 
 // For sRGB, display-referred values.
-FlipResult ldrFlip(const PictureRows& reference, const PictureRows& test, const FlipOptions& options = {});
+FlipResult ldrFlip(const ImageRows& reference, const ImageRows& test, const FlipOptions& options = {});
 // For linear radiance: the largest error over evenly spaced exposures.
-HdrFlipResult hdrFlip(const PictureRows& reference, const PictureRows& test,
-                      const HdrFlipOptions& options = {});
+HdrFlipResult hdrFlip(const ImageRows& reference, const ImageRows& test, const HdrFlipOptions& options = {});
 
 // hdrFlip() of many tests against one reference with the same options, bitwise equal. Filters the
 // reference only once, which saves nearly half of the work.
@@ -72,17 +71,17 @@ class HdrFlipAgainst {
 public:
     // The reference and options.covered must outlive it. Caches 20 bytes per pixel and exposure, up to
     // `most_bytes`; the rest is recomputed for each test. Throws as hdrFlip() does.
-    HdrFlipAgainst(const PictureRows& reference, const HdrFlipOptions& options,
+    HdrFlipAgainst(const ImageRows& reference, const HdrFlipOptions& options,
                    std::size_t most_bytes = std::size_t{256} << 20);
     ~HdrFlipAgainst();
 
-    HdrFlipResult operator()(const PictureRows& test) const;
+    HdrFlipResult operator()(const ImageRows& test) const;
     // Computes only mean and pixels.
     struct Mean {
         double mean = 0;
         std::uint64_t pixels = 0;
     };
-    Mean mean(const PictureRows& test) const;
+    Mean mean(const ImageRows& test) const;
 
 private:
     struct State;
@@ -95,6 +94,6 @@ private:
 struct ExposureRange {
     double start = 0, stop = 0;  // stops
 };
-ExposureRange exposureRange(const PictureRows& reference, ToneMapper mapper);
+ExposureRange exposureRange(const ImageRows& reference, ToneMapper mapper);
 
 }  // namespace diptych

@@ -31,7 +31,7 @@ int radiusOf(const HalfKernel& kernel) {
     return static_cast<int>(kernel.size()) - 1;
 }
 
-std::vector<Tile> tilesOf(const PictureRows& image) {
+std::vector<Tile> tilesOf(const ImageRows& image) {
     const int across = (image.width + tileWidth - 1) / tileWidth;
     const int down = (image.height + tileHeight - 1) / tileHeight;
     const auto part = [](int whole, int i, int parts) {
@@ -59,9 +59,9 @@ public:
           upright_(size(stride_)),
           second_(size(tileWidth)),
           taps_(size(2 * radius_ + 1)) {
-        for (Picture& picture : pictures_) {
-            picture.ring.resize(size(3 * kept_) * size(stride_));
-            picture.filtered.resize(size(7 * tileWidth));
+        for (FilteredImage& filtered_image : images_) {
+            filtered_image.ring.resize(size(3 * kept_) * size(stride_));
+            filtered_image.filtered.resize(size(7 * tileWidth));
         }
     }
 
@@ -85,13 +85,13 @@ public:
 
 private:
     // The reference, the test and, if there are holes, a weight plane: 0 at holes, 1 elsewhere.
-    struct Picture {
+    struct FilteredImage {
         std::vector<float> ring;      // kept_ rows x 3 planes
         std::vector<float> filtered;  // 7 rows
     };
     enum Which { reference, test, weight };
 
-    // Enters rows of the pictures `first` to `last`, and calls use(y) when all taps of a tile's row are
+    // Enters rows of the images `first` to `last`, and calls use(y) when all taps of a tile's row are
     // there.
     template <class Use>
     void scan(const Tile& tile, const FlipLook* look, Which first, Which last, const Use& use) {
@@ -101,35 +101,37 @@ private:
             for (int which = first; which <= last; ++which) enter(static_cast<Which>(which), y, look);
             if (holes_) enterWeights(y);
             if (y - radius_ < tile.y0) continue;
-            if (holes_) filter(pictures_[weight], y - radius_);
+            if (holes_) filter(images_[weight], y - radius_);
             use(y - radius_);
         }
     }
 
     int paddedWidth() const { return tile_.width() + 2 * radius_; }
-    float* row(Picture& picture, int y, int plane) const {
+    float* row(FilteredImage& filtered_image, int y, int plane) const {
         const int slot = (y - tile_.y0 + radius_) & (kept_ - 1);
-        return picture.ring.data() + size(3 * slot + plane) * size(stride_);
+        return filtered_image.ring.data() + size(3 * slot + plane) * size(stride_);
     }
-    OpponentRow opponents(Picture& p, int y) const { return {row(p, y, 0), row(p, y, 1), row(p, y, 2)}; }
-    static FilteredRow filtered(Picture& p) {
+    OpponentRow opponents(FilteredImage& p, int y) const {
+        return {row(p, y, 0), row(p, y, 1), row(p, y, 2)};
+    }
+    static FilteredRow filtered(FilteredImage& p) {
         const auto at = [&](int i) { return p.filtered.data() + i * tileWidth; };
         return {at(0), at(1), at(2), at(3), at(4), at(5), at(6)};
     }
 
     bool hasHoles() const;
     void enter(Which which, int y, const FlipLook* look);
-    void gather(const PictureRows& image, int y);
+    void gather(const ImageRows& image, int y);
     void enterWeights(int y);
 
     using Convolve = void(float*, const float* const*, const float*, int, int);
     const float* const* middle() const { return taps_.data() + radius_; }
     // Convolves vertically: a plane's rows around y into upright_.
-    void down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane);
+    void down(Convolve convolve, const HalfKernel& kernel, FilteredImage& filtered_image, int y, int plane);
     // Convolves horizontally: upright_ into a row of the tile's width.
     void along(Convolve convolve, const HalfKernel& kernel, float* out);
 
-    void filter(Picture& picture, int y);
+    void filter(FilteredImage& filtered_image, int y);
     ComparableRow comparable(Which which, int y);
     void makeErrors(int y, const ReferenceRow& referenceRow);
     void withoutHoles(const FilteredRow& row, const FilteredRow& weights) const;
@@ -139,13 +141,13 @@ private:
     int radius_, stride_, kept_;
     Tile tile_{};
     bool holes_ = false;
-    Picture pictures_[3];
+    FilteredImage images_[3];
     std::vector<float> rgb_, upright_, second_;
     std::vector<const float*> taps_;
 };
 
 bool TileRows::isSame(const Tile& tile) const {
-    const PictureRows &a = pair_.reference, &b = pair_.test;
+    const ImageRows &a = pair_.reference, &b = pair_.test;
     const int left = std::max(tile.x0 - radius_, 0), right = std::min(tile.x1 + radius_, a.width);
     for (int y = std::max(tile.y0 - radius_, 0); y < std::min(tile.y1 + radius_, a.height); ++y)
         if (!a.storesSame(b, left, y, right - left)) return false;
@@ -154,7 +156,7 @@ bool TileRows::isSame(const Tile& tile) const {
 
 bool TileRows::hasHoles() const {
     if (pair_.holes.empty()) return false;
-    const PictureRows& image = pair_.reference;
+    const ImageRows& image = pair_.reference;
     const int left = std::max(tile_.x0 - radius_, 0), right = std::min(tile_.x1 + radius_, image.width);
     for (int y = std::max(tile_.y0 - radius_, 0); y < std::min(tile_.y1 + radius_, image.height); ++y) {
         const Hole* row = pair_.holes.data() + size(y) * size(image.width);
@@ -164,7 +166,7 @@ bool TileRows::hasHoles() const {
 }
 
 // Copies row y of the padded tile to rgb_; holes become black, which is 0 in every plane.
-void TileRows::gather(const PictureRows& image, int y) {
+void TileRows::gather(const ImageRows& image, int y) {
     const int line = std::clamp(y, 0, image.height - 1);
     const int first = tile_.x0 - radius_, last = first + paddedWidth();
     const int left = std::max(first, 0), right = std::min(last, image.width);
@@ -182,9 +184,9 @@ void TileRows::gather(const PictureRows& image, int y) {
 }
 
 void TileRows::enterWeights(int y) {
-    const PictureRows& image = pair_.reference;
+    const ImageRows& image = pair_.reference;
     const Hole* holes = pair_.holes.data() + size(std::clamp(y, 0, image.height - 1)) * size(image.width);
-    const OpponentRow out = opponents(pictures_[weight], y);
+    const OpponentRow out = opponents(images_[weight], y);
     for (int i = 0; i < paddedWidth(); ++i) {
         const int x = std::clamp(tile_.x0 - radius_ + i, 0, image.width - 1);
         out.y[i] = out.cx[i] = out.cz[i] = holes[x] == Hole::none ? 1.0f : 0.0f;
@@ -193,16 +195,17 @@ void TileRows::enterWeights(int y) {
 
 void TileRows::enter(Which which, int y, const FlipLook* look) {
     gather(which == reference ? pair_.reference : pair_.test, y);
-    const OpponentRow out = opponents(pictures_[which], y);
+    const OpponentRow out = opponents(images_[which], y);
     if (look)
         opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
     else
         opponentsFromSrgb(out, rgb_.data(), paddedWidth());
 }
 
-void TileRows::down(Convolve convolve, const HalfKernel& kernel, Picture& picture, int y, int plane) {
+void TileRows::down(Convolve convolve, const HalfKernel& kernel, FilteredImage& filtered_image, int y,
+                    int plane) {
     const int radius = radiusOf(kernel);
-    for (int k = -radius; k <= radius; ++k) taps_[size(radius_ + k)] = row(picture, y + k, plane);
+    for (int k = -radius; k <= radius; ++k) taps_[size(radius_ + k)] = row(filtered_image, y + k, plane);
     convolve(upright_.data(), middle(), kernel.data(), radius, paddedWidth());
 }
 
@@ -212,26 +215,26 @@ void TileRows::along(Convolve convolve, const HalfKernel& kernel, float* out) {
     convolve(out, middle(), kernel.data(), radius, tile_.width());
 }
 
-void TileRows::filter(Picture& picture, int y) {
-    const FilteredRow out = filtered(picture);
+void TileRows::filter(FilteredImage& filtered_image, int y) {
+    const FilteredRow out = filtered(filtered_image);
     const FlipFilters& f = filters_;
-    down(convolveEven, f.y, picture, y, 0);
+    down(convolveEven, f.y, filtered_image, y, 0);
     along(convolveEven, f.y, out.y);
-    down(convolveEven, f.cx, picture, y, 1);
+    down(convolveEven, f.cx, filtered_image, y, 1);
     along(convolveEven, f.cx, out.cx);
-    down(convolveEven, f.cz[0], picture, y, 2);
+    down(convolveEven, f.cz[0], filtered_image, y, 2);
     along(convolveEven, f.cz[0], out.cz);
-    down(convolveEven, f.cz[1], picture, y, 2);
+    down(convolveEven, f.cz[1], filtered_image, y, 2);
     along(convolveEven, f.cz[1], second_.data());
     for (int i = 0; i < tile_.width(); ++i)
         out.cz[i] = f.cz_share[0] * out.cz[i] + f.cz_share[1] * second_[size(i)];
 
-    down(convolveEven, f.smooth, picture, y, 0);
+    down(convolveEven, f.smooth, filtered_image, y, 0);
     along(convolveOdd, f.edge, out.edge_x);
     along(convolveEven, f.point, out.point_x);
-    down(convolveOdd, f.edge, picture, y, 0);
+    down(convolveOdd, f.edge, filtered_image, y, 0);
     along(convolveEven, f.smooth, out.edge_y);
-    down(convolveEven, f.point, picture, y, 0);
+    down(convolveEven, f.point, filtered_image, y, 0);
     along(convolveEven, f.smooth, out.point_y);
 }
 
@@ -252,9 +255,9 @@ void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) 
 }
 
 ComparableRow TileRows::comparable(Which which, int y) {
-    filter(pictures_[which], y);
-    const FilteredRow row = filtered(pictures_[which]);
-    if (holes_) withoutHoles(row, filtered(pictures_[weight]));
+    filter(images_[which], y);
+    const FilteredRow row = filtered(images_[which]);
+    if (holes_) withoutHoles(row, filtered(images_[weight]));
     return comparableRow(row, tile_.width());
 }
 
@@ -288,7 +291,7 @@ void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& l
 
 }  // namespace
 
-FilteredReference::FilteredReference(const PictureRows& reference, const std::vector<Hole>& holes,
+FilteredReference::FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes,
                                      const FlipFilters& filters, const std::vector<FlipLook>& looks,
                                      std::size_t most_bytes)
     : width_(size(reference.width)), height_(size(reference.height)) {

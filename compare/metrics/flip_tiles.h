@@ -6,7 +6,7 @@
 #include "compare/metrics/flip_filters.h"
 #include "compare/metrics/flip_rows.h"
 #include "shared/image/image.h"
-#include "shared/image/picture_rows.h"
+#include "shared/image/image_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +19,8 @@ namespace diptych {
 enum class Hole : std::uint8_t { none, same, different };
 
 struct FlipPair {
-    PictureRows reference, test;  // W x H x 3, same size
-    std::vector<Hole> holes;      // W x H; empty: none
+    ImageRows reference, test;  // W x H x 3, same size
+    std::vector<Hole> holes;    // W x H; empty: none
 };
 
 // One exposure of a linear pair: values are multiplied by `scale` and tone mapped.
@@ -34,8 +34,8 @@ struct FlipLook {
 class FilteredReference {
 public:
     // `holes`: W x H or empty; must be those of the pairs that use it.
-    FilteredReference(const PictureRows& reference, const std::vector<Hole>& holes,
-                      const FlipFilters& filters, const std::vector<FlipLook>& looks, std::size_t most_bytes);
+    FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes, const FlipFilters& filters,
+                      const std::vector<FlipLook>& looks, std::size_t most_bytes);
     bool keeps(std::size_t look) const { return look < looks_.size(); }
     // Row y from column x on, for a cached look.
     ComparableRow row(std::size_t look, int x, int y) const;

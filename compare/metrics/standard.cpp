@@ -33,7 +33,7 @@ struct BandSums {
 
 class StandardPass {
 public:
-    StandardPass(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+    StandardPass(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
                  const Coverage& coverage, Metric metric)
         : reference_(reference),
           test_(test),
@@ -96,7 +96,7 @@ private:
     std::vector<std::size_t> clean(int y, Row& row) const;
     void add(int y, Row& row, BandSums& sums) const;
 
-    const PictureRows &reference_, &test_;
+    const ImageRows &reference_, &test_;
     const Coverage& coverage_;
     bool angles_, lines_;
     double floor_;
@@ -166,7 +166,7 @@ void StandardPass::add(int y, Row& row, BandSums& sums) const {
     }
 }
 
-void checkPair(const PictureRows& reference, const PictureRows& test, const Coverage& coverage) {
+void checkPair(const ImageRows& reference, const ImageRows& test, const Coverage& coverage) {
     if (reference.width != test.width || reference.height != test.height ||
         reference.components != test.components || reference.components < 1 || reference.components > 4 ||
         coverage.covered.size() != reference.pixels())
@@ -208,18 +208,18 @@ void setAngles(const BandSums& sums, StandardMetrics& m) {
 }
 
 // The luma plane for SSIM.
-PlaneRow luma(const PictureRows& picture, Range range, float scale) {
-    return [=, &picture](float* out, int y) {
+PlaneRow luma(const ImageRows& image, Range range, float scale) {
+    return [=, &image](float* out, int y) {
         static thread_local std::vector<float> buffer;
-        const float* rgb = picture.row(y, buffer);
+        const float* rgb = image.row(y, buffer);
         if (range == Range::display)
-            lumaFromDisplay(out, rgb, picture.width);
+            lumaFromDisplay(out, rgb, image.width);
         else
-            lumaFromLinear(out, rgb, picture.width, scale);
+            lumaFromLinear(out, rgb, image.width, scale);
     };
 }
 
-std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& test, Range range,
+std::optional<double> ssimOf(const ImageRows& reference, const ImageRows& test, Range range,
                              double meanLuminance, const Coverage& coverage) {
     // A black reference has no mean; the inverse of a tiny mean may overflow.
     const double scale = meanLuminance > 0 ? std::min(0.18 / meanLuminance, 1e30) : 1;
@@ -230,7 +230,7 @@ std::optional<double> ssimOf(const PictureRows& reference, const PictureRows& te
 
 }  // namespace
 
-StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+StandardMetrics standardMetrics(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
                                 Range range, const Coverage& coverage, Metric metric) {
     checkPair(reference, test, coverage);
     StandardMetrics m;

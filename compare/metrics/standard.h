@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
-#include "shared/image/picture_rows.h"
+#include "shared/image/image_rows.h"
 
 #include <cstdint>
 #include <optional>
@@ -53,7 +53,7 @@ struct StandardMetrics {
 // Compares two images; throws std::runtime_error if their sizes or components differ. Makes a few passes
 // over the pixels, each with a few dozen rows per thread. The result does not depend on the number of
 // threads.
-StandardMetrics standardMetrics(const PictureRows& reference, const PictureRows& test, ChannelKind kind,
+StandardMetrics standardMetrics(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
                                 Range range, const Coverage& coverage, Metric metric = Metric::angular);
 
 }  // namespace diptych

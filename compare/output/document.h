@@ -134,7 +134,7 @@ struct Terms {
     std::string box{};
 };
 // An image and what it shows.
-struct Picture {
+struct ImageBlock {
     std::string source, alt;
     Text caption;
 };
@@ -157,10 +157,10 @@ concept among = (std::same_as<One, All> || ...);
 struct Block {
     enum Where { everywhere, page, terminal };
 
-    template <among<Heading, Paragraph, List, Terms, Table, Picture, Drawing, Box> One>
+    template <among<Heading, Paragraph, List, Terms, Table, ImageBlock, Drawing, Box> One>
     Block(One of, Where its_where = everywhere) : content(std::move(of)), where(its_where) {}
 
-    std::variant<Heading, Paragraph, List, Terms, Table, Picture, Drawing, Box> content;
+    std::variant<Heading, Paragraph, List, Terms, Table, ImageBlock, Drawing, Box> content;
     Where where;
 };
 

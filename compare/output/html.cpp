@@ -153,10 +153,10 @@ struct Markup {
         if (!table.note.empty()) out += (*this)(Paragraph{table.note, "soft small"});
         return boxed(table.box, out);
     }
-    std::string operator()(const Picture& picture) const {
+    std::string operator()(const ImageBlock& image) const {
         return fmt::format(
             "<figure><img loading=\"lazy\" src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-            markup(picture.source), markup(picture.alt), inHtml(picture.caption));
+            markup(image.source), markup(image.alt), inHtml(image.caption));
     }
     std::string operator()(const Drawing& drawing) const { return drawing.markup; }
     std::string operator()(const Box& box) const {

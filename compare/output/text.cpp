@@ -85,7 +85,7 @@ struct Lines {
         return out;
     }
     std::string operator()(const Table& table) const { return inText(table); }
-    std::string operator()(const Picture&) const { return {}; }
+    std::string operator()(const ImageBlock&) const { return {}; }
     std::string operator()(const Drawing&) const { return {}; }
     std::string operator()(const Box& box) const {
         return box.summary.spans.empty() ? inText(box.blocks) : std::string();

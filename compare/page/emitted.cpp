@@ -57,11 +57,11 @@ bool consistsOf(std::string_view text, std::string_view others) {
     });
 }
 
-// A place in the page, an embedded picture, or a file below the page's folder.
+// A place in the page, an embedded image, or a file below the page's folder.
 bool isAddress(std::string_view value) {
-    constexpr std::string_view picture = "data:image/png;base64,";
+    constexpr std::string_view image = "data:image/png;base64,";
     if (value.empty() || value.starts_with('#')) return true;
-    if (value.starts_with(picture)) return consistsOf(value.substr(picture.size()), "+/=");
+    if (value.starts_with(image)) return consistsOf(value.substr(image.size()), "+/=");
     return consistsOf(value.substr(0, 1), "_-") && value.find_first_of(":\\%") == value.npos &&
            value.find("../") == value.npos;
 }

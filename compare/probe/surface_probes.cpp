@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Specular anti-aliasing, multiple scattering, spherical harmonics, and the tone curve of images.
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/probe/groups.h"
 #include "compare/probe/vec.h"
 #include "shared/contract/constants.h"

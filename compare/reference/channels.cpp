@@ -36,7 +36,7 @@ glm::dvec3 ofPane(const Pixel& p) {
 struct ChannelRow {
     Channel mode;
     glm::dvec3 (*value)(const Pixel&);
-    glm::vec4 rounding{0};                                // weights of Picture::rounding
+    glm::vec4 rounding{0};                                // weights of ReferenceImage::rounding
     void (*read)(Surface&, const glm::dvec3&) = nullptr;  // from a captured value; null: not needed
 };
 

@@ -15,8 +15,8 @@
 
 namespace diptych::reference {
 
-// The part of Picture::rounding that belongs to a channel, from the four components of a pixel, W/(sr m^2); 0
-// if the channel is no light.
+// The part of ReferenceImage::rounding that belongs to a channel, from the four components of a pixel, W/(sr
+// m^2); 0 if the channel is no light.
 double roundingOf(Channel mode, const float* rounding);
 
 // The components of a channel (shared/contract/debug_mode.h).

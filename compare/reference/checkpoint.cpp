@@ -89,14 +89,14 @@ bool isAt(std::FILE* stream, const OpenFolder& folder, const fs::path& file) {
     return ::fstat(::fileno(stream), &open) == 0 && folder.has(file.filename(), open);
 }
 
-enum class Holds { nothing, this_picture, something_else };
+enum class Holds { nothing, this_image, something_else };
 
 // Compares the beginning of the file with `head`. A file shorter than a head has just been created.
 template <class Head>
 Holds headOf(std::FILE* stream, const Head& head) {
     Head there{};
     if (std::fread(&there, sizeof there, 1, stream) != 1) return Holds::nothing;
-    return std::memcmp(&there, &head, sizeof head) == 0 ? Holds::this_picture : Holds::something_else;
+    return std::memcmp(&there, &head, sizeof head) == 0 ? Holds::this_image : Holds::something_else;
 }
 
 // Reads the following records up to the first incomplete one; returns its position.
@@ -150,7 +150,7 @@ bool Checkpoint::open(const Head& head) {
         return false;
     }
     // Overwrites a record that was incomplete when the program ended.
-    const long whole = holds == Holds::this_picture ? readRecords(stream_, floats_, earlier_) : 0;
+    const long whole = holds == Holds::this_image ? readRecords(stream_, floats_, earlier_) : 0;
     if (std::fseek(stream_, whole, SEEK_SET) != 0 ||
         (whole == 0 && (std::fwrite(&head, sizeof head, 1, stream_) != 1 || std::fflush(stream_) != 0))) {
         const int error = errno;
@@ -173,7 +173,7 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
         const bool ended = lock(stream) && isAt(stream, folder_, other);
         const Holds holds = headOf(stream, head);
         std::vector<Record> records;
-        if (holds == Holds::this_picture) readRecords(stream, floats_, records);
+        if (holds == Holds::this_image) readRecords(stream, floats_, records);
         try {
             for (Record& record : records) {
                 if (!have.insert(record.number).second) continue;

@@ -36,8 +36,8 @@ struct Pixel {
 
 // One pixel, and the contribution of each light to it.
 struct PixelLight {
-    std::map<Channel, glm::dvec3> channels;  // as in Picture::channels
-    double uncertainty = 0;                  // as in Picture::uncertainty
+    std::map<Channel, glm::dvec3> channels;  // as in ReferenceImage::channels
+    double uncertainty = 0;                  // as in ReferenceImage::uncertainty
     glm::dvec3 unblended{0};                 // lit without blended surfaces, W/(sr m^2)
     // At the pixel's centre, before haze; empty in the background. `lights` is indexed like
     // Request::lights: each light with its shadow, without environment and ambient light. `without_lights`

@@ -3,7 +3,7 @@
 
 #include "compare/reference/channels.h"
 #include "compare/reference/checkpoint.h"
-#include "compare/reference/picture_key.h"
+#include "compare/reference/image_key.h"
 #include "compare/reference/pixel_renderer.h"
 #include "compare/reference/time_estimate.h"
 #include "shared/contract/debug_mode.h"
@@ -28,11 +28,10 @@ namespace {
 // Side of the square tiles that are rendered and saved as units, in pixels.
 constexpr int tileSide = 16;
 
-// The other images of a picture, in the order in which tiles store them.
-std::array<Image*, 7> besides(Picture& picture) {
-    return {&picture.rounding,          &picture.shadow_edge,  &picture.local_shadow_edge,
-            &picture.environment_costs, &picture.surroundings, &picture.blended,
-            &picture.unblended};
+// The other images of a ReferenceImage, in the order in which tiles store them.
+std::array<Image*, 7> besides(ReferenceImage& image) {
+    return {&image.rounding,     &image.shadow_edge, &image.local_shadow_edge, &image.environment_costs,
+            &image.surroundings, &image.blended,     &image.unblended};
 }
 
 glm::dvec4 beyondEverywhere(const Shading& s) {
@@ -56,7 +55,7 @@ public:
             if (!isMadeByReference(mode)) continue;
             if (!request.shadow_edges && isOfShadows(mode.channel)) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.channel);
-            Image& image = picture_.channels[mode.channel];
+            Image& image = image_.channels[mode.channel];
             if (copied && request.surfaces->contains(mode.channel)) {
                 image = request.surfaces->at(mode.channel);
                 continue;
@@ -68,32 +67,32 @@ public:
         }
         if (request.decoded)
             for (const Channel mode : litModes) {
-                picture_.decoded[mode] = Image(request.view.width, request.view.height, 3);
+                image_.decoded[mode] = Image(request.view.width, request.view.height, 3);
                 floats_ += 3;
             }
-        picture_.uncertainty = Image(request.view.width, request.view.height, 1);
+        image_.uncertainty = Image(request.view.width, request.view.height, 1);
         ++floats_;
         if (std::ranges::any_of(request.lights, [](const Light& light) { return !isArea(light.kind); }))
-            picture_.rounding = Image(request.view.width, request.view.height, 4);
+            image_.rounding = Image(request.view.width, request.view.height, 4);
         const auto cast = [&](const auto& which) {
             return request.shadow_edges && std::ranges::any_of(request.casters, [&](std::size_t i) {
                        return which(request.lights[i]);
                    });
         };
         if (cast([](const Light& light) { return light.kind == LightKind::directional; }))
-            picture_.shadow_edge = Image(request.view.width, request.view.height, 3);
-        if (cast(isLocal)) picture_.local_shadow_edge = Image(request.view.width, request.view.height, 2);
+            image_.shadow_edge = Image(request.view.width, request.view.height, 3);
+        if (cast(isLocal)) image_.local_shadow_edge = Image(request.view.width, request.view.height, 2);
         if (request.environment_costs && request.scene.environment)
-            picture_.environment_costs = Image(request.view.width, request.view.height, 9);
-        if (request.surroundings) picture_.surroundings = Image(request.view.width, request.view.height, 2);
+            image_.environment_costs = Image(request.view.width, request.view.height, 9);
+        if (request.surroundings) image_.surroundings = Image(request.view.width, request.view.height, 2);
         if (request.blended && blendsSomewhere(request)) {
-            picture_.blended = Image(request.view.width, request.view.height, 3);
-            picture_.unblended = Image(request.view.width, request.view.height, 3);
+            image_.blended = Image(request.view.width, request.view.height, 3);
+            image_.unblended = Image(request.view.width, request.view.height, 3);
         }
-        for (const Image* image : besides(picture_)) floats_ += image->components;
+        for (const Image* image : besides(image_)) floats_ += image->components;
     }
 
-    Picture operator()() {
+    ReferenceImage operator()() {
         const std::size_t pixels = std::size_t{tileSide} * tileSide;
         Checkpoint* const checkpoint =
             request_.keep ? &request_.keep(keyOf(request_), 1 + pixels * static_cast<std::size_t>(floats_))
@@ -105,8 +104,8 @@ public:
                 if (record.number < tiles) {
                     put(record.number, record.values);
                     there[record.number] = true;
-                    picture_.kept_share += 1.0 / static_cast<double>(tiles);
-                    picture_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
+                    image_.kept_share += 1.0 / static_cast<double>(tiles);
+                    image_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
                 }
         // The order of tiles is scattered over the image, so that the finished part predicts the remaining
         // time.
@@ -122,7 +121,7 @@ public:
             if (request_.expected)
                 if (const auto seconds = expectedSeconds(request_.view.width, request_.view.height,
                                                          [&](int x, int y) { renderer.render(x, y); }))
-                    request_.expected(*seconds * (1 - picture_.kept_share));
+                    request_.expected(*seconds * (1 - image_.kept_share));
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
                 const std::vector<float> values = renderTile(renderer, order[i]);
@@ -133,9 +132,9 @@ public:
                     request_.progress(static_cast<double>(++done) / static_cast<double>(order.size()));
             });
         }
-        for (Image* const image : {&picture_.uncertainty, &picture_.rounding})
+        for (Image* const image : {&image_.uncertainty, &image_.rounding})
             if (std::ranges::all_of(image->data, [](float u) { return u == 0; })) *image = {};
-        return std::move(picture_);
+        return std::move(image_);
     }
 
 private:
@@ -150,7 +149,7 @@ private:
     void tell(std::uint64_t tile) const {
         const int x = static_cast<int>(tile % static_cast<std::uint64_t>(across_)) * tileSide;
         const int y = static_cast<int>(tile / static_cast<std::uint64_t>(across_)) * tileSide;
-        request_.tile(picture_, x, y, std::min(tileSide, request_.view.width - x),
+        request_.tile(image_, x, y, std::min(tileSide, request_.view.width - x),
                       std::min(tileSide, request_.view.height - y));
     }
 
@@ -167,8 +166,7 @@ private:
             for (const auto& [mode, image] : drawn_) takeChannel(mode->channel, mode->width, pixel);
             if (request_.decoded) {
                 const Pixel decoded = renderer.withDecoded(x, y, pixel);
-                for (const auto& [mode, image] : picture_.decoded)
-                    takeChannel(mode, image.components, decoded);
+                for (const auto& [mode, image] : image_.decoded) takeChannel(mode, image.components, decoded);
             }
             values.push_back(static_cast<float>(pixel.shading.uncertainty + pixel.blended.uncertainty));
             const auto take = [&](const Image& image, std::initializer_list<double> numbers) {
@@ -176,18 +174,18 @@ private:
                 for (const double number : numbers) values.push_back(static_cast<float>(number));
             };
             const glm::dvec4 rounding = beyondEverywhere(pixel.shading);
-            take(picture_.rounding, {rounding.x, rounding.y, rounding.z, rounding.w});
-            take(picture_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
-            take(picture_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
+            take(image_.rounding, {rounding.x, rounding.y, rounding.z, rounding.w});
+            take(image_.shadow_edge, {pixel.edge_distance, pixel.sun_radiance, pixel.sun_irradiance});
+            take(image_.local_shadow_edge, {pixel.local_edge, pixel.local_radiance});
             EnvironmentCosts c = pixel.shading.costs;
             c += pixel.blended.costs;
-            take(picture_.environment_costs, {c.diffuse[0], c.diffuse[1], c.diffuse[2], c.split[0],
-                                              c.split[1], c.split[2], c.sampled, c.wider, c.lobe});
-            take(picture_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
+            take(image_.environment_costs, {c.diffuse[0], c.diffuse[1], c.diffuse[2], c.split[0], c.split[1],
+                                            c.split[2], c.sampled, c.wider, c.lobe});
+            take(image_.surroundings, {pixel.shading.surroundings.all, pixel.shading.surroundings.hidden});
             const glm::dvec3& t = pixel.transmitted;
-            take(picture_.blended,
+            take(image_.blended,
                  {pixel.hidden, pixel.bent, pixel.bent > 0 ? std::max({t.x, t.y, t.z}) : 0.0});
-            take(picture_.unblended, {pixel.unblended.x, pixel.unblended.y, pixel.unblended.z});
+            take(image_.unblended, {pixel.unblended.x, pixel.unblended.y, pixel.unblended.z});
         });
         values.front() = std::chrono::duration<float>(std::chrono::steady_clock::now() - start).count();
         return values;
@@ -198,10 +196,10 @@ private:
         eachPixel(tile, [&](int x, int y) {
             for (const auto& [mode, image] : drawn_)
                 for (int c = 0; c < mode->width; ++c) image->at(x, y, c) = *next++;
-            for (auto& [mode, image] : picture_.decoded)
+            for (auto& [mode, image] : image_.decoded)
                 for (int c = 0; c < image.components; ++c) image.at(x, y, c) = *next++;
-            picture_.uncertainty.at(x, y) = *next++;
-            for (Image* const image : besides(picture_))
+            image_.uncertainty.at(x, y) = *next++;
+            for (Image* const image : besides(image_))
                 for (int c = 0; c < image->components; ++c) image->at(x, y, c) = *next++;
         });
     }
@@ -210,7 +208,7 @@ private:
     const int across_, down_;
     int floats_ = 0;                                          // floats per pixel; a tile has one more
     std::vector<std::pair<const DebugMode*, Image*>> drawn_;  // images in picture_
-    Picture picture_;
+    ReferenceImage image_;
 };
 
 }  // namespace
@@ -244,7 +242,7 @@ PixelLight drawPixel(const Request& request, int x, int y) {
     return result;
 }
 
-Picture draw(const Request& request) {
+ReferenceImage draw(const Request& request) {
     return Drawing(request)();
 }
 

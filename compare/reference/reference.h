@@ -14,7 +14,7 @@
 
 namespace diptych::reference {
 
-struct Picture {
+struct ReferenceImage {
     // by debug mode number, all supported channels; background as in a Frame
     std::map<Channel, Image> channels;
     // litModes of the surfaces of Request::decoded; positions, visibility and blended surfaces as in
@@ -55,7 +55,7 @@ std::vector<Channel> surfaceChannels(std::uint32_t layers);
 
 // Renders the image, multithreaded. The result does not depend on the number of threads or on
 // interruptions. Throws std::runtime_error, one line, if finished tiles cannot be saved.
-Picture draw(const Request& request);
+ReferenceImage draw(const Request& request);
 
 // Renders one pixel of the image of draw(). Its surface is lit once for each light.
 PixelLight drawPixel(const Request& request, int x, int y);

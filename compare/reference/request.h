@@ -23,7 +23,7 @@
 namespace diptych::reference {
 
 class Checkpoint;
-struct Picture;
+struct ReferenceImage;
 
 struct Request {
     const Scene& scene;
@@ -58,7 +58,7 @@ struct Request {
     int samples = 1;                                     // per pixel; mode scene only
     Resolve resolve = Resolve::linear;                   // how the samples are combined; mode scene only
     const std::map<Channel, Image>* surfaces = nullptr;  // mode surface only: the surfaceChannels()
-    // Mode surface only: the same channels as deferred decodes them, for Picture::decoded; or nullptr.
+    // Mode surface only: the same channels as deferred decodes them, for ReferenceImage::decoded; or nullptr.
     const std::map<Channel, Image>* decoded = nullptr;
     // Called once, with the image's key and the number of floats in a tile; returns the Checkpoint for
     // finished tiles. The caller owns it and removes it once the image has been written. Empty: nothing is
@@ -69,7 +69,7 @@ struct Request {
     std::function<void(double fraction)> progress = {};
     // Called from any thread with each finished tile: its left and top pixel, width and height. Only those
     // pixels may be read; other tiles may be written meanwhile.
-    std::function<void(const Picture& picture, int x, int y, int width, int height)> tile = {};
+    std::function<void(const ReferenceImage& image, int x, int y, int width, int height)> tile = {};
     // Called once, early, with the estimated seconds for the whole image; not called for a short one.
     std::function<void(double seconds)> expected = {};
 };

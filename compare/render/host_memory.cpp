@@ -39,10 +39,10 @@ double imageBytes(const Settings& settings, bool sun) {
 // Bytes per pixel beyond the frame's images: images read back and kept until they are in a file; a
 // capture's images, multisampled like the frame's; pages of files.
 double captureBytes(const Settings& settings, const RenderOptions& options, bool software) {
-    constexpr double one_picture = 60, channel = 4, once_more = 20, channel_once_more = 2, target = 16;
+    constexpr double one_image = 60, channel = 4, once_more = 20, channel_once_more = 2, target = 16;
     const auto channels = static_cast<double>(options.channels.size());
     const double others = std::max(channels - 2, 0.0);
-    double bytes = one_picture + channel * others;
+    double bytes = one_image + channel * others;
     const bool again = options.twice == Twice::all || options.through_gbuffer;
     if (again || options.twice == Twice::lit) bytes += once_more;
     if (again) bytes += channel_once_more * others;

@@ -123,28 +123,28 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
             .surfaces = surfaces ? &surfaces->channels : nullptr};
 }
 
-// Moves the picture's images into the Frame, with notes on what they show.
-void takePicture(reference::Picture& picture, Frame& frame) {
-    frame.counters.nonfinite_pixels = nonfinitePixels(picture.channels.at(Channel::lit));
-    frame.channels = std::move(picture.channels);
+// Moves the reference's images into the Frame, with notes on what they show.
+void takeImage(reference::ReferenceImage& rendered, Frame& frame) {
+    frame.counters.nonfinite_pixels = nonfinitePixels(rendered.channels.at(Channel::lit));
+    frame.channels = std::move(rendered.channels);
     for (auto& [mode, image] : frame.channels)
         if (auto repaired = repairNonfinite(image); !repaired.empty())
             frame.repaired[mode] = std::move(repaired);
-    frame.through_gbuffer = std::move(picture.decoded);
-    frame.rounding = std::move(picture.rounding);
-    frame.shadow_edge = std::move(picture.shadow_edge);
-    frame.local_shadow_edge = std::move(picture.local_shadow_edge);
-    frame.blended = std::move(picture.blended);
-    frame.unblended = std::move(picture.unblended);
-    frame.environment_costs = std::move(picture.environment_costs);
-    if (!picture.surroundings.empty()) {
-        frame.hidden_light = hiddenLight(picture.surroundings);
+    frame.through_gbuffer = std::move(rendered.decoded);
+    frame.rounding = std::move(rendered.rounding);
+    frame.shadow_edge = std::move(rendered.shadow_edge);
+    frame.local_shadow_edge = std::move(rendered.local_shadow_edge);
+    frame.blended = std::move(rendered.blended);
+    frame.unblended = std::move(rendered.unblended);
+    frame.environment_costs = std::move(rendered.environment_costs);
+    if (!rendered.surroundings.empty()) {
+        frame.hidden_light = hiddenLight(rendered.surroundings);
         if (frame.hidden_light) frame.notes.push_back(hiddenLightNote(*frame.hidden_light));
     }
-    if (!picture.uncertainty.empty()) {
+    if (!rendered.uncertainty.empty()) {
         frame.relative_uncertainty =
-            uncertaintyOf(picture.uncertainty, frame.channels.at(Channel::lit), coverage(frame, frame));
-        frame.uncertainty = std::move(picture.uncertainty);
+            uncertaintyOf(rendered.uncertainty, frame.channels.at(Channel::lit), coverage(frame, frame));
+        frame.uncertainty = std::move(rendered.uncertainty);
         frame.notes.push_back(uncertaintyNote(frame.relative_uncertainty));
     }
 }
@@ -170,19 +170,19 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     request.program = commitName();
     request.progress = [&](double fraction) { options.progress.at(fraction, step); };
     if (options.tile)
-        request.tile = [&](const reference::Picture& picture, int x, int y, int width, int height) {
-            options.tile(picture.channels, x, y, width, height);
+        request.tile = [&](const reference::ReferenceImage& rendered, int x, int y, int width, int height) {
+            options.tile(rendered.channels, x, y, width, height);
         };
     // Called before any tile is rendered.
     request.expected = [&](double seconds) {
         step += fmt::format(", about {} in all", clockText(seconds));
         options.progress.at(0, step);
     };
-    reference::Picture picture = reference::draw(request);
+    reference::ReferenceImage rendered = reference::draw(request);
 
     Frame frame = describedFrame(scene, view, settings);
     frame.requested = options.requested;
-    takePicture(picture, frame);
+    takeImage(rendered, frame);
     const auto isUnwanted = [&](Channel mode) {
         return std::ranges::count(options.channels, mode) == 0 || isLeftOut(options, view.needs.layers, mode);
     };
@@ -191,12 +191,12 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     });
     std::erase_if(frame.through_gbuffer, [&](const auto& entry) { return isUnwanted(entry.first); });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (picture.kept_share > 0)
+    if (rendered.kept_share > 0)
         frame.notes.push_back(fmt::format(
             "the reference resumed at {:.0f} %, which an interrupted command had rendered in {}; the rest "
             "took {}",
-            std::floor(100 * picture.kept_share), clockText(picture.kept_seconds), clockText(now)));
-    frame.made_in_ms = 1000 * (now + picture.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
+            std::floor(100 * rendered.kept_share), clockText(rendered.kept_seconds), clockText(now)));
+    frame.made_in_ms = 1000 * (now + rendered.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
     return frame;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A channel's card: images, difference, wipe, values, reason.
-#include "compare/picture/heat.h"
+#include "compare/image/heat.h"
 #include "compare/report/document.h"
 #include "compare/report/titles.h"
 #include "compare/run/command_text.h"
@@ -37,7 +37,7 @@ public:
           right_(report.test(report.comparisons[comparison])),
           command_(report.comparisons[comparison].command),
           channel_(channel),
-          pictures_(layout.pictures[comparison][static_cast<std::size_t>(
+          images_(layout.images[comparison][static_cast<std::size_t>(
               &channel - report.comparisons[comparison].channels.data())]),
           id_(cardId(layout.ids[comparison], *channel.mode)) {}
 
@@ -49,7 +49,7 @@ public:
         if (!channel_.warning.empty())
             body.blocks.emplace_back(Paragraph{"Warning: " + channel_.warning, "warning"});
         if (compared) body.blocks.emplace_back(Paragraph{findingOf(channel_, id_), "finding"});
-        if (!pictures_.kept)
+        if (!images_.kept)
             body.blocks.emplace_back(Paragraph{
                 layout_.keep == Keep::none ? "--keep none: no pictures are kept"
                                            : "--keep failing: pictures of passing channels are not kept",
@@ -79,20 +79,19 @@ private:
         box.summary =
             box.blocks.empty() ? "Numbers, worst pixels" : "Numbers, worst pixels, commands to reproduce it";
         box.blocks.insert(box.blocks.end(),
-                          {numbers(), output::Drawing{errorFigures(channel_, pictures_, id_)}});
+                          {numbers(), output::Drawing{errorFigures(channel_, images_, id_)}});
         if (!channel_.figures.empty()) box.blocks.emplace_back(allFigures());
         return box;
     }
 
     // An image that can be panned and zoomed; without a name, the left side's. `over` is drawn on top of
     // it at a fixed size.
-    std::string panel(const std::string& picture, const std::string& alt,
-                      const std::string& over = "") const {
+    std::string panel(const std::string& image, const std::string& alt, const std::string& over = "") const {
         return fmt::format(
             "<div class=\"panel\" tabindex=\"-1\"><img loading=\"lazy\" width=\"{}\" height=\"{}\" {} "
             "alt=\"{}\">{}</div>",
             left_.settings.size.width, left_.settings.size.height,
-            picture.empty() ? "data-same" : fmt::format("src=\"{}\"", layout_.source(picture)), markup(alt),
+            image.empty() ? "data-same" : fmt::format("src=\"{}\"", layout_.source(image)), markup(alt),
             over);
     }
 
@@ -106,14 +105,14 @@ private:
 
     // Legend of the images' colours.
     std::string scaleLegend() const {
-        if (!isHeat(*channel_.mode)) return "<span>" + markup(pictures_.scale.words) + "</span>";
+        if (!isHeat(*channel_.mode)) return "<span>" + markup(images_.scale.words) + "</span>";
         std::string stops;
         for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
         return fmt::format(
             "<div class=\"legend\"><span class=\"title\">lights evaluated per pixel</span><div "
             "class=\"ramp\" style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{:g}</span><span>{:g} lights</span></div></div>",
-            stops, pictures_.scale.high / 2, pictures_.scale.high);
+            stops, images_.scale.high / 2, images_.scale.high);
     }
 
     static std::string zoomButtons() {
@@ -124,18 +123,18 @@ private:
 
     // The script labels rows with the names of the Frames that have the channel.
     std::string readout() const {
-        if (pictures_.values.empty())
+        if (images_.values.empty())
             return fmt::format("<p class=\"readout\">{}</p>",
                                layout_.single_file
                                    ? "a single-file report has no values under the cursor"
                                    : "pictures of this size have values only in the EXR files");
         nlohmann::json names = nlohmann::json::array();
-        if (!pictures_.baseline.empty()) names.push_back(left_.name);
-        if (!pictures_.test.empty()) names.push_back(right_.name);
+        if (!images_.baseline.empty()) names.push_back(left_.name);
+        if (!images_.test.empty()) names.push_back(right_.name);
         return fmt::format(
             "<p class=\"readout\" data-values=\"{}\" data-names=\"{}\" data-unit=\"{}\">the values under the "
             "cursor appear here</p>",
-            markup(pictures_.values),
+            markup(images_.values),
             markup(names.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
             unitOf(*channel_.mode));
     }
@@ -175,10 +174,10 @@ private:
     std::string pair() const {
         // An embedded image that is equal on both sides is in the page once: the script copies it.
         const bool once =
-            layout_.single_file && layout_.source(pictures_.baseline) == layout_.source(pictures_.test);
-        const auto stage = [&](const char* side, const Frame& frame, const std::string& picture) {
+            layout_.single_file && layout_.source(images_.baseline) == layout_.source(images_.test);
+        const auto stage = [&](const char* side, const Frame& frame, const std::string& image) {
             return fmt::format("<div class=\"stage {}\">{}<span class=\"tag\">{}</span></div>", side,
-                               panel(once && &frame == &right_ ? "" : picture,
+                               panel(once && &frame == &right_ ? "" : image,
                                      fmt::format("{} of {}", channel_.mode->name, frame.name)),
                                markup(frame.name));
         };
@@ -190,23 +189,23 @@ private:
             "title=\"w\">wipe</button><button data-show=\"left\" title=\"1\">{3}</button><button "
             "data-show=\"right\" title=\"2\">{4}</button><button data-show=\"flicker\" "
             "title=\"f\">flicker</button></span>{6}{5}</figcaption>{7}</figure>\n",
-            stage("left", left_, pictures_.baseline), stage("right", right_, pictures_.test),
+            stage("left", left_, images_.baseline), stage("right", right_, images_.test),
             markup(channel_.mode->name), markup(left_.name), markup(right_.name), scaleLegend(),
             zoomButtons(), readout());
     }
 
     std::string difference() const {
-        if (pictures_.difference.empty()) return "<p class=\"equal\">no difference at any pixel</p>\n";
+        if (images_.difference.empty()) return "<p class=\"equal\">no difference at any pixel</p>\n";
         std::string stops;
         for (int i = 0; i <= 12; ++i) stops += ", " + hex(errorColor(i / 12.0));
-        const bool toLimit = pictures_.error_limit && *pictures_.error_limit > 0;
+        const bool toLimit = images_.error_limit && *images_.error_limit > 0;
         const char* const limit = channel_.rule.empty() ? "tolerance" : "limit";
         std::string beyond;
         const auto swatch = [&](const auto& color, const std::string& word) {
             beyond += fmt::format("<span><i class=\"swatch\" style=\"background:{}\"></i>{}</span>",
                                   hex(color), word);
         };
-        if (toLimit && !pictures_.worst.empty() && pictures_.worst.front().error > *pictures_.error_limit)
+        if (toLimit && !images_.worst.empty() && images_.worst.front().error > *images_.error_limit)
             swatch(beyondColor, fmt::format("beyond {}, fading to white at {:g} times that",
                                             channel_.rule.empty() ? "tolerance" : "the limit", farBeyond));
         if (channel_.stats.infinite > 0) swatch(nonfiniteColor, "infinite");
@@ -216,8 +215,8 @@ private:
             "style=\"background:linear-gradient(90deg{})\"></div><div class=\"ends "
             "mono\"><span>0</span><span>{}</span><span>{} ({})</span></div></div><span>black: "
             "{}</span>{}</figcaption></figure>\n",
-            panel(pictures_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
-            errorTitle(), stops, number(pictures_.error_top / 4), number(pictures_.error_top),
+            panel(images_.difference, fmt::format("difference of {}", channel_.mode->name), worstRing()),
+            errorTitle(), stops, number(images_.error_top / 4), number(images_.error_top),
             toLimit                ? limit
             : channel_.shown_error ? markup(channel_.shown_error_name)
                                    : "max",
@@ -292,18 +291,18 @@ private:
 
     // A forward-only channel has one image and no verdict.
     std::string single() const {
-        const std::string& picture = pictures_.baseline.empty() ? pictures_.test : pictures_.baseline;
+        const std::string& image = images_.baseline.empty() ? images_.test : images_.baseline;
         return fmt::format(
             "<div class=\"pictures one\"><figure><div "
             "class=\"stage\">{}</div><figcaption>{}{}</figcaption>{}</figure></div>",
-            panel(picture, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout());
+            panel(image, std::string(channel_.mode->name)), zoomButtons(), scaleLegend(), readout());
     }
 
     const ReportLayout& layout_;
     const Frame &left_, &right_;
     const std::vector<std::string>& command_;
     const ChannelDiff& channel_;
-    const ChannelPictures& pictures_;
+    const ChannelImages& images_;
     std::string id_;
 };
 

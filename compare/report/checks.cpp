@@ -33,7 +33,7 @@ public:
     Links(const Report& report, const ReportLayout& layout, std::size_t index)
         : comparison_(report.comparisons[index]),
           left_(report.baseline(comparison_)),
-          pictures_(layout.pictures[index]),
+          images_(layout.images[index]),
           id_(layout.ids[index]),
           lit_(channelOr(Channel::lit, anyChannel())),
           dark_(channelOr(Channel::albedo, lit_)) {}
@@ -55,27 +55,27 @@ private:
     // Base colour replaces lit where no light falls.
     std::size_t channelFor(const PixelBox& box) const {
         const Image* const lit = findChannel(left_, Channel::lit);
-        return lit && isDark(*lit, box, pictures_[lit_].scale.exposure.factor) ? dark_ : lit_;
+        return lit && isDark(*lit, box, images_[lit_].scale.exposure.factor) ? dark_ : lit_;
     }
     bool hasBoth(std::size_t channel) const {
-        return !pictures_[channel].baseline.empty() && !pictures_[channel].test.empty();
+        return !images_[channel].baseline.empty() && !images_[channel].test.empty();
     }
     // The channel with this number, or `other` if it was not compared.
     std::size_t channelOr(Channel mode, std::size_t other) const {
-        for (std::size_t i = 0; i < pictures_.size(); ++i)
+        for (std::size_t i = 0; i < images_.size(); ++i)
             if (comparison_.channels[i].mode->channel == mode && hasBoth(i)) return i;
         return other;
     }
     std::size_t anyChannel() const {
-        for (std::size_t i = 0; i < pictures_.size(); ++i)
+        for (std::size_t i = 0; i < images_.size(); ++i)
             if (hasBoth(i)) return i;
         return npos;
     }
 
     const Comparison& comparison_;
     const Frame& left_;
-    const std::vector<ChannelPictures>& pictures_;  // per channel
-    const std::string& id_;                         // the comparison's id in the page
+    const std::vector<ChannelImages>& images_;  // per channel
+    const std::string& id_;                     // the comparison's id in the page
     static constexpr std::size_t npos = ~std::size_t{0};
     std::size_t lit_, dark_;  // dark_: the channel shown where lit is black
 };

@@ -91,7 +91,7 @@ std::vector<Block> closerPathBlocks(const Report& report, const ReportLayout* la
     Box columns{"columns", {Box{}, Box{}}};
     Box &left = std::get<Box>(columns.blocks[0].content), &right = std::get<Box>(columns.blocks[1].content);
     if (const std::string& file = layout->closer_paths[index].front(); !file.empty())
-        left.blocks.emplace_back(output::Picture{
+        left.blocks.emplace_back(output::ImageBlock{
             layout->source(file),
             "which path is closer, pixel by pixel",
             {Span("", Span::swatch, "first"), report.frames[closer.paths[0]].name + " closer",

@@ -3,7 +3,7 @@
 
 #include "compare/files/data_uri.h"
 #include "compare/files/frame_exr.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/report/values.h"
 #include "shared/image/atomic_file.h"
 
@@ -39,8 +39,8 @@ public:
                 });
         for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
             for (std::size_t k = 0; k < report_.comparisons[i].channels.size(); ++k)
-                addPictures(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
-                            layout_.pictures[i][k]);
+                addImages(tasks, report_.comparisons[i], report_.comparisons[i].channels[k],
+                          layout_.images[i][k]);
         for (std::size_t i = 0; i < report_.comparisons.size(); ++i)
             if (!layout_.cause_maps[i].empty())
                 tasks.push_back(
@@ -50,7 +50,7 @@ public:
                 if (!layout_.closer_paths[i][k].empty())
                     tasks.push_back([this, i, k] {
                         const Image& apart = report_.closer_paths[i].channels[k].apart;
-                        write(layout_.closer_paths[i][k], closerPathPicture(apart, closerPathTop(apart)));
+                        write(layout_.closer_paths[i][k], closerPathImage(apart, closerPathTop(apart)));
                     });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
@@ -60,48 +60,47 @@ public:
     }
 
 private:
-    void addPictures(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
-                     ChannelPictures& pictures) {
-        if (!pictures.baseline.empty() || !pictures.test.empty())
-            tasks.push_back([&] { writePair(comparison, *channel.mode, pictures); });
-        if (pictures.differ || !pictures.values.empty())
-            tasks.push_back([&] { writeErrors(comparison, channel, pictures); });
+    void addImages(std::vector<Task>& tasks, const Comparison& comparison, const ChannelDiff& channel,
+                   ChannelImages& images) {
+        if (!images.baseline.empty() || !images.test.empty())
+            tasks.push_back([&] { writePair(comparison, *channel.mode, images); });
+        if (images.differ || !images.values.empty())
+            tasks.push_back([&] { writeErrors(comparison, channel, images); });
     }
 
     // Identical images share one file.
-    void writePair(const Comparison& comparison, const DebugMode& mode, ChannelPictures& pictures) {
+    void writePair(const Comparison& comparison, const DebugMode& mode, ChannelImages& images) {
         const Frame &left = report_.baseline(comparison), &right = report_.test(comparison);
         const auto draw = [&](const Frame& frame, const std::string& name) {
-            return name.empty() ? Image8() : channelPicture(mode, frame, pictures.scale);
+            return name.empty() ? Image8() : channelImage(mode, frame, images.scale);
         };
-        const Image8 a = draw(left, pictures.baseline), b = draw(right, pictures.test);
-        if (!pictures.same.empty() && a.data == b.data) {
-            pictures.baseline = pictures.test = pictures.same;
-            write(pictures.same, a);
+        const Image8 a = draw(left, images.baseline), b = draw(right, images.test);
+        if (!images.same.empty() && a.data == b.data) {
+            images.baseline = images.test = images.same;
+            write(images.same, a);
         } else {
-            if (!a.data.empty()) write(pictures.baseline, a);
-            if (!b.data.empty()) write(pictures.test, b);
+            if (!a.data.empty()) write(images.baseline, a);
+            if (!b.data.empty()) write(images.test, b);
         }
         for (const Frame* frame : {&left, &right}) letGo(*frame, mode.channel);
     }
 
     // Writes the error image, its histogram and worst pixels, and the values script, which includes the
     // errors.
-    void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelPictures& pictures) {
+    void writeErrors(const Comparison& comparison, const ChannelDiff& channel, ChannelImages& images) {
         const DebugMode& mode = *channel.mode;
         const Frame &baseline = report_.baseline(comparison), &test = report_.test(comparison);
         const Image *left = findChannel(baseline, mode.channel), *right = findChannel(test, mode.channel);
         Image errors;
-        if (pictures.differ) {
+        if (images.differ) {
             errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
             const Image& shown = channel.shown_error ? *channel.shown_error : errors;
-            if (!pictures.difference.empty())
-                write(pictures.difference, errorPicture(shown, pictures.error_top));
-            pictures.histogram = errorHistogram(shown, comparison.coverage);
-            pictures.worst =
+            if (!images.difference.empty()) write(images.difference, errorMap(shown, images.error_top));
+            images.histogram = errorHistogram(shown, comparison.coverage);
+            images.worst =
                 worstPixels(shown, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
         }
-        writeValues(pictures.values, left ? left : right, left ? right : nullptr,
+        writeValues(images.values, left ? left : right, left ? right : nullptr,
                     errors.empty() ? nullptr : &errors);
         for (const Frame* frame : {&baseline, &test}) letGo(*frame, mode.channel);
     }

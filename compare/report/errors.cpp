@@ -28,13 +28,13 @@ std::string kindOf(const ChannelDiff& channel) {
 
 // If an error exceeds the limit, the bin that contains the limit is split at it. The right part is coloured
 // as out of tolerance.
-std::string histogram(const ChannelDiff& channel, const ChannelPictures& pictures) {
-    const ErrorHistogram& errors = pictures.histogram;
+std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
+    const ErrorHistogram& errors = images.histogram;
     if (errors.bins.empty()) return {};
     const std::string unit = unitOf(*channel.mode);
     const auto size = [&](double error) { return number(error) + unit; };
-    const std::optional<double>& limit = pictures.error_limit;
-    const bool beyond = limit && !pictures.worst.empty() && pictures.worst.front().error > *limit;
+    const std::optional<double>& limit = images.error_limit;
+    const bool beyond = limit && !images.worst.empty() && images.worst.front().error > *limit;
     const double first = errors.edge(0), last = errors.edge(errors.bins.size());
     PlotPanel panel{
         .across = {.name = kindOf(channel) + (unit.empty() ? "" : ", " + unit), .shown = {first, last}},
@@ -70,13 +70,13 @@ std::string histogram(const ChannelDiff& channel, const ChannelPictures& picture
         markup(words));
 }
 
-std::string worstList(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
+std::string worstList(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
     std::string items;
-    for (const WorstPixel& pixel : pictures.worst) {
+    for (const WorstPixel& pixel : images.worst) {
         const std::string place =
-            !pictures.kept ? fmt::format("<span>{}, {}</span> ", pixel.x, pixel.y)
-                           : fmt::format("<a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a>", id,
-                                         pixel.x, pixel.y);
+            !images.kept ? fmt::format("<span>{}, {}</span> ", pixel.x, pixel.y)
+                         : fmt::format("<a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a>", id,
+                                       pixel.x, pixel.y);
         items +=
             fmt::format("<li>{}<span>{}{}</span></li>", place, number(pixel.error), unitOf(*channel.mode));
     }
@@ -87,10 +87,10 @@ std::string worstList(const ChannelDiff& channel, const ChannelPictures& picture
 
 }  // namespace
 
-std::string errorFigures(const ChannelDiff& channel, const ChannelPictures& pictures, const std::string& id) {
-    if (pictures.worst.empty()) return {};
-    const std::string spread = channel.mode->metric == Metric::exact ? "" : histogram(channel, pictures);
-    return "<div class=\"spread\">" + spread + worstList(channel, pictures, id) + "</div>\n";
+std::string errorFigures(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
+    if (images.worst.empty()) return {};
+    const std::string spread = channel.mode->metric == Metric::exact ? "" : histogram(channel, images);
+    return "<div class=\"spread\">" + spread + worstList(channel, images, id) + "</div>\n";
 }
 
 }  // namespace diptych

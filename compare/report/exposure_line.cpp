@@ -3,7 +3,7 @@
 
 #include "compare/files/frame_exr.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 
 #include <fmt/format.h>
 
@@ -13,18 +13,18 @@
 
 namespace diptych {
 
-std::string exposureLine(const Frame& frame, const PictureChoice& choice) {
+std::string exposureLine(const Frame& frame, const ImageChoice& choice) {
     return exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame)).because;
 }
 
-std::string exposureLine(const Report& report, const PictureChoice& choice) {
+std::string exposureLine(const Report& report, const ImageChoice& choice) {
     std::vector<Exposure> all;
     for (const Comparison& comparison : report.comparisons)
         all.push_back(exposureOf(report, comparison, choice));
     return exposureLine(all);
 }
 
-Exposure exposureOf(const Report& report, const Comparison& comparison, const PictureChoice& choice) {
+Exposure exposureOf(const Report& report, const Comparison& comparison, const ImageChoice& choice) {
     return exposureFor(choice, findChannel(report.baseline(comparison), Channel::lit), comparison.coverage);
 }
 
@@ -39,11 +39,11 @@ std::string exposureLine(const std::vector<Exposure>& all) {
 }
 
 double exposureOfFile(const std::filesystem::path& file) {
-    const PictureFile picture = readPicture(file.string());
-    if (picture.display_referred)
+    const ImageFile stored = readImage(file.string());
+    if (stored.display_referred)
         throw std::runtime_error(
             fmt::format("--match-exposure {}: {} holds display colours; give the EXR that it was made from",
-                        file.string(), picture.format));
+                        file.string(), stored.format));
     try {
         const Frame frame = frameFromExr(file);
         if (const Image* const lit = findChannel(frame, Channel::lit))
@@ -52,10 +52,10 @@ double exposureOfFile(const std::filesystem::path& file) {
         // Not one of our files: its first colours are radiance.
     }
     const auto colors =
-        std::ranges::find_if(picture.layers, [](const PictureLayer& l) { return l.image.components >= 3; });
-    if (colors == picture.layers.end())
+        std::ranges::find_if(stored.layers, [](const ImageLayer& l) { return l.image.components >= 3; });
+    if (colors == stored.layers.end())
         throw std::runtime_error(fmt::format("--match-exposure {}: holds no colours", file.string()));
-    Image image(picture.width, picture.height, 3);
+    Image image(stored.width, stored.height, 3);
     for (std::size_t i = 0; i < image.pixels(); ++i) std::copy_n(colors->image.pixel(i), 3, image.pixel(i));
     return exposureFor({}, &image, everyPixel(image.pixels())).factor;
 }

@@ -4,7 +4,7 @@
 #include "compare/files/frame_exr.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
-#include "compare/picture/heat.h"
+#include "compare/image/heat.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json_text.h"
@@ -18,8 +18,8 @@ namespace diptych {
 
 namespace {
 
-void writePicture(const std::filesystem::path& file, const Frame& frame, const DebugMode& shown,
-                  const PictureChoice& choice) {
+void writeImage(const std::filesystem::path& file, const Frame& frame, const DebugMode& shown,
+                const ImageChoice& choice) {
     if (!frame.channels.contains(shown.channel))
         throw std::runtime_error(
             fmt::format("--debug {}: the {} path does not have this channel{}", shown.name, frame.name,
@@ -28,15 +28,14 @@ void writePicture(const std::filesystem::path& file, const Frame& frame, const D
                                                                : ""));
     const Exposure exposure = exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame));
     const Frame* frames[] = {&frame};
-    const PictureScale scale = scaleFor(shown, exposure, frames);
-    const Image8 picture = channelPicture(shown, frame, scale);
-    writePng(file, isHeat(shown) ? withHeatLegend(picture, scale.high) : picture);
+    const ImageScale scale = scaleFor(shown, exposure, frames);
+    const Image8 image = channelImage(shown, frame, scale);
+    writePng(file, isHeat(shown) ? withHeatLegend(image, scale.high) : image);
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png,
-                                                const ShownChannels& shown) {
+std::vector<std::filesystem::path> imageFiles(const std::filesystem::path& png, const ShownChannels& shown) {
     if (shown.size() == 1) return {png};
     std::vector<std::filesystem::path> files;
     for (const DebugMode* mode : shown) {
@@ -47,20 +46,20 @@ std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png
 }
 
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
-                const ShownChannels& shown, const PictureChoice& choice) {
+                const ShownChannels& shown, const ImageChoice& choice) {
     if (output.kind == OutputKind::exr) return writeFrameExr(output.path, frame, device);
-    const std::vector<std::filesystem::path> files = pictureFiles(output.path, shown);
-    for (std::size_t i = 0; i < files.size(); ++i) writePicture(files[i], frame, *shown[i], choice);
+    const std::vector<std::filesystem::path> files = imageFiles(output.path, shown);
+    for (std::size_t i = 0; i < files.size(); ++i) writeImage(files[i], frame, *shown[i], choice);
 }
 
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
                                           const std::filesystem::path& folder, const ShownChannels& shown,
-                                          const PictureChoice& choice) {
+                                          const ImageChoice& choice) {
     std::vector<std::string> files{frame.name + ".exr", "frame.json"};
     writeFrameExr(folder / files[0], frame, device);
     for (const DebugMode* mode : shown) {
         files.push_back(std::string(mode->name) + ".png");
-        writePicture(folder / files.back(), frame, *mode, choice);
+        writeImage(folder / files.back(), frame, *mode, choice);
     }
     const nlohmann::ordered_json json{{"schema", 1},
                                       {"software", softwareName},

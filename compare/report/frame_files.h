@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/files/output.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/frame.h"
 
@@ -17,17 +17,17 @@ namespace diptych {
 using ShownChannels = std::vector<const DebugMode*>;
 
 // For an output of kind png: "x.png", or "x.CHANNEL.png" for each of several channels.
-std::vector<std::filesystem::path> pictureFiles(const std::filesystem::path& png, const ShownChannels& shown);
+std::vector<std::filesystem::path> imageFiles(const std::filesystem::path& png, const ShownChannels& shown);
 
-// Writes one Frame: an EXR of the requested channels, or pictureFiles(). Throws std::runtime_error naming
+// Writes one Frame: an EXR of the requested channels, or imageFiles(). Throws std::runtime_error naming
 // the file, or the channel that the Frame lacks.
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
-                const ShownChannels& shown, const PictureChoice& choice);
+                const ShownChannels& shown, const ImageChoice& choice);
 
 // Writes FRAME.exr, a CHANNEL.png for each channel, and frame.json, which lists all files, into an
 // existing folder; returns their names.
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
                                           const std::filesystem::path& folder, const ShownChannels& shown,
-                                          const PictureChoice& choice);
+                                          const ImageChoice& choice);
 
 }  // namespace diptych

@@ -24,10 +24,10 @@ namespace diptych {
 //   devices              times of comparing and writing, by device; with several, compare_ms and encode_ms of
 //                        the whole are null, because times of different devices are never added
 //   drawn_on             a frame's device
-//   errors, failures     scenes that could not be read or drawn; pictures that one of two folders lacks. With
+//   errors, failures     scenes that could not be read or drawn; images that one of two folders lacks. With
 //                        any, the verdict is "fail"
 //   marks, marks_found   the visual checks of a comparison, and their number by feature
-//   emptiness            why a comparison's pictures show nothing; null if they show something
+//   emptiness            why a comparison's images show nothing; null if they show something
 //   explanation          what `explain --json` prints, or the only key not_explained with the reason; null
 //                        unless lit fails or --explain asks. It ignores --mask and the like
 //   criterion            what decided a channel; null if it is not judged. figure, its measured value, and

@@ -52,7 +52,7 @@ public:
     Suite(const Report& report, const ReportLayout& layout, const std::string& folder, std::size_t index)
         : report_(report),
           comparison_(report.comparisons[index]),
-          pictures_(layout.pictures.at(index)),
+          images_(layout.images.at(index)),
           folder_(folder),
           left_(report.baseline(comparison_)),
           right_(report.test(comparison_)),
@@ -78,8 +78,7 @@ public:
             nowInUtc());
         out += properties();
         for (std::size_t i = 0; i < comparison_.channels.size(); ++i)
-            out +=
-                testCase(comparison_.channels[i].mode->name, outcome(comparison_.channels[i], pictures_[i]));
+            out += testCase(comparison_.channels[i].mode->name, outcome(comparison_.channels[i], images_[i]));
         std::string whole;
         for (const std::string& text : comparison_.failures) whole += text + "\n";
         if (broken()) out += testCase("frames", failure("frames", comparison_.failures.front(), whole));
@@ -118,7 +117,7 @@ private:
         return out + "    </properties>\n";
     }
 
-    std::string outcome(const ChannelDiff& channel, const ChannelPictures& pictures) const {
+    std::string outcome(const ChannelDiff& channel, const ChannelImages& images) const {
         if (!isCompared(channel.verdict))
             return fmt::format("      <skipped message=\"{}: {}\"/>\n", nameOf(channel.verdict),
                                markup(channel.tolerance.because));
@@ -141,17 +140,17 @@ private:
                                    s.worst_y,
                                    channel.rule.empty() ? limit : fmt::format("{}, {}", channel.rule, limit),
                                    channel.tolerance.because)) +
-               attachments(channel, pictures);
+               attachments(channel, images);
     }
 
     // One per line, as GitLab and Jenkins' attachments plugin expect. GitLab shows the first: the
     // difference, if there is one.
-    std::string attachments(const ChannelDiff& channel, const ChannelPictures& pictures) const {
+    std::string attachments(const ChannelDiff& channel, const ChannelImages& images) const {
         std::string lines;
         std::set<std::string> attached;  // both sides of equal channels share an image
-        for (const std::string* picture : {&pictures.difference, &pictures.baseline, &pictures.test})
-            if (!picture->empty() && attached.insert(*picture).second)
-                lines += fmt::format("[[ATTACHMENT|{}]]\n", folder_ + markup(*picture));
+        for (const std::string* image : {&images.difference, &images.baseline, &images.test})
+            if (!image->empty() && attached.insert(*image).second)
+                lines += fmt::format("[[ATTACHMENT|{}]]\n", folder_ + markup(*image));
         if (!comparison_.command.empty())
             lines += markup("reproduce: " + shellLine(withOption(comparison_.command, "--channels",
                                                                  std::string(channel.mode->name)))) +
@@ -168,7 +167,7 @@ private:
 
     const Report& report_;
     const Comparison& comparison_;
-    const std::vector<ChannelPictures>& pictures_;  // per channel
+    const std::vector<ChannelImages>& images_;  // per channel
     const std::string& folder_;
     const Frame &left_, &right_;
     std::string title_;

@@ -53,11 +53,11 @@ double errorTop(const ChannelDiff& channel, const std::optional<double>& limit, 
     return double{largest};
 }
 
-ChannelPictures picturesOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel,
-                           const std::string& prefix, const Exposure& exposure) {
+ChannelImages imagesOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel,
+                       const std::string& prefix, const Exposure& exposure) {
     const Frame &left = report.baseline(comparison), &right = report.test(comparison);
     const DebugMode& mode = *channel.mode;
-    ChannelPictures pictures;
+    ChannelImages images;
     const std::string files = prefix + nameOfFile(mode.name);
     std::vector<const Frame*> shown;
     const auto add = [&](const Frame& frame, std::string& name) {
@@ -65,32 +65,32 @@ ChannelPictures picturesOf(const Report& report, const Comparison& comparison, c
         name = fmt::format("{}.{}.png", files, frame.name);
         shown.push_back(&frame);
     };
-    add(left, pictures.baseline);
-    add(right, pictures.test);
-    if (shown.size() == 2) pictures.same = files + ".png";
+    add(left, images.baseline);
+    add(right, images.test);
+    if (shown.size() == 2) images.same = files + ".png";
     const Size size = left.settings.size;
     if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= mostPixelsOfValues)
-        pictures.values = files + ".values.js";
-    pictures.scale = scaleFor(mode, exposure, shown);
+        images.values = files + ".values.js";
+    images.scale = scaleFor(mode, exposure, shown);
     if (isCompared(channel.verdict) && channel.stats.different > 0) {
-        pictures.differ = true;
-        pictures.difference = files + ".difference.png";
-        pictures.error_limit = errorLimit(channel);
-        pictures.error_top = errorTop(channel, pictures.error_limit, left.channels.at(mode.channel),
-                                      right.channels.at(mode.channel), comparison.coverage);
+        images.differ = true;
+        images.difference = files + ".difference.png";
+        images.error_limit = errorLimit(channel);
+        images.error_top = errorTop(channel, images.error_limit, left.channels.at(mode.channel),
+                                    right.channels.at(mode.channel), comparison.coverage);
     }
-    return pictures;
+    return images;
 }
 
 bool isKept(const Comparison& comparison, Keep keep) {
     return keep == Keep::all || (keep == Keep::failing && !comparison.passed());
 }
 
-void leaveOut(ChannelPictures& pictures) {
+void leaveOut(ChannelImages& images) {
     for (std::string* name :
-         {&pictures.baseline, &pictures.test, &pictures.difference, &pictures.same, &pictures.values})
+         {&images.baseline, &images.test, &images.difference, &images.same, &images.values})
         name->clear();
-    pictures.kept = false;
+    images.kept = false;
 }
 
 }  // namespace
@@ -103,8 +103,8 @@ std::vector<std::string> ReportLayout::files() const {
     std::ranges::for_each(exr, add);
     std::ranges::for_each(sections, add);
     if (!single_file) {
-        for (const auto& channels : pictures)
-            for (const ChannelPictures& channel : channels)
+        for (const auto& channels : images)
+            for (const ChannelImages& channel : channels)
                 for (const std::string* name :
                      {&channel.baseline, &channel.test, &channel.difference, &channel.values})
                     add(*name);
@@ -116,9 +116,9 @@ std::vector<std::string> ReportLayout::files() const {
     return all;
 }
 
-const std::string& ReportLayout::source(const std::string& picture) const {
-    const auto found = embedded.find(picture);
-    return found == embedded.end() ? picture : found->second;
+const std::string& ReportLayout::source(const std::string& image) const {
+    const auto found = embedded.find(image);
+    return found == embedded.end() ? image : found->second;
 }
 
 ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
@@ -141,13 +141,13 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
             if (kept && !options.single_file &&
                 (report.frames[frame].origin.file.empty() || report.frames[frame].origin.external))
                 layout.exr[frame] = folders.frames[frame] + report.frames[frame].name + ".exr";
-        const Exposure exposure = exposureOf(report, comparison, options.picture);
+        const Exposure exposure = exposureOf(report, comparison, options.image);
         layout.cause_maps.push_back(kept && comparison.explained && comparison.explained->map
                                         ? folders.comparisons[i] + "causes.png"
                                         : "");
-        auto& channels = layout.pictures.emplace_back();
+        auto& channels = layout.images.emplace_back();
         for (const ChannelDiff& channel : comparison.channels) {
-            channels.push_back(picturesOf(report, comparison, channel, folders.comparisons[i], exposure));
+            channels.push_back(imagesOf(report, comparison, channel, folders.comparisons[i], exposure));
             if (!kept) leaveOut(channels.back());
             if (options.single_file) channels.back().values.clear();
             for (const std::size_t frame : {comparison.baseline, comparison.test})
@@ -169,9 +169,9 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
 
 ReportLayout onDisk(const ReportLayout& layout) {
     ReportLayout files;
-    files.pictures = layout.pictures;
-    for (auto& channels : files.pictures)
-        if (layout.single_file) std::ranges::fill(channels, ChannelPictures());
+    files.images = layout.images;
+    for (auto& channels : files.images)
+        if (layout.single_file) std::ranges::fill(channels, ChannelImages());
     return files;
 }
 

@@ -2,8 +2,8 @@
 // Names all files of a report, for the writers and the page.
 #pragma once
 
+#include "compare/image/channel_image.h"
 #include "compare/page/emitted.h"
-#include "compare/picture/picture.h"
 #include "compare/report/error_figures.h"
 #include "compare/report/report_options.h"
 #include "compare/verdict/comparison.h"
@@ -17,13 +17,13 @@
 namespace diptych {
 
 // The images of one channel and the metrics shown with them; a name is empty if there is no such file.
-struct ChannelPictures {
+struct ChannelImages {
     std::string baseline, test, difference;  // difference: empty if both are equal
     std::string same;                        // name of both images if identical
     std::string values;                      // valuesScript() of both Frames
     bool differ = false;
     bool kept = true;  // false: omitted because of --keep
-    PictureScale scale;
+    ImageScale scale;
     double error_top = 0;  // the error at the end of the error map's colours
     // The limit for each error in the map; empty if the verdict does not limit single errors.
     std::optional<double> error_limit;
@@ -47,7 +47,7 @@ struct ReportLayout {
     std::vector<std::string> ids;  // per comparison: its index, used in anchors of the page
     bool part = false;             // of a report of many scenes: indices and titles come later
     std::vector<std::string> exr;  // per frame; empty: no EXR
-    std::vector<std::vector<ChannelPictures>> pictures;  // per comparison and channel
+    std::vector<std::vector<ChannelImages>> images;  // per comparison and channel
     std::vector<std::string> cause_maps;  // per comparison: image of Comparison::explained; may be empty
     // Image name per Report::closer_paths and its channel.
     std::vector<std::vector<std::string>> closer_paths;
@@ -60,7 +60,7 @@ struct ReportLayout {
     Keep keep = Keep::all;
 
     std::vector<std::string> files() const;  // all files of a report, sorted; without embedded images
-    const std::string& source(const std::string& picture) const;  // for the page: its name or data URI
+    const std::string& source(const std::string& image) const;  // for the page: its name or data URI
 };
 
 // Names are "deferred.exr", "lit.deferred.png", "lit.values.js". With several scenes or cameras each is in

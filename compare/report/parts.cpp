@@ -285,10 +285,10 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     part.rows = texts.rows;
     part.closer_boxes = texts.closer_boxes;
     part.sections = layout.sections;
-    ReportLayout pictures = layout;
-    pictures.sections.clear();
+    ReportLayout images = layout;
+    images.sections.clear();
     if (!layout.single_file) {
-        part.files = pictures.files();
+        part.files = images.files();
         std::erase_if(part.files, [](const std::string& name) {
             return name.find('/') == name.npos &&
                    (name == "index.html" || name == "junit.xml" || name == "report.json");
@@ -299,7 +299,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
         writeFile(root / layout.sections[i], sectionScript(report, layout, i));
         part.junit += junitSuite(report, named, std::string(folderLater), i);
         part.tables.push_back(inText(comparisonBlocks(report, nullptr, i)));
-        part.exposures.push_back(exposureOf(report, report.comparisons[i], options.picture));
+        part.exposures.push_back(exposureOf(report, report.comparisons[i], options.image));
     }
     for (std::size_t i = 0; i < report.closer_paths.size(); ++i)
         part.closer_tables.push_back(inText(closerPathBlocks(report, nullptr, i, true)));

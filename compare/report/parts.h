@@ -3,7 +3,7 @@
 // Frames can be freed before the next scene. An interrupted command resumes after its last part.
 #pragma once
 
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/report/report_options.h"
 #include "compare/report/texts.h"
 #include "compare/verdict/comparison.h"

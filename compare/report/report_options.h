@@ -2,7 +2,7 @@
 // Contents of a report.
 #pragma once
 
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/run/progress.h"
 
 #include <memory>
@@ -17,7 +17,7 @@ struct Trends;  // trends.h
 enum class Keep { all, failing, none };
 
 struct ReportOptions {
-    PictureChoice picture;
+    ImageChoice image;
     bool single_file = false;  // index.html contains its images, at half size; no EXR
     Keep keep = Keep::all;
     bool force = false;  // also overwrite a folder that is not a report of ours

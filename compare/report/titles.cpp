@@ -169,15 +169,15 @@ constexpr std::size_t scenesNamed = 8;
 
 std::string errorsText(const Report& report) {
     std::vector<std::string> scenes;
-    bool pictures = false;  // an external renderer's image failed, not the scene
+    bool images = false;  // an external renderer's image failed, not the scene
     for (const SceneError& error : report.errors) {
-        pictures = pictures || !error.renderer.empty();
+        images = images || !error.renderer.empty();
         scenes.push_back(error.renderer.empty() ? error.scene
                                                 : fmt::format("{} of {}", error.scene, error.renderer));
     }
     const bool files = report.device.name.empty();  // diff renders nothing
     return fmt::format("{} could not be {}: {}",
-                       counted(scenes.size(), files || pictures ? "picture" : "scene"),
+                       counted(scenes.size(), files || images ? "picture" : "scene"),
                        files ? "compared" : "rendered", listed(scenes, scenesNamed));
 }
 

@@ -72,10 +72,10 @@ std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
         [&](std::size_t figure) { return tradeoffPlot(tradeoff, figure, path, PlotPlace::page); });
 }
 
-std::string pictures(const Tradeoff& tradeoff, const TradeoffRow& row) {
+std::string images(const Tradeoff& tradeoff, const TradeoffRow& row) {
     std::string out = "<div class=\"pictures\">";
-    for (const auto& [file, words] : {std::pair{row.picture, "lit"},
-                                      {tradeoff.reference_picture, "reference"},
+    for (const auto& [file, words] : {std::pair{row.image, "lit"},
+                                      {tradeoff.reference_image, "reference"},
                                       {row.errors_map, "FLIP: black 0, pale 1"}})
         out += fmt::format(
             "<figure><img loading=\"lazy\" src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>",
@@ -88,7 +88,7 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     std::string out = fmt::format(
         "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row "
         "{0}</p>{3}<dl><dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
-        index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), pictures(tradeoff, row),
+        index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), images(tradeoff, row),
         row[Measure::ms], row[Measure::ms_min], row[Measure::ms_max]);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
@@ -246,15 +246,15 @@ std::string writeTradeoff(const Tradeoff& measured, const std::filesystem::path&
     Tradeoff tradeoff = measured;
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         for (const auto& [member, name] :
-             {std::pair{&TradeoffRow::picture, fmt::format("row-{:03}.png", i + 1)},
+             {std::pair{&TradeoffRow::image, fmt::format("row-{:03}.png", i + 1)},
               {&TradeoffRow::errors_map, fmt::format("row-{:03}.flip.png", i + 1)}}) {
             linkOrCopy(kept, tradeoff.rows[i].*member, folder / name);
             tradeoff.rows[i].*member = name;
             folder.list(name);
         }
-    tradeoff.reference_picture = "reference.png";
-    writePng(folder / tradeoff.reference_picture, reference);
-    folder.list(tradeoff.reference_picture);
+    tradeoff.reference_image = "reference.png";
+    writePng(folder / tradeoff.reference_image, reference);
+    folder.list(tradeoff.reference_image);
     for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
         folder.put(plotName(figure, {}), tradeoffPlot(tradeoff, figure, {}, PlotPlace::file));
         for (const Path one : pathsOf(tradeoff))

@@ -47,7 +47,7 @@ Json metricsJson(std::span<const experiment::NamedMeasure> metrics) {
 Json jsonOf(const TradeoffRow& row) {
     Json json = experiment::jsonOf(row);
     json["drawing_ms"] = row.drawing_ms;
-    json["picture"] = row.picture;
+    json["picture"] = row.image;
     json["error_picture"] = row.errors_map;
     return json;
 }
@@ -76,32 +76,31 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
     };
     const SweepCost& cost = tradeoff.cost;
     const std::optional<Spread> drift = driftOf(tradeoff);
-    return {
-        {"schema", 1},
-        {"software", softwareName},
-        {"commit", commitName()},
-        {"device", jsonOf(tradeoff.device)},
-        {"scene", tradeoff.scene},
-        {"cameras", tradeoff.cameras},
-        {"runs", tradeoff.runs},
-        {"settings", jsonOf(tradeoff.given)},
-        {"reference", {{"settings", jsonOf(tradeoff.reference)}, {"picture", tradeoff.reference_picture}}},
-        {"errors", metricsJson(errorFigures)},
-        {"shadow_figures", metricsJson(shadowFigures)},
-        {"sample_figures", metricsJson(sampleFigures)},
-        {"rows", rows},
-        {"fronts", frontsOf(tradeoff)},
-        {"skipped", arrayOf(tradeoff.skips, skipJson)},
-        {"notes", tradeoff.notes},
-        {"rows_kept", tradeoff.kept},
-        {"second_visit",
-         drift ? Json{{"median", drift->value}, {"min", drift->low}, {"max", drift->high}} : Json(nullptr)},
-        {"cost_ms",
-         {{"whole", cost.whole},
-          {"reading", cost.reading},
-          {"reference", cost.reference},
-          {"drawing", cost.drawing},
-          {"beyond", cost.beyond()}}}};
+    return {{"schema", 1},
+            {"software", softwareName},
+            {"commit", commitName()},
+            {"device", jsonOf(tradeoff.device)},
+            {"scene", tradeoff.scene},
+            {"cameras", tradeoff.cameras},
+            {"runs", tradeoff.runs},
+            {"settings", jsonOf(tradeoff.given)},
+            {"reference", {{"settings", jsonOf(tradeoff.reference)}, {"picture", tradeoff.reference_image}}},
+            {"errors", metricsJson(errorFigures)},
+            {"shadow_figures", metricsJson(shadowFigures)},
+            {"sample_figures", metricsJson(sampleFigures)},
+            {"rows", rows},
+            {"fronts", frontsOf(tradeoff)},
+            {"skipped", arrayOf(tradeoff.skips, skipJson)},
+            {"notes", tradeoff.notes},
+            {"rows_kept", tradeoff.kept},
+            {"second_visit", drift ? Json{{"median", drift->value}, {"min", drift->low}, {"max", drift->high}}
+                                   : Json(nullptr)},
+            {"cost_ms",
+             {{"whole", cost.whole},
+              {"reading", cost.reading},
+              {"reference", cost.reference},
+              {"drawing", cost.drawing},
+              {"beyond", cost.beyond()}}}};
 }
 
 }  // namespace diptych::tradeoff

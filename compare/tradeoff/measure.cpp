@@ -82,7 +82,7 @@ void warn(TradeoffRow& row, const Frame& frame) {
     add(frame.counters.unsorted.fragments, "blended fragment", "overflowed the list: blended as one layer");
 }
 
-// Adds a camera with the errors of `frame`, which has the reference's size. The first one's pictures show
+// Adds a camera with the errors of `frame`, which has the reference's size. The first one's images show
 // the row; after the last one, the row's errors are those of `all`.
 void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame,
                const experiment::ReferenceFrames& references, experiment::ErrorsOfCameras& all) {
@@ -97,8 +97,8 @@ void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame
         measured.row.measured.set(Measure::flip, i == 0 ? errors.errors : all.errors());
     }
     if (i > 0) return;
-    measured.picture = thumbnail(frame, references.exposure);
-    measured.errors = small(errorPicture(errors.flip, 1));
+    measured.image = thumbnail(frame, references.exposure);
+    measured.errors = small(errorMap(errors.flip, 1));
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ void addCamera(MeasuredRow& measured, experiment::Row camera, const Frame& frame
 Image8 thumbnail(const Frame& frame, const Exposure& exposure) {
     const Frame* frames[] = {&frame};
     return small(
-        channelPicture(debugMode(Channel::lit), frame, scaleFor(debugMode(Channel::lit), exposure, frames)));
+        channelImage(debugMode(Channel::lit), frame, scaleFor(debugMode(Channel::lit), exposure, frames)));
 }
 
 MeasuredRow measuredRow(std::vector<Frame> frames, const experiment::ReferenceFrames& references) {

@@ -3,7 +3,7 @@
 
 #include "compare/experiment/prepared_pool.h"
 #include "compare/experiment/references.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/render/renderer.h"
 #include "compare/tradeoff/tradeoff.h"
 
@@ -15,7 +15,7 @@ namespace diptych::tradeoff {
 
 struct MeasuredRow {
     TradeoffRow row;
-    Image8 picture, errors;  // of the first camera
+    Image8 image, errors;  // of the first camera
 };
 // Renders and times the Settings from every camera of the reference frames: the first timing block. Reads
 // `options`: runs, on_step, progress. `pool`: of the renderer.

@@ -94,7 +94,7 @@ experiment::ReferenceFrames Sweep::drawReferences() {
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
     drawing.keep = kept_references_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
-        renderer_, tradeoff_.given, question_.cameras, question_.picture, drawing);
+        renderer_, tradeoff_.given, question_.cameras, question_.image, drawing);
     tradeoff_.cost.reference = msSince(uploaded);
     experiment::addNotes(tradeoff_.notes, references, rows(),
                          views_.at(viewRequest(question_.settings)).needs);

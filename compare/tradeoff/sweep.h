@@ -29,7 +29,7 @@ struct SweepQuestion {
     experiment::SweepRows rows;
     bool only_sensitive = true;  // leave out rows that differ in nothing the scene is sensitive to
     RenderOptions drawing;       // `runs`: timed frames of each row
-    PictureChoice picture;
+    ImageChoice image;
     std::filesystem::path folder;                                                    // of the output
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  // of SweepCost
 };

@@ -22,7 +22,7 @@ std::string nameOf(const Settings& settings) {
 std::string nameOf(const TradeoffRow& row) {
     return row.renderer.empty() ? nameOf(row.settings) : fingerprint(toJson(row.settings, -1) + row.renderer);
 }
-std::string pictureOf(const TradeoffRow& row) {
+std::string imageOf(const TradeoffRow& row) {
     return nameOf(row) + ".png";
 }
 std::string errorsOf(const TradeoffRow& row) {
@@ -46,8 +46,8 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
             return times > 0 && times <= blocks && times == row.cameras.front().blocks.size();
         };
         const bool whole = row.settings == settings && row.cameras.size() == cameras &&
-                           std::ranges::all_of(row.cameras, isVisited) && row.picture == pictureOf(row) &&
-                           row.errors_map == errorsOf(row) && fs::exists(kept_ / row.picture) &&
+                           std::ranges::all_of(row.cameras, isVisited) && row.image == imageOf(row) &&
+                           row.errors_map == errorsOf(row) && fs::exists(kept_ / row.image) &&
                            fs::exists(kept_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
     });
@@ -55,9 +55,9 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
 
 void SweepState::keep(MeasuredRow& measured) {
     TradeoffRow& row = measured.row;
-    row.picture = pictureOf(row);
+    row.image = imageOf(row);
     row.errors_map = errorsOf(row);
-    writePng(kept_ / row.picture, measured.picture);
+    writePng(kept_ / row.image, measured.image);
     writePng(kept_ / row.errors_map, measured.errors);
     renew(row);
 }

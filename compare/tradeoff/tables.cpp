@@ -223,7 +223,7 @@ output::Table csvTable(const Tradeoff& tradeoff) {
     addPasses(table, rows, "ms: ");
     add("warnings",
         [](const TradeoffRow& row, auto) { return fmt::format("{}", fmt::join(row.warnings, "; ")); });
-    add("picture", [](const TradeoffRow& row, auto) { return row.picture; });
+    add("picture", [](const TradeoffRow& row, auto) { return row.image; });
     addCommand("measure", measuringCommand);
     addCommand("render", renderingCommand);
     addCommand("compare", comparingCommand);

@@ -4,8 +4,8 @@
 
 #include "compare/experiment/row.h"
 #include "compare/experiment/sweep.h"
+#include "compare/image/channel_image.h"
 #include "compare/output/document.h"
-#include "compare/picture/picture.h"
 #include "compare/verdict/comparison.h"
 
 #include <nlohmann/json.hpp>
@@ -41,7 +41,7 @@ constexpr Measure errorMeasure(std::size_t figure) {
 // so fronts and plots skip its rows.
 struct TradeoffRow : experiment::Row {
     double drawing_ms = 0;     // wall-clock time of rendering and timing
-    std::string picture{};     // file name
+    std::string image{};       // file name
     std::string errors_map{};  // file name of the FLIP image
 };
 
@@ -63,7 +63,7 @@ struct Tradeoff {
     std::vector<TradeoffRow> rows;
     std::vector<SweepSkip> skips;
     std::vector<std::string> notes;
-    std::string reference_picture;
+    std::string reference_image;
     std::size_t kept = 0;  // rows from an earlier run
     SweepCost cost;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tolerance of lit, and of the channels of glass, at blended surfaces and glass against the reference. In
 // mode surface the reference traces those with its own rays and filters their textures itself; opaque
-// surfaces are a path's capture. Behind rough or refracting glass a path knows only its own picture.
+// surfaces are a path's capture. Behind rough or refracting glass a path knows only its own image.
 #pragma once
 
 #include "compare/verdict/frame_pair.h"
@@ -26,8 +26,8 @@ public:
     // edge, and a mip level one step coarser. Texels of glass have 8 bits.
     double allowed(const DebugMode& mode, std::size_t pixel) const;
     // Tolerance of light through rough or refracting glass; 0 for other pixels and channels. A path takes
-    // this light from any pixel of its picture of opaque surfaces; the reference traces it. Neither is below
-    // 0, so they differ by at most the larger: the share that passes of the picture's brightest pixel, or
+    // this light from any pixel of its image of opaque surfaces; the reference traces it. Neither is below
+    // 0, so they differ by at most the larger: the share that passes of the image's brightest pixel, or
     // the reference's transmitted light. Light that the glass reflects has no part in it.
     double throughGlass(const DebugMode& mode, std::size_t pixel) const;
     bool anyGlass() const;
@@ -44,7 +44,7 @@ private:
 
     const FramePair& pair_;
     const Frame* reference_ = nullptr;  // with Frame::blended
-    double brightest_ = 0;              // component of its picture of opaque surfaces, W/(sr m^2)
+    double brightest_ = 0;              // component of its image of opaque surfaces, W/(sr m^2)
 };
 
 }  // namespace diptych

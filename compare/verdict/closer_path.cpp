@@ -166,16 +166,16 @@ double closerPathTop(const Image& apart) {
 
 // The report's two path colours (page.css, --first and --second) over black, by the square root of the
 // difference.
-Image8 closerPathPicture(const Image& apart, double top) {
+Image8 closerPathImage(const Image& apart, double top) {
     constexpr std::array<std::array<double, 3>, 2> color{{{111, 155, 232}, {224, 165, 82}}};
-    Image8 picture{apart.width, apart.height, 3, {}};
-    picture.data.reserve(3 * apart.pixels());
+    Image8 image{apart.width, apart.height, 3, {}};
+    image.data.reserve(3 * apart.pixels());
     for (const float v : apart.data) {
         const double share = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
         for (const double c : color[v < 0 ? 0 : 1])
-            picture.data.push_back(static_cast<std::uint8_t>(std::lround(c * share)));
+            image.data.push_back(static_cast<std::uint8_t>(std::lround(c * share)));
     }
-    return picture;
+    return image;
 }
 
 }  // namespace diptych

@@ -66,7 +66,7 @@ std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& ch
 
 // Blue where the first path is closer, orange where the second is. Brightness is the difference of their
 // errors, full at `top`.
-Image8 closerPathPicture(const Image& apart, double top);
+Image8 closerPathImage(const Image& apart, double top);
 double closerPathTop(const Image& apart);  // 99th percentile of the non-zero values
 
 }  // namespace diptych

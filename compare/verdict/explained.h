@@ -20,10 +20,11 @@ struct Explained {
 
 // The map on a page. `file`: its path there, or a data URI.
 inline output::Box causeMap(std::string file) {
-    return {"pictures causes",
-            {output::Picture{std::move(file), "the largest cause at each pixel",
-                             "The largest cause at each pixel, in the colour of its row; dark: the picture "
-                             "itself, where no cause reduces the difference"}}};
+    return {
+        "pictures causes",
+        {output::ImageBlock{std::move(file), "the largest cause at each pixel",
+                            "The largest cause at each pixel, in the colour of its row; dark: the picture "
+                            "itself, where no cause reduces the difference"}}};
 }
 
 }  // namespace diptych

@@ -264,7 +264,7 @@ private:
         options.covered = detailed;
         const bool endless = mode_.metric == Metric::relative || mode_.domain == Domain::positive;
         const double scale = endless ? exposure(detailed) : 0;
-        result.flip = ldrFlip(pictureOf(baseline_, scale), pictureOf(test_, scale), options).mean;
+        result.flip = ldrFlip(displayed(baseline_, scale), displayed(test_, scale), options).mean;
     }
 
     // Exposure that maps the mean of the baseline's detail to 0.18 (Reinhard et al. 2002); 1 if it is
@@ -281,8 +281,8 @@ private:
 
     // The channel as a displayable image: values without an upper end, if `scale` is not 0, by Reinhard's
     // curve and a display's gamma; other values as a display clamps them.
-    Image pictureOf(const Image& image, double scale) const {
-        Image picture(image.width, image.height, 3);
+    Image displayed(const Image& image, double scale) const {
+        Image mapped(image.width, image.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double value = image.pixel(i)[std::min(c, image.components - 1)],
@@ -290,9 +290,9 @@ private:
                 const double shown = scale > 0               ? std::pow(exposed / (1 + exposed), 1 / 2.2)
                                      : isAngle(mode_.metric) ? 0.5 * value + 0.5
                                                              : value;
-                picture.pixel(i)[c] = static_cast<float>(std::clamp(shown, 0.0, 1.0));
+                mapped.pixel(i)[c] = static_cast<float>(std::clamp(shown, 0.0, 1.0));
             }
-        return picture;
+        return mapped;
     }
 
     const DebugMode& mode_;

@@ -137,9 +137,9 @@ const StandardMetrics& Measurement::plain() const {
 
 // FLIP's filters read neighbouring pixels. Uncovered pixels become NaN in both images, so that they do not
 // affect covered ones.
-Image Measurement::withHoles(const PictureRows& picture) const {
-    Image holed(picture.width, picture.height, picture.components);
-    for (int y = 0; y < picture.height; ++y) picture.copy(&holed.at(0, y), 0, y, picture.width);
+Image Measurement::withHoles(const ImageRows& image) const {
+    Image holed(image.width, image.height, image.components);
+    for (int y = 0; y < image.height; ++y) image.copy(&holed.at(0, y), 0, y, image.width);
     for (std::size_t i = 0; i < holed.pixels(); ++i)
         if (!pair_.coverage->covered[i])
             std::fill_n(holed.pixel(i), holed.components, std::numeric_limits<float>::quiet_NaN());
@@ -154,7 +154,7 @@ const HdrFlipResult* Measurement::flip() const {
         const bool whole = pair_.coverage->count == pair_.reference.pixels();
         const Image reference = whole ? Image() : withHoles(pair_.reference),
                     test = whole ? Image() : withHoles(pair_.test);
-        const PictureRows r = whole ? pair_.reference : reference, t = whole ? pair_.test : test;
+        const ImageRows r = whole ? pair_.reference : reference, t = whole ? pair_.test : test;
         auto result = std::make_shared<HdrFlipResult>();
         if (pair_.display)
             static_cast<FlipResult&>(*result) = ldrFlip(r, t, options);
@@ -166,11 +166,11 @@ const HdrFlipResult* Measurement::flip() const {
 }
 
 std::uint64_t Measurement::unseenDifferent() const {
-    const auto isLess = [](const PictureRows& picture) {
+    const auto isLess = [](const ImageRows& image) {
         std::vector<float> buffer;
-        for (int y = 0; y < picture.height; ++y) {
-            const float* p = picture.row(y, buffer);
-            if (std::any_of(p, p + picture.width * picture.components, [](float v) { return v < 0; }))
+        for (int y = 0; y < image.height; ++y) {
+            const float* p = image.row(y, buffer);
+            if (std::any_of(p, p + image.width * image.components, [](float v) { return v < 0; }))
                 return true;
         }
         return false;

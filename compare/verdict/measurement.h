@@ -6,7 +6,7 @@
 #include "compare/metrics/standard.h"
 #include "compare/verdict/rules.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/image/picture_rows.h"
+#include "shared/image/image_rows.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +22,7 @@ struct ChannelPair {
     Metric metric = Metric::absolute;  // of max, mean, rmse, p99, p999 and the fraction of failing pixels
     ChannelKind kind = ChannelKind::color;
     bool display = false;  // sRGB values in [0, 1]; else linear
-    PictureRows reference, test;
+    ImageRows reference, test;
     const Coverage* coverage = nullptr;
     const ChannelStats* stats = nullptr;  // if known already
     HdrFlipOptions flip = {};             // `covered` is set by Measurement
@@ -58,7 +58,7 @@ public:
     std::shared_ptr<const Image> flipErrors() const;
 
 private:
-    Image withHoles(const PictureRows& picture) const;
+    Image withHoles(const ImageRows& image) const;
 
     ChannelPair pair_;
     mutable std::optional<ChannelStats> stats_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/selection.h"
 
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ std::size_t countOf(const std::vector<std::uint8_t>& covered) {
 }
 
 void applyMask(Coverage& coverage, int width, int height, const std::string& file) {
-    const PictureFile mask = readPicture(file);
+    const ImageFile mask = readImage(file);
     if (mask.width != width || mask.height != height)
         throw std::runtime_error(fmt::format("--mask {}: is {}x{}, but the images are {}x{}", file,
                                              mask.width, mask.height, width, height));

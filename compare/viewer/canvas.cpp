@@ -94,22 +94,20 @@ std::vector<std::uint8_t> composed(const Shown& shown, const CanvasRect& canvas,
     const Size& full = shown.order.subject.settings.size;
     for (const PanelPlace& place : places) {
         if (place.panel == 2 && !shown.difference) continue;
-        const Image8& picture =
-            place.panel == 2 ? shown.difference->picture : shown.panels.at(place.panel).picture;
-        if (picture.data.empty()) continue;
+        const Image8& image = place.panel == 2 ? shown.difference->image : shown.panels.at(place.panel).image;
+        if (image.data.empty()) continue;
         const std::vector<Sample> columns = samplesOf(place.rect.x, place.rect.width, place.placement.left,
-                                                      place.placement.scale, full.width, picture.width);
+                                                      place.placement.scale, full.width, image.width);
         const std::vector<Sample> rows = samplesOf(place.rect.y, place.rect.height, place.placement.top,
-                                                   place.placement.scale, full.height, picture.height);
+                                                   place.placement.scale, full.height, image.height);
         for (int y = 0; y < place.rect.height; ++y) {
             const Sample& row = rows[static_cast<std::size_t>(y)];
             if (row.pixel < 0) continue;
             std::uint8_t* to = pixels.data() + 4 * (static_cast<std::size_t>(place.rect.y - canvas.y + y) *
                                                         static_cast<std::size_t>(canvas.width) +
                                                     static_cast<std::size_t>(place.rect.x - canvas.x));
-            const std::uint8_t* const line =
-                picture.data.data() +
-                3 * static_cast<std::size_t>(row.pixel) * static_cast<std::size_t>(picture.width);
+            const std::uint8_t* const line = image.data.data() + 3 * static_cast<std::size_t>(row.pixel) *
+                                                                     static_cast<std::size_t>(image.width);
             for (const Sample& column : columns) {
                 if (column.pixel >= 0) {
                     const std::uint8_t* const from = line + 3 * column.pixel;

@@ -14,7 +14,7 @@ struct DrawingOptions {
     // Called from another thread whenever there is a new result.
     std::function<void()> wake;
     // For tests: called before each image; its exceptions count as the device's.
-    std::function<void()> before_picture{};
+    std::function<void()> before_image{};
 };
 
 }  // namespace diptych::viewer

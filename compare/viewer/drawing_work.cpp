@@ -7,10 +7,10 @@
 #include "compare/run/progress.h"
 #include "compare/verdict/pair_reports.h"
 #include "compare/viewer/facts.h"
+#include "compare/viewer/image_cost.h"
+#include "compare/viewer/images.h"
 #include "compare/viewer/left_panel.h"
 #include "compare/viewer/pair_renderer.h"
-#include "compare/viewer/picture_cost.h"
-#include "compare/viewer/pictures.h"
 #include "compare/viewer/screenshot.h"
 
 #include <fmt/format.h>
@@ -246,7 +246,7 @@ private:
 
     void drawAt(const Size& size, bool passing) {
         const auto start = Clock::now();
-        if (options_.before_picture) options_.before_picture();
+        if (options_.before_image) options_.before_image();
         pair_.views().clear();  // views of intermediate cameras are not needed again
         const Channel mode = order_.look.channel();
         std::array<Frame, 2> passed;
@@ -291,12 +291,12 @@ private:
         else if (look.against == Against::file)
             left = left_.storedFrame(look.file);
         // Recomputing the exposure for every smaller image would flicker.
-        if (!passing || !exposure_ || exposure_of_.picture().exposure != look.exposure ||
+        if (!passing || !exposure_ || exposure_of_.image().exposure != look.exposure ||
             exposure_of_.ev100 != look.ev100 || exposure_of_.tonemap != look.tonemap) {
             exposure_ = exposureOf(other, test, look);
             exposure_of_ = look;
         }
-        makePictures(left ? *left : other, test, look, *exposure_, *next);
+        makeImages(left ? *left : other, test, look, *exposure_, *next);
         if (traced && next->reference_done < 1)
             next->panels[0].name = fmt::format("reference, {:.0f} % drawn over {}",
                                                100 * next->reference_done, next->panels[1].name);
@@ -466,7 +466,7 @@ private:
     Against judged_against_ = Against::paths;
     std::optional<std::pair<Subject, PixelPlace>> broken_down_;
     std::array<PathFacts, 2> paths_;
-    PictureCost cost_;                  // of moving images, once their pipelines exist
+    ImageCost cost_;                    // of moving images, once their pipelines exist
     std::size_t compiled_ = 0;          // number of pipelines after the last image
     std::optional<Exposure> exposure_;  // of the last still image
     Look exposure_of_;

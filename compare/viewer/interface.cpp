@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/interface.h"
 
-#include "compare/picture/heat.h"
+#include "compare/image/heat.h"
+#include "compare/viewer/images.h"
 #include "compare/viewer/keys.h"
 #include "compare/viewer/panels.h"
-#include "compare/viewer/pictures.h"
 #include "shared/frame/debug_modes.h"
 
 #include <fmt/format.h>

@@ -35,13 +35,13 @@ void Latencies::asked(std::uint64_t order) {
 
 void Latencies::seen(const Shown& shown, std::uint64_t order) {
     const Clock::time_point now = Clock::now();
-    const auto sayPicture = [&](bool& said, std::string_view what) {
+    const auto sayImage = [&](bool& said, std::string_view what) {
         if (std::exchange(said, true)) return;
         say_(fmt::format("{} after {:.2f} s, {}x{}", what, secondsFrom(begun_, now), shown.size.width,
                          shown.size.height));
     };
-    sayPicture(said_first_, "first picture");
-    if (isWhole(shown)) sayPicture(said_whole_, "first whole picture");
+    sayImage(said_first_, "first picture");
+    if (isWhole(shown)) sayImage(said_whole_, "first whole picture");
     std::erase_if(waiting_, [&](const Waiting& waiting) {
         if (waiting.order == 0 ? order != waiting.before : shown.order.number < waiting.order) return false;
         say_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,

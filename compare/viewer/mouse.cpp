@@ -44,7 +44,7 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
             const bool wipes = state_.canvas.layout == Layout::wipe &&
                                state_.look.difference == Difference::none &&
                                std::abs(button.x - wipePlace(canvas)) <= wipeReach * scale;
-            drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::picture : Drag::look;
+            drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::image : Drag::look;
             pivot_ = pivotAt(places, button.x, button.y);
             cursor_x_ = button.x;
             cursor_y_ = button.y;
@@ -71,7 +71,7 @@ void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& pla
         case Drag::wipe:
             state_.canvas.wipe = std::clamp((cursor_x_ - canvas.x) / canvas.width, 0.0, 1.0);
             return;
-        case Drag::picture:
+        case Drag::image:
             state_.canvas.centre_x -= dx / state_.canvas.zoom;
             state_.canvas.centre_y -= dy / state_.canvas.zoom;
             return;

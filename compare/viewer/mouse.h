@@ -28,7 +28,7 @@ public:
     void handle(const Input& input, const CanvasRect& canvas, double scale, bool taken);
 
 private:
-    enum class Drag { none, look, wipe, picture };
+    enum class Drag { none, look, wipe, image };
 
     double wipePlace(const CanvasRect& canvas) const;
     // The cursor moved.

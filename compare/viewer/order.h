@@ -2,7 +2,7 @@
 // The interface's requests.
 #pragma once
 
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/settings.h"
 #include "shared/frame/sides.h"
@@ -51,13 +51,13 @@ struct Look {
     Against against = Against::paths;
     std::filesystem::path file;  // Against::file
     Difference difference = Difference::none;
-    std::optional<double> exposure{};  // PictureChoice
+    std::optional<double> exposure{};  // ImageChoice
     std::optional<double> ev100{};
     bool tonemap = true;
     bool operator==(const Look&) const = default;
     // The visible one.
     Channel channel() const { return heat ? Channel::light_count : mode; }
-    PictureChoice picture() const { return {exposure, ev100, tonemap}; }
+    ImageChoice image() const { return {exposure, ev100, tonemap}; }
 };
 
 struct Order {

@@ -23,9 +23,9 @@ std::string writeScreenshot(PairRenderer& pair, const Order& order, const std::f
         const Frame frame =
             pair.renderer().draw(settingsOf(order.subject, path, order.subject.settings.size), render);
         const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));
-        writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.picture());
+        writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.image());
         if (frame.channels.contains(mode.channel))
-            writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.picture());
+            writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.image());
     }
     return stem.string();
 }

@@ -22,13 +22,13 @@ namespace diptych::viewer {
 // One panel.
 struct Panel {
     std::string name;     // "deferred"
-    Image8 picture;       // RGB, as `render` writes it
+    Image8 image;         // RGB, as `render` writes it
     Image values;         // of the channel
     std::string missing;  // why there is no image; empty if there is one
 };
 
 struct DifferencePanel {
-    Image8 picture;
+    Image8 image;
     Image values;    // W x H x 1
     double top = 0;  // the value at the end of the colours; the other end is 0 or, if signed, -top
     bool is_signed = false;

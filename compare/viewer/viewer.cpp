@@ -140,8 +140,8 @@ private:
         next.facts = drawing_.facts();
         next.status = drawing_.status();
         next.idle = drawing_.idle();
-        const bool pictures = next.shown != contents_.shown;
-        const bool news = pictures || next.judged != contents_.judged ||
+        const bool images = next.shown != contents_.shown;
+        const bool news = images || next.judged != contents_.judged ||
                           next.breakdown != contents_.breakdown || next.facts != contents_.facts ||
                           next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
@@ -153,12 +153,12 @@ private:
         }
         contents_ = std::move(next);
         if (contents_.facts) state_.loaded = contents_.facts->scene;
-        if (pictures) takePictures();
+        if (images) takeImages();
         if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
         return news;
     }
 
-    void takePictures() {
+    void takeImages() {
         const Shown& shown = *contents_.shown;
         for (std::size_t i = 0; i < 2; ++i) histories_.at(isWhole(shown)).at(i).add(shown.paths[i]);
         const std::string& asked = state_.subject.settings.camera;
@@ -294,7 +294,7 @@ private:
             std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
             if (ending == ".gltf" || ending == ".glb") {
                 openScene(file.string());
-            } else if (ending == ".exr" && isOurPicture(file)) {
+            } else if (ending == ".exr" && isOurImage(file)) {
                 state_.stored = state_.look.file = file;
                 state_.look.against = Against::file;
                 tell("left: " + file.string());

@@ -39,7 +39,7 @@ void main() {
     if (number >= constants.part_count) return;
     CulledPart part = PartArray(constants.parts).at[number];
     CulledItem item = ItemArray(constants.items).at[part.item];
-    CulledPicture picture = CulledPicture(constants.half_size, constants.samples, constants.place_off,
+    CulledImage image = CulledImage(constants.half_size, constants.samples, constants.place_off,
                                           constants.snap);
 
     if (lane < CULLED_CLUSTERS / 32u) in_view[lane] = 0u;
@@ -78,7 +78,7 @@ void main() {
                 Vec3Array positions = Vec3Array(constants.positions);
                 uint at = of.first_index + 3u * triangle;
                 corners = uvec3(indices.at[at], indices.at[at + 1u], indices.at[at + 2u]);
-                shows = mayShow(item, picture, positions.at[item.first_vertex + corners.x],
+                shows = mayShow(item, image, positions.at[item.first_vertex + corners.x],
                                 positions.at[item.first_vertex + corners.y],
                                 positions.at[item.first_vertex + corners.z]);
             }

@@ -11,7 +11,7 @@ layout(set = SET_GBUFFER, binding = BINDING_SPECULAR_TARGET, rgba32f)
 writeonly uniform image2D specular_target;
 
 void main() {
-    if (!isInPicture() || !isDrawnHere()) return;
+    if (!isInImage() || !isDrawnHere()) return;
     Radiance sums = partialSumsHere();
     imageStore(lit_target, pixelHere(), vec4(sums.diffuse, sums.local_seen));
     imageStore(specular_target, pixelHere(), vec4(sums.specular, sums.local_light));

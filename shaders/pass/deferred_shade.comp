@@ -9,7 +9,7 @@
 #include "shaders/lib/shading/shade.glsl"
 
 void main() {
-    if (!isInPicture()) return;
+    if (!isInImage()) return;
     uint mask = 0u;  // 0 if the pixel has no such group
     if (multisampled()) mask = groupHere().mask;
     if (multisampled() && mask == 0u) return;

@@ -24,11 +24,11 @@ int partsAcross(double pixel, int side) {
 
 }  // namespace
 
-BrightPixels::BrightPixels(Environment& picture)
-    : width_(picture.radiance.width),
-      height_(picture.radiance.height),
-      solid_(LatLong(picture).solidAngles()) {
-    Image& image = picture.radiance;
+BrightPixels::BrightPixels(Environment& environment)
+    : width_(environment.radiance.width),
+      height_(environment.radiance.height),
+      solid_(LatLong(environment).solidAngles()) {
+    Image& image = environment.radiance;
     double mean = 0;
     for (int y = 0; y < height_; ++y) {
         double row = 0;

@@ -12,7 +12,7 @@ namespace diptych {
 class BrightPixels {
 public:
     // Removes from the image the part of its pixels above 8 times its mean, by the largest component.
-    explicit BrightPixels(Environment& picture);
+    explicit BrightPixels(Environment& image);
 
     // Adds the removed light. Integrals over all directions grow by its integral under bilinear
     // interpolation.

@@ -50,8 +50,8 @@ bool canBeHalved(int width, int height) {
     return finenessOf(width, height) >= 4 * mostSourceSide && width % 2 == 0 && height % 2 == 0;
 }
 
-bool canBeHalved(const Image& picture) {
-    return canBeHalved(picture.width, picture.height);
+bool canBeHalved(const Image& image) {
+    return canBeHalved(image.width, image.height);
 }
 
 // Side of the environment's own map. A map of `height` texels per side has texels of the size of pixels at

@@ -8,8 +8,8 @@
 namespace diptych {
 
 void letGo(const Frame& frame, Channel mode) {
-    for (const auto* pictures : {&frame.channels, &frame.through_gbuffer})
-        if (const auto found = pictures->find(mode); found != pictures->end()) letGo(found->second.data);
+    for (const auto* images : {&frame.channels, &frame.through_gbuffer})
+        if (const auto found = images->find(mode); found != images->end()) letGo(found->second.data);
     if (const auto found = frame.further_samples.find(mode); found != frame.further_samples.end())
         for (const Image& image : found->second) letGo(image.data);
     if (mode == Channel::lit)

@@ -33,7 +33,7 @@ struct PassTime {
 struct FrameBytes {
     std::uint64_t images = 0, buffers = 0;  // device memory of the path and the scene
     std::uint64_t gbuffer_per_pixel = 0;    // deferred: attachments and depth; forward+: depth; all samples
-    std::uint64_t picture_images = 0;       // part of `images`: full-size images, including light
+    std::uint64_t full_size_images = 0;     // part of `images`: full-size images, including light
 };
 
 // Pages of --shadows clipmap: requested = resident + fallback.

@@ -17,8 +17,8 @@ constexpr std::string_view view_options[] = {"size", "camera",       "time",   "
                                              "env",  "scene-lights", "lights", "seed"};
 
 // Settings that change how an image is rendered, but not the image.
-constexpr std::string_view same_picture[] = {"light-kernel", "prepass",  "cull",
-                                             "lighting",     "skinning", "shadow-casters"};
+constexpr std::string_view same_image[] = {"light-kernel", "prepass",  "cull",
+                                           "lighting",     "skinning", "shadow-casters"};
 
 // assign: only per_object changes the light.
 bool changesLight(const SettingDifference& of) {
@@ -26,7 +26,7 @@ bool changesLight(const SettingDifference& of) {
         const std::string_view per_object = nameOf(Assignment::per_object);
         return of.baseline == per_object || of.test == per_object;
     }
-    return std::ranges::find(same_picture, of.option) == std::end(same_picture);
+    return std::ranges::find(same_image, of.option) == std::end(same_image);
 }
 
 Path other(Path path) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "shared/image/image.h"
+#include "shared/image/image_layers.h"
 #include "shared/image/limits.h"
-#include "shared/image/picture_layers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,8 +35,8 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
 // 0. Supports tiles and scan lines and all compressions; of mip-mapped tiles, reads the largest level.
 // Rejects deep and subsampled pixels, parts with different display windows, and files that need more than
 // `most` bytes decoded. Throws std::runtime_error, one line that names file, part and fault.
-PictureFile readExr(const std::filesystem::path& file);
-PictureFile readExr(std::span<const std::byte> bytes, const std::string& name,
-                    std::uint64_t most = limits::imageBytes(), std::string_view part = {});
+ImageFile readExr(const std::filesystem::path& file);
+ImageFile readExr(std::span<const std::byte> bytes, const std::string& name,
+                  std::uint64_t most = limits::imageBytes(), std::string_view part = {});
 
 }  // namespace diptych

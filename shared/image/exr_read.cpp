@@ -76,7 +76,7 @@ std::size_t componentRank(std::string component) {
 
 // A layer, and name and type of its channels in the file.
 struct Layer {
-    PictureLayer picture;
+    ImageLayer image;
     std::vector<ExrChannel> stored{};
     // Values of the uint channels, by channel.
     std::vector<std::vector<std::uint32_t>> numbers{};
@@ -117,9 +117,8 @@ std::vector<Layer> layersOf(const ExrPart& part) {
                                  [&](const ExrChannel& c) { return componentRank(component(c)); });
         Layer layer{{fullName(part.name, name), {}, sampleOf(channels), {}}, channels};
         for (const ExrChannel& channel : channels)
-            layer.picture.channels.push_back(layer.picture.name.empty()
-                                                 ? component(channel)
-                                                 : layer.picture.name + "." + component(channel));
+            layer.image.channels.push_back(
+                layer.image.name.empty() ? component(channel) : layer.image.name + "." + component(channel));
         layers.push_back(std::move(layer));
     }
     return layers;
@@ -159,7 +158,7 @@ Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, con
     };
     for (Layer& layer : layers) {
         const std::size_t components = layer.stored.size();
-        Image& image = layer.picture.image;
+        Image& image = layer.image.image;
         image = Image(static_cast<int>(window.width()), static_cast<int>(window.height()),
                       static_cast<int>(components));
         layer.numbers.resize(components);
@@ -179,7 +178,7 @@ Imf::FrameBuffer makeRoom(std::vector<Layer>& layers, const ExrWindow& data, con
 
 // Converts the integers to float32; keeps them if rounding changed any.
 void convertNumbers(Layer& layer) {
-    Image& image = layer.picture.image;
+    Image& image = layer.image.image;
     bool rounded = false;
     for (std::size_t c = 0; c < layer.numbers.size(); ++c) {
         std::vector<std::uint32_t>& numbers = layer.numbers[c];
@@ -192,11 +191,11 @@ void convertNumbers(Layer& layer) {
         if (exact) std::vector<std::uint32_t>().swap(numbers);
         rounded = rounded || !exact;
     }
-    if (rounded) layer.picture.exact = std::move(layer.numbers);
+    if (rounded) layer.image.exact = std::move(layer.numbers);
 }
 
 void crop(Layer& layer, const ExrWindow& data, const ExrWindow& display) {
-    Image& image = layer.picture.image;
+    Image& image = layer.image.image;
     image.data = displayed(image.data, layer.stored.size(), data, display);
     image.width = static_cast<int>(display.width());
     image.height = static_cast<int>(display.height());
@@ -223,15 +222,15 @@ std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, 
 }
 
 // Two parts can give the same full name.
-void checkNames(const std::vector<PictureLayer>& layers) {
+void checkNames(const std::vector<ImageLayer>& layers) {
     std::set<std::string_view> names;
-    for (const PictureLayer& layer : layers)
+    for (const ImageLayer& layer : layers)
         for (const std::string& name : layer.channels)
             if (!names.insert(name).second)
                 throw std::runtime_error("channel " + oneLine(name) + ": appears in two parts");
 }
 
-PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
+ImageFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
     ExrHeader header = readExrHeader(file, most, asked);
     MemoryStream stream(header.bytes, file);
     // One thread per MiB: small images are read before another thread has started.
@@ -245,16 +244,16 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
     const Claim claim =
         claimMemory(3 * std::max<std::uint64_t>(2 * threads, 1) * chunk, file.size(), "decoding its blocks");
     Imf::MultiPartInputFile in(stream, static_cast<int>(threads));
-    PictureFile picture{static_cast<int>(header.display.width()),
-                        static_cast<int>(header.display.height()),
-                        "OpenEXR",
-                        false,
-                        {},
-                        std::move(header.attributes),
-                        std::move(header.notes)};
+    ImageFile image{static_cast<int>(header.display.width()),
+                    static_cast<int>(header.display.height()),
+                    "OpenEXR",
+                    false,
+                    {},
+                    std::move(header.attributes),
+                    std::move(header.notes)};
     for (const ExrPart& part : header.parts) {
         if (part.data != header.display) {
-            auto& notes = header.display.holds(part.data) ? picture.notes.lines : picture.notes.in_part;
+            auto& notes = header.display.holds(part.data) ? image.notes.lines : image.notes.in_part;
             notes.push_back(fmt::format(
                 "{}its data window is {}x{} at {},{}, its display window {}x{} at {},{}; missing pixels are "
                 "0",
@@ -266,24 +265,24 @@ PictureFile readParts(std::span<const std::byte> file, std::uint64_t most, std::
         std::vector<Layer> layers =
             part.name.empty() ? read() : named("part \"" + oneLine(part.name, 60) + "\"", read);
         for (Layer& layer : layers) {
-            layer.picture.to_rec709 = part.to_rec709;
-            picture.layers.push_back(std::move(layer.picture));
+            layer.image.to_rec709 = part.to_rec709;
+            image.layers.push_back(std::move(layer.image));
         }
         in.flushPartCache();  // frees its buffers
     }
-    checkNames(picture.layers);
-    return picture;
+    checkNames(image.layers);
+    return image;
 }
 
 }  // namespace
 
-PictureFile readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
-                    std::string_view part) {
+ImageFile readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                  std::string_view part) {
     exr::useAllCores();
     return named(name, [&] { return readParts(bytes, most, part); });
 }
 
-PictureFile readExr(const std::filesystem::path& file) {
+ImageFile readExr(const std::filesystem::path& file) {
     return readExr(std::as_bytes(std::span<const unsigned char>(bytesOf(file))), file.string());
 }
 

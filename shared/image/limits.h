@@ -33,7 +33,7 @@ inline constexpr std::int64_t deflate_ratio = 1032;
 namespace diptych {
 
 // The claims of a header, checked before anything is allocated.
-struct PictureSize {
+struct ImageSize {
     std::int64_t width = 0, height = 0;
     std::int64_t bytes_per_pixel = 0;  // during decoding
 };

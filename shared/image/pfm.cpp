@@ -90,13 +90,13 @@ void readPixels(Image& image, std::string_view stored, float scale) {
 
 }  // namespace
 
-PictureSize pfmSize(std::span<const std::byte> bytes) {
+ImageSize pfmSize(std::span<const std::byte> bytes) {
     std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const PfmHeader header = readHeader(rest);
     return {header.width, header.height, std::int64_t{sizeof(float)} * header.components};
 }
 
-PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         const PfmHeader header = readHeader(rest);
@@ -109,10 +109,10 @@ PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name, st
         if (rest.size() < size)
             fail(fmt::format("is cut short: {} x {} pixels need {} bytes, but it has {}", header.width,
                              header.height, size, rest.size()));
-        PfmPicture picture{Image(header.width, header.height, header.components), rest.size() - size,
-                           std::abs(header.scale)};
-        readPixels(picture.image, rest, header.scale);
-        return picture;
+        PfmImage image{Image(header.width, header.height, header.components), rest.size() - size,
+                       std::abs(header.scale)};
+        readPixels(image.image, rest, header.scale);
+        return image;
     });
 }
 

@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-struct PfmPicture {
+struct PfmImage {
     Image image;             // one component (Pf) or RGB (PF), linear, row 0 on top
     std::size_t behind = 0;  // bytes after the last pixel
     float scale = 1;         // factor that was applied to the values
@@ -23,11 +23,11 @@ struct PfmPicture {
 // Reads both byte orders, given by the sign of the scale. Multiplies values by the scale's magnitude,
 // whose meaning the format leaves open; a scale of 1 preserves all bits. Rejects files that need more than
 // `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
-PfmPicture readPfm(std::span<const std::byte> bytes, const std::string& name,
-                   std::uint64_t most = limits::imageBytes());
+PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name,
+                 std::uint64_t most = limits::imageBytes());
 
 // Reads only the header. Throws std::runtime_error without the file's name.
-PictureSize pfmSize(std::span<const std::byte> bytes);
+ImageSize pfmSize(std::span<const std::byte> bytes);
 
 // Writes an image of 1 or 3 components: little-endian, scale 1, bit-exact. Replaces `file` atomically.
 // Throws std::runtime_error that names the file.

@@ -17,7 +17,7 @@ namespace {
 // outlive it.
 struct Kept {
     std::mutex mutex;
-    std::set<const void*> pictures;
+    std::set<const void*> images;
 };
 
 Kept& kept() {
@@ -61,30 +61,30 @@ void* pixels::takePages(std::size_t bytes) {
 void pixels::givePages(void* memory, std::size_t bytes) noexcept {
     {
         const std::lock_guard lock(kept().mutex);
-        kept().pictures.erase(memory);
+        kept().images.erase(memory);
     }
     ::munmap(memory, bytes);
 }
 
-void keepInFile(PixelData& picture) {
-    const std::size_t bytes = picture.size() * sizeof(float);
+void keepInFile(PixelData& image) {
+    const std::size_t bytes = image.size() * sizeof(float);
     if (bytes < pixels::ownPages) return;
     const int file = namelessFile();
     if (file < 0) return;
     // Maps the file over the vector's pages, which are its own and page-aligned.
-    if (writeAll(file, reinterpret_cast<const char*>(picture.data()), bytes)) {
+    if (writeAll(file, reinterpret_cast<const char*>(image.data()), bytes)) {
         const std::lock_guard lock(kept().mutex);
-        const auto entry = kept().pictures.insert(picture.data()).first;
-        if (::mmap(picture.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
-            kept().pictures.erase(entry);
+        const auto entry = kept().images.insert(image.data()).first;
+        if (::mmap(image.data(), bytes, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0) == MAP_FAILED)
+            kept().images.erase(entry);
     }
     ::close(file);  // the mapping keeps it open
 }
 
-void letGo(const PixelData& picture) {
+void letGo(const PixelData& image) {
     const std::lock_guard lock(kept().mutex);
-    if (kept().pictures.contains(picture.data()))
-        ::madvise(const_cast<float*>(picture.data()), picture.size() * sizeof(float), MADV_DONTNEED);
+    if (kept().images.contains(image.data()))
+        ::madvise(const_cast<float*>(image.data()), image.size() * sizeof(float), MADV_DONTNEED);
 }
 
 }  // namespace diptych

@@ -47,10 +47,10 @@ using PixelData = std::vector<float, pixels::Allocator<float>>;
 // Moves the pixels to an unnamed temporary file, whose pages the system loads on access. Their address
 // stays the same and they stay readable, but no longer writable. The image stays in memory if it is small
 // or no such file can be written. Files are in $TMPDIR, else in /var/tmp or /tmp.
-void keepInFile(PixelData& picture);
+void keepInFile(PixelData& image);
 
 // Releases the pages of an image that is spilled to a file until its next access. Does nothing for other
 // images.
-void letGo(const PixelData& picture);
+void letGo(const PixelData& image);
 
 }  // namespace diptych

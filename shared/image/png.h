@@ -29,7 +29,7 @@ std::string pngBytes(const Image8& image);
 
 // The values of a PNG: value / 255 or value / 65535 per component, converted to Rec. 709 if cHRM has other
 // primaries.
-struct PngPicture {
+struct PngImage {
     Image image;          // Y, YA, RGB or RGBA: palettes are expanded, transparent colours become alpha
     Image8 coded{};       // replaces `image`, same components
     int bits = 8;         // 16, or 8 for files of at most 8 bits, whose values fit exactly
@@ -42,11 +42,11 @@ enum class EightBits { decoded, kept };
 
 // Reads a PNG. An interlaced file needs additional memory for all stored rows. Rejects files that need
 // more than `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
-PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name,
-                          std::uint64_t most = limits::imageBytes(), EightBits eight = EightBits::decoded);
+PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name,
+                      std::uint64_t most = limits::imageBytes(), EightBits eight = EightBits::decoded);
 
 // Reads only the header. Throws std::runtime_error without the file's name.
-PictureSize pngSize(std::span<const std::byte> bytes, EightBits eight);
+ImageSize pngSize(std::span<const std::byte> bytes, EightBits eight);
 
 // Reads a PNG as 8-bit RGBA.
 Image8 readPng(const std::filesystem::path& file);

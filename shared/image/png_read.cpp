@@ -122,13 +122,13 @@ bool isKept(const PngDecoder& decoder, const Encoding& encoding, EightBits eight
     return eight == EightBits::kept && decoder.bits() == 8 && !isConverted(decoder, encoding);
 }
 
-PictureSize sizeOf(const PngDecoder& decoder, bool kept) {
+ImageSize sizeOf(const PngDecoder& decoder, bool kept) {
     const int bytes = kept ? 1 : static_cast<int>(sizeof(float));
     const int rows = decoder.isInterlaced() && !kept ? decoder.bits() / 8 : 0;
     return {decoder.width(), decoder.height(), std::int64_t{bytes + rows} * decoder.components()};
 }
 
-PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBits eight) {
+PngImage decode(std::span<const std::byte> bytes, std::uint64_t most, EightBits eight) {
     PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
     Encoding encoding = encodingOf(bytes);
@@ -141,19 +141,19 @@ PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBit
     const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(components);
     if (decoder.rowBytes() != row * static_cast<std::size_t>(bits / 8)) fail(headerChanges);
     const auto lines = static_cast<std::size_t>(height);
-    PngPicture picture;
-    picture.bits = bits;
-    picture.linear = encoding.linear;
-    picture.notes = std::move(encoding.notes);
+    PngImage image;
+    image.bits = bits;
+    image.linear = encoding.linear;
+    image.notes = std::move(encoding.notes);
     if (kept) {
-        picture.coded = {static_cast<int>(width), static_cast<int>(height), components,
-                         std::vector<std::uint8_t>(row * lines)};
-        if (interlaced) decoder.readAll(picture.coded.data.data());
+        image.coded = {static_cast<int>(width), static_cast<int>(height), components,
+                       std::vector<std::uint8_t>(row * lines)};
+        if (interlaced) decoder.readAll(image.coded.data.data());
         for (std::size_t y = 0; !interlaced && y < lines; ++y)
-            decoder.readRow(picture.coded.data.data() + row * y);
-        return picture;
+            decoder.readRow(image.coded.data.data() + row * y);
+        return image;
     }
-    picture.image = Image(static_cast<int>(width), static_cast<int>(height), components);
+    image.image = Image(static_cast<int>(width), static_cast<int>(height), components);
     const auto rows =
         std::make_unique_for_overwrite<png_byte[]>(decoder.rowBytes() * (interlaced ? lines : 1));
     if (interlaced) decoder.readAll(rows.get());
@@ -163,11 +163,11 @@ PngPicture decode(std::span<const std::byte> bytes, std::uint64_t most, EightBit
             from += y * decoder.rowBytes();
         else
             decoder.readRow(rows.get());
-        float* to = picture.image.data.data() + row * y;
+        float* to = image.image.data.data() + row * y;
         bits == 16 ? convert<std::uint16_t>(from, to, row) : convert<std::uint8_t>(from, to, row);
     }
-    if (isConverted(decoder, encoding)) convertColors(picture.image, *encoding.to_rec709, !encoding.linear);
-    return picture;
+    if (isConverted(decoder, encoding)) convertColors(image.image, *encoding.to_rec709, !encoding.linear);
+    return image;
 }
 
 std::uint8_t byteOf(float value) {
@@ -176,12 +176,12 @@ std::uint8_t byteOf(float value) {
 
 }  // namespace
 
-PngPicture readPngPicture(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
-                          EightBits eight) {
+PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+                      EightBits eight) {
     return named(name, [&] { return decode(bytes, most, eight); });
 }
 
-PictureSize pngSize(std::span<const std::byte> bytes, EightBits eight) {
+ImageSize pngSize(std::span<const std::byte> bytes, EightBits eight) {
     PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
     return sizeOf(decoder, isKept(decoder, encodingOf(bytes), eight));
@@ -197,7 +197,7 @@ void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsi
 }
 
 Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    const Image image = readPngPicture(bytes, name, most).image;
+    const Image image = readPngImage(bytes, name, most).image;
     Image8 rgba{image.width, image.height, 4, std::vector<std::uint8_t>(4 * image.pixels())};
     const int colors = image.components > 2 ? 3 : 1;
     for (std::size_t i = 0; i < image.pixels(); ++i) {

@@ -207,7 +207,7 @@ float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
     return static_cast<float>(std::ldexp(mantissa + 0.5, exponent - (128 + 8)) * scale);
 }
 
-HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
+HdrImage readImage(std::span<const std::byte> bytes, std::uint64_t most) {
     RadianceCursor in(bytes);
     const RadianceHeader header = readHeader(in);
     const Orientation& order = header.orientation;
@@ -242,16 +242,16 @@ HdrPicture readPicture(std::span<const std::byte> bytes, std::uint64_t most) {
             for (std::size_t c = 0; c < 3; ++c) to[c] = decoded(pixel[c], pixel[3], header.scale[c]);
         }
     }
-    HdrPicture picture{std::move(image)};
+    HdrImage hdr{std::move(image)};
     if (header.scale != std::array<double, 3>{1, 1, 1})
-        picture.notes.lines.push_back(
+        hdr.notes.lines.push_back(
             fmt::format("its values were multiplied by {:.6g} {:.6g} {:.6g} (its EXPOSURE and COLORCORR)",
                         header.scale[0], header.scale[1], header.scale[2]));
-    noteAspect(header.aspect, picture.notes);
+    noteAspect(header.aspect, hdr.notes);
     if (header.primaries)
-        if (const auto matrix = matrixToRec709(*header.primaries, picture.notes))
-            convertColors(picture.image, *matrix);
-    return picture;
+        if (const auto matrix = matrixToRec709(*header.primaries, hdr.notes))
+            convertColors(hdr.image, *matrix);
+    return hdr;
 }
 
 // ---- writing -----------------------------------------------------------------------------------------
@@ -304,14 +304,14 @@ void appendRuns(std::vector<std::uint8_t>& out, const std::vector<Rgbe>& line, s
 
 }  // namespace
 
-PictureSize hdrSize(std::span<const std::byte> bytes) {
+ImageSize hdrSize(std::span<const std::byte> bytes) {
     RadianceCursor in(bytes);
     const RadianceHeader header = readHeader(in);
     return {header.width, header.height, 3 * sizeof(float)};
 }
 
-HdrPicture readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    return named(name, [&] { return readPicture(bytes, most); });
+HdrImage readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+    return named(name, [&] { return readImage(bytes, most); });
 }
 
 std::size_t writeHdr(const std::filesystem::path& file, const Image& image) {

@@ -20,15 +20,15 @@ namespace diptych {
 // which gives the measured radiance. They are converted if PRIMARIES are not Rec. 709, the default. Reads
 // plain pixels and both run-length codes. Rejects XYZE and files that need more than `most` bytes decoded.
 // Throws std::runtime_error, one line that names file and fault.
-struct HdrPicture {
+struct HdrImage {
     Image image;
     FileNotes notes{};
 };
-HdrPicture readHdr(std::span<const std::byte> bytes, const std::string& name,
-                   std::uint64_t most = limits::imageBytes());
+HdrImage readHdr(std::span<const std::byte> bytes, const std::string& name,
+                 std::uint64_t most = limits::imageBytes());
 
 // Reads only the header. Throws std::runtime_error without the file's name.
-PictureSize hdrSize(std::span<const std::byte> bytes);
+ImageSize hdrSize(std::span<const std::byte> bytes);
 
 // Writes an RGB image, run-length coded; values read back are within 0.4 % of each pixel's largest
 // component. Returns the number of pixels that RGBE cannot represent: negative and NaN components become

@@ -270,62 +270,60 @@ namespace {
 
 // Reads profile, primaries (TIFF 6.0, 20), resolution and the number of pages. Without a white point,
 // primaries use D65.
-void describe(TIFF* tiff, TiffPicture& picture) {
+void describe(TIFF* tiff, TiffImage& image) {
     std::uint32_t size = 0;
     void* profile = nullptr;
     const float *primaries = nullptr, *white = nullptr;
-    const bool coloured = picture.image.components >= 3;
+    const bool coloured = image.image.components >= 3;
     if (TIFFGetField(tiff, TIFFTAG_ICCPROFILE, &size, &profile) == 1) {
-        noteProfile({static_cast<const char*>(profile), size}, picture.linear ? "linear" : "sRGB",
-                    picture.notes);
+        noteProfile({static_cast<const char*>(profile), size}, image.linear ? "linear" : "sRGB", image.notes);
     } else if (coloured && TIFFGetField(tiff, TIFFTAG_PRIMARYCHROMATICITIES, &primaries) == 1) {
         Primaries all{0, 0, 0, 0, 0, 0, 0.3127, 0.3290};
         std::copy_n(primaries, 6, all.begin());
         if (TIFFGetField(tiff, TIFFTAG_WHITEPOINT, &white) == 1) std::copy_n(white, 2, all.begin() + 6);
-        if (const auto matrix = matrixToRec709(all, picture.notes))
-            convertColors(picture.image, *matrix, !picture.linear);
+        if (const auto matrix = matrixToRec709(all, image.notes))
+            convertColors(image.image, *matrix, !image.linear);
     }
     const auto across = tagOf<float>(tiff, TIFFTAG_XRESOLUTION, 0),
                up = tagOf<float>(tiff, TIFFTAG_YRESOLUTION, 0);
-    if (across > 0 && up > 0) noteAspect(double{up} / across, picture.notes);
-    if (TIFFLastDirectory(tiff) == 0) picture.notes.in_part.emplace_back("only its first page is read");
+    if (across > 0 && up > 0) noteAspect(double{up} / across, image.notes);
+    if (TIFFLastDirectory(tiff) == 0) image.notes.in_part.emplace_back("only its first page is read");
 }
 
 }  // namespace
 
-PictureSize tiffSize(std::span<const std::byte> bytes) {
+ImageSize tiffSize(std::span<const std::byte> bytes) {
     TiffBytes file{bytes};
     const OpenTiff tiff = openTiff(file, limits::imageBytes());
     if (!tiff) failToDecode(file);
     const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), limits::imageBytes());
-    PictureSize size{layout.width, layout.height,
-                     static_cast<std::int64_t>(sizeof(float)) * layout.components};
+    ImageSize size{layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components};
     // Reorientation needs a copy.
     if (layout.orientation != ORIENTATION_TOPLEFT) size.bytes_per_pixel *= 2;
     if (layout.orientation >= ORIENTATION_LEFTTOP) std::swap(size.width, size.height);
     return size;
 }
 
-TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
     return named(name, [&] {
         TiffBytes file{bytes};
         const OpenTiff tiff = openTiff(file, most);
         if (!tiff) failToDecode(file);
         const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), most);
-        TiffPicture picture;
-        picture.image =
+        TiffImage image;
+        image.image =
             Image(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.components);
-        picture.sample = sampleOf(layout);
-        picture.linear = isFloat(layout);
+        image.sample = sampleOf(layout);
+        image.linear = isFloat(layout);
         std::uint16_t extra = 0;
         const std::uint16_t* kinds = nullptr;
-        picture.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 &&
-                             extra > 0 && kinds[0] == EXTRASAMPLE_ASSOCALPHA;
-        if (!Pieces(tiff.get(), layout, picture.image).read(most, bytes.size())) failToDecode(file);
-        picture.image = oriented(std::move(picture.image), layout.orientation);
-        describe(tiff.get(), picture);
-        if (isInverted(layout)) picture.notes.lines.emplace_back("its values are inverted: 0 is white in it");
-        return picture;
+        image.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 && extra > 0 &&
+                           kinds[0] == EXTRASAMPLE_ASSOCALPHA;
+        if (!Pieces(tiff.get(), layout, image.image).read(most, bytes.size())) failToDecode(file);
+        image.image = oriented(std::move(image.image), layout.orientation);
+        describe(tiff.get(), image);
+        if (isInverted(layout)) image.notes.lines.emplace_back("its values are inverted: 0 is white in it");
+        return image;
     });
 }
 

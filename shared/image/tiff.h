@@ -14,7 +14,7 @@
 
 namespace diptych {
 
-struct TiffPicture {
+struct TiffImage {
     Image image;              // Y, YA, RGB or RGBA, row 0 on top
     std::string sample;       // "8 bit", "16 bit", "32 bit", "half" or "float"
     bool linear = false;      // floats; integers are normalized and count as sRGB-encoded
@@ -29,10 +29,10 @@ bool isTiff(std::span<const std::byte> bytes);
 // floats of 16 or 32; strips or tiles, interleaved or planar; uncompressed, LZW, Deflate or PackBits.
 // Rejects files that need more than `most` bytes decoded. Throws std::runtime_error, one line that names
 // file and fault.
-TiffPicture readTiff(std::span<const std::byte> bytes, const std::string& name,
-                     std::uint64_t most = limits::imageBytes());
+TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name,
+                   std::uint64_t most = limits::imageBytes());
 
 // Reads only the tags. Throws std::runtime_error without the file's name.
-PictureSize tiffSize(std::span<const std::byte> bytes);
+ImageSize tiffSize(std::span<const std::byte> bytes);
 
 }  // namespace diptych

@@ -21,12 +21,12 @@ namespace {
 constexpr double last_cell = gpu::LTC_CELLS - 1;
 
 LtcTable readTable() {
-    const PictureFile file =
+    const ImageFile file =
         readExr(std::as_bytes(std::span(ltcFile, ltcFileSize)), "the table of linearly transformed cosines");
     LtcTable table;
     table.cells.resize(std::size_t{gpu::LTC_CELLS} * gpu::LTC_CELLS);
     for (const LtcLayer& layer : ltcLayers) {
-        const auto found = std::ranges::find(file.layers, layer.name, &PictureLayer::name);
+        const auto found = std::ranges::find(file.layers, layer.name, &ImageLayer::name);
         if (found == file.layers.end() || found->image.data.size() != table.cells.size())
             throw std::runtime_error("ltc.exr: is not a table of fit_ltc; run fit_ltc");
         for (std::size_t i = 0; i < table.cells.size(); ++i) layer.of(table.cells[i]) = found->image.data[i];

@@ -34,7 +34,7 @@ Sampler probeSampler(bool linear) {
 constexpr int probeWidth = 256;
 
 // Samples the image at `places`, UV in rows of probeWidth, with wrap mode repeat; returns RGBA.
-std::vector<float> sampled(Device& device, const TextureImage& picture, bool srgb, TexturePrecision precision,
+std::vector<float> sampled(Device& device, const TextureImage& content, bool srgb, TexturePrecision precision,
                            bool linear, std::span<const glm::vec2> places) {
     constexpr int width = probeWidth;
     const int height = static_cast<int>(places.size()) / width;
@@ -46,14 +46,14 @@ std::vector<float> sampled(Device& device, const TextureImage& picture, bool srg
         const TextureFormat format = textureFormat(device, image, colors, precision);
         return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
     };
-    const GpuImage placesImage = upload(where, true), pictureImage = upload(picture, srgb);
+    const GpuImage placesImage = upload(where, true), imageImage = upload(content, srgb);
     uploader.flush();
     const OwnedSampler fetch = makeNearestSampler(device),
                        sampler = makeSampler(device, probeSampler(linear));
     const OwnedDescriptorSetLayout setLayout = makeSetLayout(device, probeTypes);
     DescriptorSets sets(device, setLayout, probeTypes, 1);
     sets.image(0, 0, placesImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    sets.image(0, 1, pictureImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets.image(0, 1, imageImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
     const OwnedPipelineLayout layout =
         makePipelineLayout(device, std::array<VkDescriptorSetLayout, 1>{setLayout});
@@ -175,7 +175,7 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
                                       std::uint32_t seed, TexturePrecision precision) {
     constexpr int side = probeWidth;
     std::uint32_t state = seed;
-    const TextureImage picture = noise(state);
+    const TextureImage content = noise(state);
     std::vector<glm::vec2> places;
     for (int i = 0; i < side * side; ++i) {
         const auto random = [&] {
@@ -185,10 +185,10 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
         const float u = random();
         places.emplace_back(u, random());
     }
-    const std::vector<float> got = sampled(device, picture, srgb, precision, true, places);
+    const std::vector<float> got = sampled(device, content, srgb, precision, true, places);
     const auto texel = [&](int x, int y, std::size_t c) {
         const auto wrapped = [](int i) { return static_cast<std::size_t>((i + noiseSide) % noiseSide); };
-        return double{decode[picture.rgba[4 * (wrapped(y) * noiseSide + wrapped(x)) + c]]};
+        return double{decode[content.rgba[4 * (wrapped(y) * noiseSide + wrapped(x)) + c]]};
     };
     std::vector<FilterSample> samples;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -43,11 +43,11 @@ struct ImageDeclaration {
     VkImageUsageFlags usage = 0;  // in addition to attachment, sampled and, for kept images, transfer
                                   // source
     Life life = Life::kept;
-    bool array = false;         // shaders read it as an array, even with one layer
-    bool drawn = true;          // false: never an attachment
-    bool filtered = false;      // shaders filter it linearly
-    bool with_picture = false;  // its own size depends on the list's
-    StoredDepths depths = {};   // for depth images
+    bool array = false;        // shaders read it as an array, even with one layer
+    bool drawn = true;         // false: never an attachment
+    bool filtered = false;     // shaders filter it linearly
+    bool with_image = false;   // its own size depends on the list's
+    StoredDepths depths = {};  // for depth images
 };
 
 // One level of one layer, as an attachment.

@@ -50,7 +50,7 @@ ImageRef PassList::image(const ImageDeclaration& declared) {
     const bool own = declared.extent.width == 0;
     resource->life = declared.life;
     resource->has_size = !own;
-    resource->with_picture = declared.with_picture;
+    resource->with_image = declared.with_image;
     resource->depths = declared.depths;
     resource->image.emplace(
         device_,
@@ -255,7 +255,7 @@ std::uint64_t PassList::pixelBytes() const {
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < resources_.size(); ++i) {
         const Resource& r = *resources_[i];
-        if (r.image && (!r.has_size || r.with_picture)) bytes += pixelBytes(ImageRef{i});
+        if (r.image && (!r.has_size || r.with_image)) bytes += pixelBytes(ImageRef{i});
     }
     return bytes;
 }

@@ -17,8 +17,8 @@ struct PassResource {
     std::optional<GpuImage> image;
     const GpuBuffer* buffer = nullptr;
     Life life = Life::kept;
-    bool has_size = false;      // declared, instead of the list's size
-    bool with_picture = false;  // that depends on the list's size
+    bool has_size = false;    // declared, instead of the list's size
+    bool with_image = false;  // that depends on the list's size
     StoredDepths depths;
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>, OwnedImageView> views;
     // Transients with memory: first and last pass, and the previous user of the memory.

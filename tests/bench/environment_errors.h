@@ -31,10 +31,10 @@ namespace diptych::environment_errors {
 template <class Radiance>
 Environment paintedBy(int height, const Radiance& radiance) {
     Environment sky{"sky", Image(2 * height, height, 3)};
-    const LatLong picture(sky);
+    const LatLong image(sky);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < 2 * height; ++x) {
-            const glm::dvec3 color = radiance(picture.direction(x, y));
+            const glm::dvec3 color = radiance(image.direction(x, y));
             for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = static_cast<float>(color[c]);
         }
     return sky;

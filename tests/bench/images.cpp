@@ -3,8 +3,8 @@
 // Without files: writes 1920 x 1080 RGB(A) of a smooth scene with noise, one in each readable format.
 // Interleaves RUNS reads of every file, with a warm file cache; medians and spread.
 #include "shared/image/exr.h"
+#include "shared/image/image_file.h"
 #include "shared/image/pfm.h"
-#include "shared/image/picture_file.h"
 #include "shared/image/radiance.h"
 
 #include <fmt/format.h>
@@ -70,9 +70,9 @@ std::vector<std::string> writeScenes(const fs::path& folder) {
 
 double readMs(const std::string& file) {
     const auto start = std::chrono::steady_clock::now();
-    const PictureFile picture = readPicture(file);
+    const ImageFile image = readImage(file);
     const auto end = std::chrono::steady_clock::now();
-    if (picture.layers.empty()) throw std::runtime_error(file + ": no layers");
+    if (image.layers.empty()) throw std::runtime_error(file + ": no layers");
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 

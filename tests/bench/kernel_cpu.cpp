@@ -16,9 +16,9 @@ bool hasCpuKernel() {
 #endif
 }
 
-void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture) {
+void runCpuKernel(const KernelWorkload& workload, int listLength, Image& image) {
     const int across = workload.tilesAcross(), side = KernelWorkload::tile;
-    const std::size_t stride = static_cast<std::size_t>(picture.width) * 3;
+    const std::size_t stride = static_cast<std::size_t>(image.width) * 3;
     tbb::parallel_for(0, across * workload.tilesDown(), [&](int tile) {
         const int x = tile % across * side, y = tile / across * side;
         shadeTileAvx2(
@@ -26,7 +26,7 @@ void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture
              workload.indices.data() +
                  static_cast<std::size_t>(tile) * static_cast<std::size_t>(workload.list_capacity),
              listLength, x, y,
-             picture.data.data() + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x) * 3,
+             image.data.data() + static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x) * 3,
              stride});
     });
 }

@@ -78,7 +78,7 @@ public:
         return passes_.run();
     }
 
-    Image picture() override {
+    Image image() override {
         Image image(workload_.size.width, workload_.size.height, 3);
         passes_.readBack(std::array{PassList::ReadBack{target_, 3}}, std::array{std::span(image.data)});
         return image;

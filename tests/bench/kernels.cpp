@@ -87,10 +87,10 @@ int main(int count, char** arguments) try {
 
     std::vector<TimedKernel> timed;
     std::vector<std::string> notes;
-    Image picture(size.width, size.height, 3);
+    Image image(size.width, size.height, 3);
     if (hasCpuKernel())
         timed.push_back({"this CPU, hand-written AVX2", {}, [&](int length) {
-                             return cpuMs(threads, [&] { runCpuKernel(workload, length, picture); });
+                             return cpuMs(threads, [&] { runCpuKernel(workload, length, image); });
                          }});
     else
         notes.emplace_back("this CPU lacks AVX2 or FMA: no CPU time to compare the shaders with");

@@ -33,7 +33,7 @@ public:
     virtual ~DrawnKernel() = default;
     virtual double draw(int listLength) = 0;  // ms; lights: a multiple of 4, at most the workload's
                                               // capacity
-    virtual Image picture() = 0;              // of the last draw, W x H x 3
+    virtual Image image() = 0;                // of the last draw, W x H x 3
 };
 std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkload& workload,
                                              const DeviceKernel& kernel);
@@ -41,6 +41,6 @@ std::unique_ptr<DrawnKernel> makeDrawnKernel(Device& device, const KernelWorkloa
 // Whether the CPU has AVX2 and FMA, required by runCpuKernel().
 bool hasCpuKernel();
 // The same image by hand-written AVX2 on all cores. W x H x 3.
-void runCpuKernel(const KernelWorkload& workload, int listLength, Image& picture);
+void runCpuKernel(const KernelWorkload& workload, int listLength, Image& image);
 
 }  // namespace diptych::kernels

@@ -30,7 +30,7 @@ struct Pair {
 };
 
 // `stops`: range of the image in powers of 2; 0: from 0 to 1.
-Pair pictures(double stops) {
+Pair images(double stops) {
     Pair pair{Image(1920, 1080, 3), Image(1920, 1080, 3)};
     std::mt19937 random(1);
     std::uniform_real_distribution<float> noise(0.9f, 1.0f);
@@ -67,7 +67,7 @@ double processorMs() {
 }
 
 // In a process of its own, so that its peak is due to this kind; in images.
-double addedPictures(const Kind& kind) {
+double addedImages(const Kind& kind) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
     const pid_t child = fork();
@@ -109,7 +109,7 @@ int main(int count, char** arguments) try {
         throw std::runtime_error("usage: bench_metrics [-n RUNS]");
     const std::size_t runs = words.empty() ? 5 : std::max(1ul, std::stoul(words[1]));
 
-    const Pair display = pictures(0), linear = pictures(14);
+    const Pair display = images(0), linear = images(14);
     const Coverage all = everyPixel(display.reference.pixels());
     HdrFlipOptions fifteen;
     fifteen.exposures = 15;
@@ -124,7 +124,7 @@ int main(int count, char** arguments) try {
         {"plain, vectors",
          [&] { standardMetrics(display.reference, display.test, ChannelKind::vector, Range::linear, all); }},
     };
-    for (Kind& kind : kinds) kind.memory = addedPictures(kind);  // before this process has threads
+    for (Kind& kind : kinds) kind.memory = addedImages(kind);  // before this process has threads
     for (std::size_t run = 0; run < runs; ++run)
         for (Kind& kind : kinds) measure(kind);
     fmt::print("1920x1080, {} runs, ms: median (smallest to largest)\n", runs);

@@ -13,9 +13,9 @@ std::size_t compressionOf(std::string_view file) {
 }
 
 // Checks that all layers have one size and every channel a value in each pixel.
-void requirePicture(const PictureFile& file) {
+void requireImage(const ImageFile& file) {
     fuzz::require(!file.layers.empty(), "a file has a layer");
-    for (const PictureLayer& layer : file.layers) {
+    for (const ImageLayer& layer : file.layers) {
         const Image& image = layer.image;
         fuzz::require(image.width > 0 && image.height > 0, "a layer has pixels");
         fuzz::require(image.width == file.width && image.height == file.height, "layers are of one size");
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto read = [&](std::string_view part) {
         fuzz::readOrSayWhy(
             [&] {
-                requirePicture(readExr(fuzz::bytesAt(data, size), "fuzz.exr", fuzz::most_bytes, part));
+                requireImage(readExr(fuzz::bytesAt(data, size), "fuzz.exr", fuzz::most_bytes, part));
                 const std::size_t tiled = data[5] & 2u, several = data[5] & 16u;
                 fuzz::observe(64 * several + 16 * tiled + compressionOf(fuzz::textAt(data, size)));
             },

@@ -6,8 +6,8 @@ using namespace diptych;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
-        const TiffPicture picture = readTiff(fuzz::bytesAt(data, size), "fuzz.tif", fuzz::most_bytes);
-        const Image& image = picture.image;
+        const TiffImage decoded = readTiff(fuzz::bytesAt(data, size), "fuzz.tif", fuzz::most_bytes);
+        const Image& image = decoded.image;
         fuzz::require(image.width > 0 && image.height > 0, "a picture has pixels");
         fuzz::require(image.components >= 1 && image.components <= 4,
                       "a picture is grey or RGB, with alpha or not");

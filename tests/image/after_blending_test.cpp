@@ -8,8 +8,8 @@
 namespace diptych::tests {
 namespace {
 
-Settings beforeBlendingPicture(GBufferEncoding gbuffer = GBufferEncoding::full) {
-    Settings settings = smallPicture(gbuffer);
+Settings beforeBlendingImage(GBufferEncoding gbuffer = GBufferEncoding::full) {
+    Settings settings = smallImage(gbuffer);
     settings.size = {96, 54};
     return settings;
 }
@@ -36,7 +36,7 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
             return opaque.materials[static_cast<std::size_t>(p.material)].alpha_mode == AlphaMode::blend;
         });
     for (const GBufferEncoding gbuffer : {GBufferEncoding::full, GBufferEncoding::standard}) {
-        const Settings settings = beforeBlendingPicture(gbuffer);
+        const Settings settings = beforeBlendingImage(gbuffer);
         const std::vector<Frame> all = bothPaths(uploaded("builtin:glass").renderer, settings),
                                  rest = bothPaths(opaque, settings);
         for (const std::size_t i : {0u, 1u}) {
@@ -63,7 +63,7 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
 TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
     for (const GBufferEncoding gbuffer : {GBufferEncoding::full, GBufferEncoding::standard}) {
         const std::vector<Frame> frames =
-            bothPaths(uploaded("builtin:glass").renderer, beforeBlendingPicture(gbuffer));
+            bothPaths(uploaded("builtin:glass").renderer, beforeBlendingImage(gbuffer));
         std::vector<Frame> after = frames, both = frames;
         for (std::size_t i = 0; i < 40; ++i) {
             const std::size_t pixel = 96 * 20 + 30 + i;
@@ -82,7 +82,7 @@ TEST(AfterBlendingImages, AFaultAfterBlendingFailsByName) {
 // Few pixels are wrong, so lit as a whole passes.
 TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
     Renderer& renderer = uploaded("builtin:glass").renderer;
-    Settings settings = beforeBlendingPicture();
+    Settings settings = beforeBlendingImage();
     settings.size = {160, 90};
     std::vector<Frame> frames{drawnBy(Path::reference, renderer, settings)};
     for (Frame& frame : bothPaths(renderer, settings)) frames.push_back(std::move(frame));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Alpha masks that set sample coverage (--alpha-to-coverage).
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "tests/image/square.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -16,7 +16,7 @@ namespace {
 constexpr float cutoff = 0.4f;
 
 Settings covered(Size size, bool on = true) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.msaa = 4;
     settings.alpha_to_coverage = on;

@@ -13,7 +13,7 @@ namespace diptych::tests {
 namespace {
 
 std::vector<Frame> drawIn(const Scene& scene, const Rgb& ambient, Size size = {4, 4}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.ambient = ambient;
     return bothPaths(scene, settings, {Channel::lit, Channel::lit_ambient, Channel::material_id});
@@ -123,7 +123,7 @@ class AmbientReference : public testing::TestWithParam<const char*> {};
 TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     const Scene scene = loadScene(GetParam());
     const Size size{160, 90};
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::reference;
     settings.size = size;
     settings.ambient = {0.3f, 0.4f, 0.5f};

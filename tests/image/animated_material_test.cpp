@@ -122,7 +122,7 @@ TEST(AnimatedMaterials, AreDrawnAsAtRest) {
             still.materials = poseAt(moving, seconds).materials;
             still.animations.clear();
             ASSERT_EQ(still.materials.size(), 2u);
-            Settings settings = smallPicture(GBufferEncoding::full);
+            Settings settings = smallImage(GBufferEncoding::full);
             settings.size = {8, 8};
             const std::vector<Frame> expected = bothPaths(still, settings, shownChannels);
             settings.time = seconds;
@@ -138,12 +138,12 @@ TEST(AnimatedMaterials, AreDrawnAsAtRest) {
 }
 
 // Control: an image with the materials of 0 s differs.
-TEST(AnimatedMaterials, MotionChangesThePicture) {
+TEST(AnimatedMaterials, MotionChangesTheImage) {
     for (const MovingMaterial& c : movingMaterials()) {
         Scene moving = squareBeforeAnother();
         c.change(moving);
         Renderer renderer(device(), moving, pipelines());
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.size = {8, 8};
         const std::vector<Frame> start = bothPaths(renderer, settings, {Channel::lit});
         settings.time = 1;

@@ -10,7 +10,7 @@ namespace diptych::tests {
 namespace {
 
 Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {161, 91};
     settings.path = path;
     settings.assign = assign;
@@ -21,7 +21,7 @@ Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign
     return renderer.draw(settings, options);
 }
 
-TEST(AreaLightPictures, BothPathsAndEveryListAgree) {
+TEST(AreaLightImages, BothPathsAndEveryListAgree) {
     Scene scene = loadScene("builtin:areas");
     const Pose pose = poseAt(scene, 0);
     for (const Light& light : makeLights("area:30,point:9,spot:5", 7, boundsAtStart(scene, pose)))
@@ -55,7 +55,7 @@ double meanError(const Frame& referenceFrame, const Frame& frame, Channel channe
 // evaluated for one direction per light. The specular error, 0.023, comes from the table and is largest on
 // dielectrics at grazing angles, such as the floor. The limit of 0.03 allows for other devices' rounding.
 // One representative point is far worse in both.
-TEST(AreaLightPictures, TheTableIsNearTheReference) {
+TEST(AreaLightImages, TheTableIsNearTheReference) {
     const Scene scene = loadScene("builtin:areas");
     Renderer renderer(device(), scene, pipelines());
     const Frame referenceFrame = drawAreas(renderer, Path::reference, AreaLights::ltc, Assignment::every);
@@ -72,7 +72,7 @@ TEST(AreaLightPictures, TheTableIsNearTheReference) {
 }
 
 // Without area lights both settings give the same bits.
-TEST(AreaLightPictures, TheWayChangesNothingWithoutThem) {
+TEST(AreaLightImages, TheWayChangesNothingWithoutThem) {
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(device(), scene, pipelines());
     const Frame a = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);

@@ -142,14 +142,14 @@ void pushSharpness(Case& pushed, const Subject&, double roughness) {
 TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
     const Subject subject = subjectOf(highlight());
     Measurer measurer(device(), subject, {});
-    measurer.plant({.picture =
+    measurer.plant({.image =
                         [](const Case& drawn, Frame& frame) {
                             const float alpha =
                                 drawn.scene.materials[0].roughness * drawn.scene.materials[0].roughness;
                             const float alpha2 = alpha * alpha;
                             const Image& places = frame.channels.at(Channel::position);
-                            Image& picture = frame.channels.at(Channel::lit);
-                            for (std::size_t i = 0; i < picture.pixels(); ++i) {
+                            Image& image = frame.channels.at(Channel::lit);
+                            for (std::size_t i = 0; i < image.pixels(); ++i) {
                                 const float* const p = places.pixel(i);
                                 const glm::vec3 v = glm::normalize(-glm::vec3(p[0], p[1], p[2]));
                                 const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
@@ -161,7 +161,7 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                 const double wrong =
                                     double{alpha2} / (clamped * clamped) * (exact / naive) * (exact / naive);
                                 for (int c = 0; c < 3; ++c)
-                                    picture.pixel(i)[c] = static_cast<float>(picture.pixel(i)[c] * wrong);
+                                    image.pixel(i)[c] = static_cast<float>(image.pixel(i)[c] * wrong);
                             }
                         },
                     .channels = {Channel::position}});
@@ -196,12 +196,12 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
     scene.lights = {spot};
     const Subject subject = subjectOf(scene);
     Measurer measurer(device(), subject, {});
-    measurer.plant({.picture =
+    measurer.plant({.image =
                         [](const Case& drawn, Frame& frame) {
                             const float outer = std::cos(drawn.scene.lights[0].outer_cone), inner = 1;
                             const Image& places = frame.channels.at(Channel::position);
-                            Image& picture = frame.channels.at(Channel::lit);
-                            for (std::size_t i = 0; i < picture.pixels(); ++i) {
+                            Image& image = frame.channels.at(Channel::lit);
+                            for (std::size_t i = 0; i < image.pixels(); ++i) {
                                 const float* const p = places.pixel(i);
                                 const float cosine = -glm::normalize(glm::vec3(p[0], p[1], p[2])).z;
                                 const auto share = [&](float width) {
@@ -210,7 +210,7 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                 const float guarded = share(std::max(inner - outer, 0.001f)),
                                             naive = share(inner - outer);
                                 const float wrong = guarded > 0 ? naive / guarded : 1.0f;
-                                for (int c = 0; c < 3; ++c) picture.pixel(i)[c] *= wrong * wrong;
+                                for (int c = 0; c < 3; ++c) image.pixel(i)[c] *= wrong * wrong;
                             }
                         },
                     .channels = {Channel::position}});

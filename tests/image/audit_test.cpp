@@ -50,7 +50,7 @@ void expectHolds(Measurer& measurer, const std::string& name, std::initializer_l
         }
 }
 
-TEST(AuditImages, APictureIsTheSameWhereverItsSceneIsAndHoweverLarge) {
+TEST(AuditImages, AnImageIsTheSameWhereverItsSceneIsAndHoweverLarge) {
     const Scene scene = makeBuiltin("spots");
     const Subject subject = auditedScene(scene);
     Measurer measurer(device(), subject, {});

@@ -98,14 +98,14 @@ TEST(BenchKernels, TheCpusIsTheShadersArithmetic) {
         const std::unique_ptr<DrawnKernel> drawn = makeDrawnKernel(device(), workload, kernel);
         for (const int length : {4, 48}) {
             drawn->draw(length);
-            const Image picture = drawn->picture();
+            const Image image = drawn->image();
             runCpuKernel(workload, length, byHand);
             EXPECT_GT(byHand.data[0], 0.0f);
-            EXPECT_LT(furthest(byHand, picture), oneArithmetic) << kernel.name << ", " << length << " lights";
+            EXPECT_LT(furthest(byHand, image), oneArithmetic) << kernel.name << ", " << length << " lights";
         }
         // Negative control: one light fewer is detected.
         runCpuKernel(workload, 47, byHand);
-        EXPECT_GT(furthest(byHand, drawn->picture()), 100 * oneArithmetic);
+        EXPECT_GT(furthest(byHand, drawn->image()), 100 * oneArithmetic);
     }
 }
 

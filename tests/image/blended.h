@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures with blended surfaces, and their failures against the reference.
+// Images with blended surfaces, and their failures against the reference.
 #pragma once
 
 #include "compare/verdict/pair_reports.h"
@@ -13,8 +13,8 @@
 
 namespace diptych::tests {
 
-inline Settings blendedPicture() {
-    Settings settings = smallPicture(GBufferEncoding::full);
+inline Settings blendedImage() {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {96, 54};
     return settings;
 }

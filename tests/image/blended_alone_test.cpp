@@ -34,11 +34,11 @@ std::vector<std::string> deferredPasses(const Scene& scene, const Settings& sett
     return planPaths(device(), views, {settings}).front().passes;
 }
 
-TEST(BlendedAlone, HasNoGBufferAndTheSamePicture) {
+TEST(BlendedAlone, HasNoGBufferAndTheSameImage) {
     for (const bool wall : {false, true}) {
         const Scene scene = blendedPane(wall);
         for (const char* change : {"", "msaa=4", "lighting=compute", "assign=tiled", "haze=on"}) {
-            Settings settings = smallPicture(GBufferEncoding::full);
+            Settings settings = smallImage(GBufferEncoding::full);
             settings.size = {48, 27};
             const std::string words = change;
             if (!words.empty())
@@ -56,8 +56,8 @@ TEST(BlendedAlone, HasNoGBufferAndTheSamePicture) {
             for (const Channel mode : options.channels)
                 EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
                     << words << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
-            const Image& picture = frames[0].channels.at(Channel::lit);
-            EXPECT_GT(*picture.pixel(picture.pixels() / 2), 0) << "the pane is seen";
+            const Image& image = frames[0].channels.at(Channel::lit);
+            EXPECT_GT(*image.pixel(image.pixels() / 2), 0) << "the pane is seen";
             EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);
         }
     }

@@ -53,7 +53,7 @@ double wrongShare(const Frame& frame, const Frame& reference) {
 TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     const Scene scene = paneUnderStrips();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.shadows = Shadows::pcf;
     Settings truth = settings;
     truth.path = Path::reference;

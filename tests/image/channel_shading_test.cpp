@@ -34,7 +34,7 @@ TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
     for (const GBufferEncoding encoding : {GBufferEncoding::full, GBufferEncoding::compact})
         for (const Path path : drawn_paths) {
             SCOPED_TRACE(fmt::format("{} {}", nameOf(path), nameOf(encoding)));
-            Settings settings = smallPicture(encoding);
+            Settings settings = smallImage(encoding);
             settings.path = path;
             settings.ambient = {0.1f, 0.2f, 0.3f};
             const Frame frame = drawnBy(path, renderer, settings, shadedChannels());

@@ -20,7 +20,7 @@ namespace {
 
 // Pages of 32 texels: a 160 x 90 image requests about a hundred.
 Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
-    Settings settings = smallPicture(encoding);
+    Settings settings = smallImage(encoding);
     settings.shadows = Shadows::clipmap;
     settings.shadow_size = 512;
     settings.shadow_kernel = kernel;

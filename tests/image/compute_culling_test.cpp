@@ -20,7 +20,7 @@ namespace diptych::tests {
 namespace {
 
 Settings chosenSettings(Path path, Size size = {160, 90}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = path;
     settings.size = size;
     return settings;

@@ -32,7 +32,7 @@ constexpr std::array conventions{
 class Conventions : public testing::TestWithParam<Convention> {};
 
 Settings withConvention(const Convention& convention, bool switched) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.shadows = Shadows::off;
     settings.size = {96, 54};
     settings.ambient = {0.3f, 0.4f, 0.5f};
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [
 
 // Another program's image of the scene has these conventions. It declares neither them nor its surfaces,
 // so ours are substituted. Two conventions may partly cancel (a spot's edge near the end of its range).
-TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
+TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsImage) {
     using Words = std::vector<std::pair<std::string, std::string>>;
     const std::pair<const char*, Words> cases[] = {
         {"builtin:spots", {{"spot-cone", "smoothstep"}}},
@@ -118,7 +118,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsPicture) {
         const Scene scene = loadScene(name);
         SceneViews views(scene);
         Renderer renderer(device(), views, pipelines());
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.path = drawn_paths[1];
         settings.shadows = Shadows::off;
         settings.size = {96, 54};
@@ -154,7 +154,7 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
     const Scene scene = loadScene("builtin:motion");
     SceneViews views(scene);
     Renderer renderer(device(), views, pipelines());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::forward_plus;
     settings.size = {96, 54};
     settings.time = 0.7;

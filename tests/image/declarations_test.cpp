@@ -67,7 +67,7 @@ public:
              const char* lights = "point:40,spot:10", Lighting lighting = Lighting::fragment,
              Device& on = device(), const std::shared_ptr<PipelineSet>& set = pipelines())
         : scene_(loadScene("builtin:triangle")), shared_(on, scene_, set) {
-        Settings settings = smallPicture(GBufferEncoding::standard);
+        Settings settings = smallImage(GBufferEncoding::standard);
         settings.path = path;
         settings.assign = assign;
         settings.lights = lights;

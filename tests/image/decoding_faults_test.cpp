@@ -55,7 +55,7 @@ public:
     // Drawn once for all faults.
     static const std::vector<Frame>& sound() {
         static const std::vector<Frame> frames = [] {
-            Settings settings = smallPicture(GBufferEncoding::standard);
+            Settings settings = smallImage(GBufferEncoding::standard);
             return uploaded("builtin:gallery").bothPaths(settings);
         }();
         return frames;

@@ -21,7 +21,7 @@ Scene spheresUnderLamp() {
 }
 
 Settings byEnvironment() {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {48, 27};
     settings.shadows = Shadows::off;
     return settings;

@@ -118,7 +118,7 @@ TEST(EnvironmentSunLight, TurnsAndIsScaledWithTheEnvironment) {
 
 // The background is the environment image, sun included. A path that integrates the whole image gets the
 // same light.
-TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
+TEST(EnvironmentSunLight, TheImageKeepsItsSun) {
     Scene scene = sunlitSquare();
     scene.nodes.pop_back();
     Renderer renderer(device(), scene, pipelines());
@@ -140,8 +140,8 @@ TEST(EnvironmentSunLight, ThePictureKeepsItsSun) {
     without.camera.clear();
     settings.shadows = without.shadows = Shadows::off;
     const double as_light = colorAt(referenceOf(renderer, settings), Channel::lit_diffuse, 8, 8).g,
-                 as_picture = colorAt(referenceOf(renderer, without), Channel::lit_diffuse, 8, 8).g;
-    EXPECT_NEAR(as_light, as_picture, 0.01 * as_picture);
+                 as_image = colorAt(referenceOf(renderer, without), Channel::lit_diffuse, 8, 8).g;
+    EXPECT_NEAR(as_light, as_image, 0.01 * as_image);
 }
 
 // All rotations share one view if the sun is not a light; images are equal if none is found.

@@ -28,7 +28,7 @@ const std::vector<Channel> shown{Channel::lit,         Channel::lit_diffuse,    
                                  Channel::lit_ambient, Channel::lit_environment, Channel::material_id};
 
 Settings underSky(Size size = {16, 16}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.ibl_samples = 32;
     return settings;
@@ -466,7 +466,7 @@ TEST(EnvironmentLight, TurnsWithTheScene) {
 }
 
 // The background is the environment image itself; float32 leaves an angular error of 1e-6.
-TEST(EnvironmentLight, TheBackgroundIsThePicture) {
+TEST(EnvironmentLight, TheBackgroundIsTheImage) {
     Scene scene = square();
     scene.environment = paintedSky();
     for (std::size_t i = 0; i < scene.environment->radiance.data.size(); ++i)

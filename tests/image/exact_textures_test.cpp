@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array bothPrecisions{TexturePrecision::device, TexturePrecision::exact};
 
-Settings texturedPicture(TexturePrecision textures) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings texturedImage(TexturePrecision textures) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.textures = textures;
     return settings;
 }
@@ -58,10 +58,10 @@ double largestError(const Frame& frame, const Frame& truth, Channel mode) {
 // float below 1, 2.4e-4. A device's own 8-bit filtering may be off by a whole code, 3.9e-3; lavapipe's is.
 TEST(ExactTextures, AreFilteredAsTheReferenceDoes) {
     const Scene scene = noisySquare();
-    const Frame truth = tracedScene(scene, texturedPicture(TexturePrecision::device));
+    const Frame truth = tracedScene(scene, texturedImage(TexturePrecision::device));
     double ofDevice = 0;
     for (const TexturePrecision textures : bothPrecisions) {
-        const std::vector<Frame> frames = bothPaths(scene, texturedPicture(textures));
+        const std::vector<Frame> frames = bothPaths(scene, texturedImage(textures));
         for (const Frame& frame : frames) {
             const double number = largestError(frame, truth, Channel::roughness),
                          color = largestError(frame, truth, Channel::albedo);
@@ -118,7 +118,7 @@ TEST(ExactTextures, BringAHelmetNearToTheReference) {
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the noise proves it";
     const Scene scene = loadScene(file.string());
     const auto settings = [](TexturePrecision textures) {
-        Settings s = texturedPicture(textures);
+        Settings s = texturedImage(textures);
         s.camera = "eye=0.03,0.4,0.35 target=0,0.38,0 fov=3 near=0.01 far=10";
         return s;
     };

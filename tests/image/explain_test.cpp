@@ -3,7 +3,7 @@
 #include "compare/explain/explain.h"
 #include "compare/explain/lighting_components.h"
 #include "compare/frames/frame_facts.h"
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
@@ -22,7 +22,7 @@ namespace diptych::tests {
 namespace {
 
 Settings explained(Size size) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::forward_plus;
     settings.size = size;
     settings.ambient = {0.05f, 0.05f, 0.05f};

@@ -84,7 +84,7 @@ std::size_t beyondBound(const Frame& frame, const Frame& reference, const Textur
 TEST(TextureFilters, AreOffByWhatTheDeviceMeasuresAndNoMore) {
     const Scene scene = filteredSquare();
     const TextureSampling sampling = probeTextures(device());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {filteredPixels, filteredPixels};
     const auto traced = [&](const Scene& of) {
         SceneViews views(of);

@@ -11,8 +11,8 @@ namespace {
 TEST(FrameOf, TwoRunsAreTheSameBits) {
     const Scene scene = loadScene("builtin:gallery");
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full}) {
-        const auto first = bothPaths(scene, smallPicture(encoding)),
-                   second = bothPaths(scene, smallPicture(encoding));
+        const auto first = bothPaths(scene, smallImage(encoding)),
+                   second = bothPaths(scene, smallImage(encoding));
         for (std::size_t i = 0; i < 2; ++i)
             for (const auto& [mode, image] : first[i].channels)
                 EXPECT_EQ(differingPixels(image, second[i].channels.at(mode), true), 0u)
@@ -30,7 +30,7 @@ TEST(FrameOf, OneThreadAndTwoAreTheSameBits) {
         setenv("LP_NUM_THREADS", threads, 1);
         Device fresh{DeviceOptions{}};
         Renderer renderer(fresh, scene);
-        frames.push_back(bothPaths(renderer, smallPicture(GBufferEncoding::standard)));
+        frames.push_back(bothPaths(renderer, smallImage(GBufferEncoding::standard)));
     }
     unsetenv("LP_NUM_THREADS");
     for (std::size_t i = 0; i < 2; ++i)
@@ -42,7 +42,7 @@ TEST(FrameOf, OneThreadAndTwoAreTheSameBits) {
 TEST(FrameOf, OnePixelAndVeryWideWork) {
     const Scene scene = loadScene("builtin:gallery");
     for (const Size size : {Size{1, 1}, Size{4097, 3}, Size{3, 4097}}) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.size = size;
         const auto frames = bothPaths(scene, settings);
         expectSameChannels(frames[0], frames[1]);
@@ -53,7 +53,7 @@ TEST(FrameOf, OnePixelAndVeryWideWork) {
 }
 
 TEST(FrameOf, ASizeBeyondTheDeviceIsRefusedByName) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {1 << 20, 1};
     try {
         bothPaths(loadScene("builtin:triangle"), settings);
@@ -66,7 +66,7 @@ TEST(FrameOf, ASizeBeyondTheDeviceIsRefusedByName) {
 // No stale data: the previous frame must not affect the next.
 TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
     const Scene scene = loadScene("builtin:gallery");
-    Settings before = smallPicture(GBufferEncoding::standard), after = before;
+    Settings before = smallImage(GBufferEncoding::standard), after = before;
     after.camera = "eye=1,1.5,2 target=0,1,-3 fov=50";
     after.lights = "point:8";
     RenderOptions options;
@@ -85,7 +85,7 @@ TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
 
 TEST(FrameOf, BackgroundIsZeroAndItsIdMinusOne) {
     for (const char* name : {"builtin:spheres?lights=4", "builtin:empty", "builtin:background"}) {
-        for (const Frame& frame : bothPaths(loadScene(name), smallPicture(GBufferEncoding::standard))) {
+        for (const Frame& frame : bothPaths(loadScene(name), smallImage(GBufferEncoding::standard))) {
             const Image& ids = frame.channels.at(Channel::material_id);
             std::size_t background = 0;
             for (std::size_t i = 0; i < ids.pixels(); ++i) {
@@ -104,7 +104,7 @@ TEST(FrameOf, BackgroundIsZeroAndItsIdMinusOne) {
 // The covered fraction of the image, known by ray casting for this camera: 31.2 % is sky. The pixel grid
 // accounts for 0.1 %.
 TEST(FrameOf, SpheresCoverWhatRayCastingSays) {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.size = {1280, 720};
     const auto frames = bothPaths(loadScene("builtin:spheres?lights=16"), settings);
     EXPECT_NEAR(static_cast<double>(coveredPixels(frames[0])) / (1280 * 720), 1 - 0.312, 1e-3);
@@ -115,7 +115,7 @@ TEST(FrameOf, EveryTimeIsKeptInOrder) {
     RenderOptions options;
     options.channels = {Channel::lit};
     options.runs = 3;
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.prepass = Switch::on;
     const Frame frame = drawAll(loadScene("builtin:triangle"), {settings}, options)[0];
     EXPECT_EQ(frame.time.runs, 3);

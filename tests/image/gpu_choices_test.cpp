@@ -31,11 +31,11 @@ const std::vector<Channel> channels{Channel::lit, Channel::normals, Channel::lig
 
 class GpuChoices : public testing::TestWithParam<const char*> {};
 
-TEST_P(GpuChoices, DrawTheSamePictures) {
+TEST_P(GpuChoices, DrawTheSameImages) {
     const Scene scene = loadScene(GetParam());
     Renderer here(device(), scene, pipelines()), there(asGpu(), scene, gpuPipelines());
     for (const Switch prepass : {Switch::on, Switch::off}) {
-        Settings settings = smallPicture(GBufferEncoding::standard);
+        Settings settings = smallImage(GBufferEncoding::standard);
         settings.prepass = prepass;
         for (const Path path : {Path::forward_plus, Path::deferred}) {
             if (path == Path::deferred && prepass == Switch::off) continue;  // has none
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
                          [](const auto& test) { return testName(test.param); });
 
 // Modules with flattened branches give the same bits, with every type of light: the most branches.
-TEST(GpuChoice, FlattenedBranchesDrawTheSamePictures) {
+TEST(GpuChoice, FlattenedBranchesDrawTheSameImages) {
     Device flat({.choice = "", .validate = true, .choices = ProfileChoices::flattening_branches});
     ASSERT_TRUE(flat.profile().flattens_branches);
     for (const char* name : {"builtin:areas", "builtin:points"}) {
@@ -62,7 +62,7 @@ TEST(GpuChoice, FlattenedBranchesDrawTheSamePictures) {
         Renderer here(device(), scene, pipelines()), there(flat, scene, makePipelineSet(flat));
         for (const Path path : {Path::forward_plus, Path::deferred}) {
             SCOPED_TRACE(fmt::format("{}, {}", name, nameOf(path)));
-            const Settings settings = smallPicture(GBufferEncoding::standard);
+            const Settings settings = smallImage(GBufferEncoding::standard);
             expectSameChannels(drawnBy(path, here, settings, channels),
                                drawnBy(path, there, settings, channels), channels.size());
         }
@@ -81,7 +81,7 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
                                    [](const DeclaredUse& use) { return use.resource == "further groups"; });
     };
     const auto compared = [&](Scene scene, Size size, MsaaEdges edges) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.path = Path::deferred;
         settings.size = size;
         settings.msaa = 4;
@@ -115,7 +115,7 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
 // For many triangles, and for many instances.
 TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
     const auto stamps = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene) {
-        Settings settings = smallPicture(GBufferEncoding::standard);
+        Settings settings = smallImage(GBufferEncoding::standard);
         settings.path = Path::deferred;
         settings.shadows = Shadows::off;
         settings.cull = false;
@@ -137,7 +137,7 @@ TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
 // The chosen options are in effect: each is visible in the frame.
 TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
     const Scene scene = loadScene("builtin:points");
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.path = Path::forward_plus;
     settings.prepass = Switch::on;
     SharedResources shared(asGpu(), scene, gpuPipelines());
@@ -166,7 +166,7 @@ TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
 TEST(DepthEquality, OfAFragmentAndOfTheStoredDepth) {
     std::size_t covered = 0, different = 0, beyond = 0;
     for (const std::string& name : builtinScenes()) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.prepass = Switch::off;
         const std::vector<Frame> frames =
             bothPaths(uploaded(name).renderer, settings, {Channel::depth, Channel::material_id});

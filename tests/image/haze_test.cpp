@@ -24,8 +24,8 @@ const std::vector<Channel> hazeShown{Channel::lit,
                                      emission,
                                      Channel::material_id};
 
-Settings hazePicture(float density, int steps = 0) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings hazeImage(float density, int steps = 0) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {96, 54};
     settings.haze = true;
     settings.haze_density = density;
@@ -37,7 +37,7 @@ Settings hazePicture(float density, int steps = 0) {
 TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
     for (const char* name : {"builtin:suns", "builtin:deep", "builtin:ortho", "builtin:unlit_materials"})
         for (const int steps : {0, 6}) {
-            Settings settings = hazePicture(3000, steps);
+            Settings settings = hazeImage(3000, steps);
             settings.haze_mie_height = 50;
             settings.ambient = {0.1f, 0.2f, 0.3f};
             const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, hazeShown);
@@ -73,7 +73,7 @@ TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
 // Haze changes only lit and its own two channels.
 TEST(HazeImages, NothingElseFeelsIt) {
     UploadedScene& scene = uploaded("builtin:suns");
-    Settings settings = hazePicture(300);
+    Settings settings = hazeImage(300);
     settings.haze_rayleigh_height = settings.haze_mie_height = 20;  // or no sun would come through
     settings.gbuffer = GBufferEncoding::standard;
     Settings without = settings;
@@ -93,7 +93,7 @@ TEST(HazeImages, NothingElseFeelsIt) {
 // or memory is added.
 TEST(HazeImages, OfDensityZeroIsNone) {
     UploadedScene& scene = uploaded("builtin:deep");
-    Settings none = hazePicture(1);
+    Settings none = hazeImage(1);
     none.haze = false;
     none.size = {64, 36};
     Settings zero = none, clear = none;
@@ -131,7 +131,7 @@ TEST(HazeImages, AreTheReferences) {
         for (const int steps : {0, 64})
             for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene}) {
                 UploadedScene& scene = uploaded(name);
-                Settings settings = hazePicture(3, steps);
+                Settings settings = hazeImage(3, steps);
                 settings.size = {64, 36};
                 settings.ambient = {0.01f, 0.02f, 0.03f};
                 if (name == std::string_view("builtin:ortho")) settings.haze_density = 3000;
@@ -173,7 +173,7 @@ TEST(HazeImages, AreTheReferences) {
 TEST(HazeImages, AreTheSameForAnyFarPlane) {
     UploadedScene& scene = uploaded("builtin:deep");
     const auto view = [&](Path path, const char* far) {
-        Settings settings = hazePicture(3);
+        Settings settings = hazeImage(3);
         settings.camera = fmt::format("eye=0,2,8 target=1,2,0 fov=50 near=0.1{}", far);
         return drawnBy(path, scene.renderer, settings, hazeShown);
     };
@@ -207,7 +207,7 @@ TEST(HazeImages, AreTheSameForAnyFarPlane) {
 TEST(HazeImages, HaveNoBandAtTheHorizon) {
     UploadedScene& scene = uploaded("builtin:background");
     for (const int steps : {0, 8}) {
-        Settings settings = hazePicture(1, steps);
+        Settings settings = hazeImage(1, steps);
         settings.size = {2, 200};
         settings.camera = "eye=0,2,1e7 target=0,2,2e7 fov=4 near=0.1";
         settings.ambient = {1, 1, 1};

@@ -14,7 +14,7 @@
 namespace diptych::tests {
 namespace {
 
-constexpr int pictureWidth = 48, pictureHeight = 27;
+constexpr int imageWidth = 48, imageHeight = 27;
 
 std::vector<Channel> injectedChannels() {
     std::vector<Channel> modes = explainedChannels();
@@ -68,7 +68,7 @@ Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
     }
     if (kind == ViewKind::blended) scene.environment = sky(draws);
     ViewRequest request;
-    request.width = pictureWidth, request.height = pictureHeight;
+    request.width = imageWidth, request.height = imageHeight;
     request.lights = "point:3,spot:3";
     request.seed = seed;
     scene.lights = makeSceneView(scene, request).lights;
@@ -92,10 +92,10 @@ Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
 
 Settings settingsOf(const std::string& name, const std::string& camera, ViewKind kind, std::uint32_t seed) {
     Draws draws(seed + 1000);
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::forward_plus;
     settings.assign = Assignment::every;
-    settings.size = {pictureWidth, pictureHeight};
+    settings.size = {imageWidth, imageHeight};
     settings.camera = camera;
     const auto ambient = static_cast<float>(draws.between(0.05, 0.3));
     settings.ambient = {ambient, 0.9f * ambient, 1.1f * ambient};
@@ -140,8 +140,8 @@ InjectedView::InjectedView(const std::string& scene_name, const std::string& cam
     // Varies occlusion: few scenes have any.
     Image& occluded = right.channels.at(Channel::occlusion);
     const double turn = 0.7 * seed;
-    for (int y = 0; y < pictureHeight; ++y)
-        for (int x = 0; x < pictureWidth; ++x)
+    for (int y = 0; y < imageHeight; ++y)
+        for (int x = 0; x < imageWidth; ++x)
             if (covered(occluded.offset(x, y)))
                 occluded.at(x, y) *=
                     static_cast<float>(0.6 + 0.35 * std::sin(0.4 * x + turn) * std::cos(0.3 * y - turn));

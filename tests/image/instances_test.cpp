@@ -48,7 +48,7 @@ Scene flags(bool apart, std::uint32_t seed, const std::function<void(Scene&)>& c
 }
 
 Settings instanceSettings(Path path) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = path;
     settings.size = {200, 120};
     return settings;

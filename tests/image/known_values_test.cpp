@@ -92,7 +92,7 @@ TEST(KnownValues, SpecularGlossiness) {
     sun.direction = {0, 0, -1};
     scene.lights = {sun};
     for (const BaseLayer base : {BaseLayer::max, BaseLayer::component}) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.size = {1, 1};
         settings.base_layer = base;
         const glm::vec3 left = base == BaseLayer::max ? glm::vec3(0.5f) : glm::vec3(0.75f, 0.5f, 1);
@@ -192,7 +192,7 @@ TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     const glm::vec3 open = colorAt(draw(scene)[0], Channel::lit, 3, 0);
     scene.materials[0].occlusion_texture.texture = 0;
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {4, 4};
     for (const float ambient : {0.0f, 0.5f}) {
         settings.ambient = {ambient, ambient, ambient};
@@ -256,7 +256,7 @@ void expectSound(const std::vector<Frame>& frames) {
 }
 
 // Reversed depth is 0 at the far plane, which is also the clear value of the background.
-TEST(Extremes, ASurfaceOnTheFarPlaneIsInBothPictures) {
+TEST(Extremes, ASurfaceOnTheFarPlaneIsInBothImages) {
     Scene scene = square();
     for (const double near : {0.1, 0.013, 0.5}) {
         scene.cameras[0].near = near;
@@ -315,7 +315,7 @@ TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
 }
 
 // The image is scale-invariant: lengths scaled by s, intensities by s^2.
-TEST(Extremes, ScaleDoesNotChangeThePicture) {
+TEST(Extremes, ScaleDoesNotChangeTheImage) {
     Scene scene = square();
     Light lamp;
     lamp.intensity = 10;

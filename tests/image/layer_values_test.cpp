@@ -39,7 +39,7 @@ glm::dvec3 tiltedNormal(double degrees) {
 }
 
 Settings onePixel(float ambient = 0) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {1, 1};
     settings.ambient = {ambient, ambient, ambient};
     return settings;

@@ -31,7 +31,7 @@ void removeLayers(Material& m) {
     for (const TestedLayer& layer : testedLayers()) layer.factors[0].set(m, glm::vec3(0));
 }
 Settings inAllLight(GBufferEncoding gbuffer) {
-    Settings settings = smallPicture(gbuffer);
+    Settings settings = smallImage(gbuffer);
     settings.ambient = {0.1f, 0.2f, 0.3f};
     settings.lights = "point:3,spot:2";
     settings.shadows = Shadows::pcf;
@@ -200,7 +200,7 @@ TEST(Layers, AWhiteFurnaceHolds) {
             std::max(m.sheen_roughness, 0.5f);  // smoother sheens reflect more at grazing views
         m.sheen_roughness_texture = {};
     }
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.ambient = {1, 1, 1};
     for (const Frame& frame :
          bothPaths(scene, settings, {Channel::lit_ambient, Channel::clearcoat, Channel::material_id})) {
@@ -311,7 +311,7 @@ TEST_P(EachLayer, ATexelOfZeroIsTheBaseToTheBit) {
     Scene layered = plain;
     layered.materials[0] = GetParam().typical(m);
     for (const LayerTexture& t : GetParam().textures) t.of(layered.materials[0]).texture = 0;
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {4, 4};
     settings.ambient = {0.1f, 0.2f, 0.3f};
     std::vector<Channel> own{Channel::lit_transmission};
@@ -374,7 +374,7 @@ TEST(Layers, TheDirectionIsRotated) {
 // Punctual lights and an environment, against the reference's integrals of captured surfaces.
 TEST(Layers, TheReferenceAgrees) {
     Scene scene = loadScene("builtin:layers");
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.assign = Assignment::every;
     Renderer renderer(device(), scene, pipelines());
     RenderOptions options;

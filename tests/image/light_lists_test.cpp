@@ -56,7 +56,7 @@ Scene withLights(Scene scene, std::size_t count) {
     return scene;
 }
 
-Settings picture(Size size, Path path, Assignment assign, LightKernel kernel = LightKernel::automatic) {
+Settings image(Size size, Path path, Assignment assign, LightKernel kernel = LightKernel::automatic) {
     Settings settings = unshadowed();
     settings.path = path;
     settings.size = size;
@@ -87,16 +87,16 @@ Image litOf(Renderer& renderer, const Settings& settings, bool captured) {
 // small images are captured for every assignment, large ones once per path.
 void expectEveryWayEqual(Renderer& renderer, Size size) {
     const bool small = size.width * size.height <= 1024;
-    const Image every = litOf(renderer, picture(size, Path::forward_plus, Assignment::every), small);
+    const Image every = litOf(renderer, image(size, Path::forward_plus, Assignment::every), small);
     EXPECT_EQ(nonfinitePixels(every), 0u);
-    const Image deferred = litOf(renderer, picture(size, Path::deferred, Assignment::every), small);
+    const Image deferred = litOf(renderer, image(size, Path::deferred, Assignment::every), small);
     EXPECT_EQ(wrongPixels(every, deferred), 0u) << "deferred, every";
-    Settings objects = picture(size, Path::forward_plus, Assignment::per_object);
+    Settings objects = image(size, Path::forward_plus, Assignment::per_object);
     objects.pixel_lights = 1 << 20;
     EXPECT_EQ(wrongPixels(every, litOf(renderer, objects, small)), 0u) << "per_object, all per pixel";
     for (const Path path : {Path::forward_plus, Path::deferred})
         for (const Way& way : ways) {
-            const Settings settings = picture(size, path, way.assign, way.kernel);
+            const Settings settings = image(size, path, way.assign, way.kernel);
             const Image image = litOf(renderer, settings, small || &way == &ways[0]);
             EXPECT_EQ(wrongPixels(every, image), 0u)
                 << nameOf(path) << ", " << nameOf(way.assign) << ", " << nameOf(way.kernel);
@@ -290,7 +290,7 @@ TEST(LightLists, SixtyFiveThousandSixHundredLightsAreEveryOne) {
     without.lights.back() = pointAt(eyeOf("builtin:gallery"), 100, 1000);
     Scene dark = without;
     dark.lights.back().intensity = 0;
-    const Settings every = picture({24, 14}, Path::forward_plus, Assignment::every);
+    const Settings every = image({24, 14}, Path::forward_plus, Assignment::every);
     const Frame a = Renderer(device(), without, pipelines()).draw(every, untimed());
     const Frame b = Renderer(device(), dark, pipelines()).draw(every, untimed());
     EXPECT_GT(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 100u);
@@ -312,7 +312,7 @@ TEST(LightLists, ManyTubesOnLayersAreShadedInSeveralDraws) {
     scene.lights.push_back(near);
     Scene few = scene;
     few.lights = {near};
-    const Settings every = picture({12, 7}, Path::forward_plus, Assignment::every);
+    const Settings every = image({12, 7}, Path::forward_plus, Assignment::every);
     const Frame many = Renderer(device(), scene, pipelines()).draw(every, untimed()),
                 one = Renderer(device(), few, pipelines()).draw(every, untimed());
     EXPECT_EQ(wrongPixels(many.channels.at(Channel::lit), one.channels.at(Channel::lit)), 0u);
@@ -331,8 +331,8 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     scene.lights.push_back(area);
     Renderer renderer(device(), scene, pipelines());
     const Size size{192, 24};
-    const Frame every = renderer.draw(picture(size, Path::forward_plus, Assignment::every), untimed());
-    const Frame frame = renderer.draw(picture(size, Path::deferred, Assignment::clustered),
+    const Frame every = renderer.draw(image(size, Path::forward_plus, Assignment::every), untimed());
+    const Frame frame = renderer.draw(image(size, Path::deferred, Assignment::clustered),
                                       untimed({Channel::lit, Channel::list_overflow}));
     if (device().limits().maxStorageBufferRange <= (128u << 20)) {
         EXPECT_GT(frame.counters.overflowed_lists, 0u);
@@ -350,7 +350,7 @@ TEST(LightLists, TheChannelCountsWhatIsEvaluated) {
     const RenderOptions options =
         untimed({Channel::lit, Channel::light_count, Channel::list_overflow, Channel::material_id});
     const auto counts = [&](Assignment assign) {
-        return renderer.draw(picture({640, 360}, Path::forward_plus, assign), options);
+        return renderer.draw(image({640, 360}, Path::forward_plus, assign), options);
     };
     const Frame every = counts(Assignment::every);
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {
@@ -381,9 +381,9 @@ TEST(LightLists, BothPathsHaveTheSameLists) {
     Renderer renderer(device(), scene, pipelines());
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered}) {
         const Frame a =
-            renderer.draw(picture({213, 119}, Path::deferred, assign), untimed({Channel::light_count}));
+            renderer.draw(image({213, 119}, Path::deferred, assign), untimed({Channel::light_count}));
         const Frame b =
-            renderer.draw(picture({213, 119}, Path::forward_plus, assign), untimed({Channel::light_count}));
+            renderer.draw(image({213, 119}, Path::forward_plus, assign), untimed({Channel::light_count}));
         EXPECT_EQ(
             differingPixels(a.channels.at(Channel::light_count), b.channels.at(Channel::light_count), true),
             0u);
@@ -397,7 +397,7 @@ TEST(LightNegativeControls, OneMoreLightChangesEvery) {
     const Scene scene = loadScene("builtin:spheres?lights=64");
     Scene more = scene;
     more.lights.push_back(pointAt({0, 1, 0}, 0.01f, 2));
-    const Settings every = picture({160, 90}, Path::forward_plus, Assignment::every);
+    const Settings every = image({160, 90}, Path::forward_plus, Assignment::every);
     const Frame a = Renderer(device(), scene, pipelines()).draw(every, untimed());
     const Frame b = Renderer(device(), more, pipelines()).draw(every, untimed());
     EXPECT_GT(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 0u);
@@ -417,7 +417,7 @@ TEST(LightCutoff, GivesRangesAndSaysWhatIsCut) {
     for (Light& light : scene.lights)
         if (light.kind == LightKind::point) light.range = std::numeric_limits<float>::infinity();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = picture({160, 90}, Path::forward_plus, Assignment::clustered);
+    Settings settings = image({160, 90}, Path::forward_plus, Assignment::clustered);
     const Frame whole = renderer.draw(settings, untimed({Channel::lit, Channel::light_count}));
     EXPECT_EQ(whole.counters.energy_cut, 0.0);
     double before = 0;

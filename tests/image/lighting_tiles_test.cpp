@@ -34,7 +34,7 @@ Scene halfLayered() {
 }
 
 Settings tiledSettings(Size size, int samples = 1) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::deferred;
     settings.size = size;
     settings.msaa = samples;

@@ -71,7 +71,7 @@ TEST_P(LocalShadowPaths, SeeTheSame) {
     for (const GBufferEncoding encoding :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
         for (const int kernel : {1, 7}) {
-            const Settings settings = locally(smallPicture(encoding), GetParam().lights, 512, kernel);
+            const Settings settings = locally(smallImage(encoding), GetParam().lights, 512, kernel);
             const std::vector<Frame> frames =
                 bothPaths(renderer, settings, {Channel::local_visibility, Channel::lit});
             EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::local_visibility),
@@ -97,7 +97,7 @@ TEST_P(LocalShadowPaths, SeeTheSame) {
 TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     const Scene scene = GetParam().make();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = locally(smallPicture(GBufferEncoding::full), GetParam().lights, 2048);
+    Settings settings = locally(smallImage(GBufferEncoding::full), GetParam().lights, 2048);
     settings.size = {320, 180};
     Settings truth = settings;
     truth.path = Path::reference;
@@ -153,7 +153,7 @@ TEST(LocalShadowPlane, IsFullyLitAtEveryAngle) {
                     const Scene scene = ground({spot ? castingSpot({1, height, 0.7}, {0.9, 0, 0.6}, 75)
                                                      : castingPoint({1, height, 0.7})});
                     const Frame frame =
-                        drawnOf(scene, locally(smallPicture(GBufferEncoding::standard), 1, size, kernel));
+                        drawnOf(scene, locally(smallImage(GBufferEncoding::standard), 1, size, kernel));
                     const LocallySeen seen = locallySeen(frame);
                     EXPECT_EQ(seen.least, 1) << height << " " << spot << " " << size << " " << kernel;
                     EXPECT_GT(seen.pixels, 5000);
@@ -162,7 +162,7 @@ TEST(LocalShadowPlane, IsFullyLitAtEveryAngle) {
 
 TEST(LocalShadowPlane, IsFullyLitAtEveryScaleAndDarkFromBelow) {
     for (const double scale : {1e-3, 1.0, 1e4}) {
-        const Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
+        const Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
         EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, 1.5, 0.7})}, {}, scale), settings)).least, 1)
             << scale;
         EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, -1.5, 0.7})}, {}, scale), settings)).most, 0)
@@ -176,7 +176,7 @@ TEST(LocalShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
     for (const double scale : {1e-3, 1.0, 1e4})
         for (const Light& light : {castingPoint({2, 2, 0}), castingSpot({2, 2, 0}, {-1, 0, 0}, 44)}) {
             const Scene scene = ground({light}, {board(1)}, scale);
-            Settings settings = locally(smallPicture(GBufferEncoding::standard), 1, 2048);
+            Settings settings = locally(smallImage(GBufferEncoding::standard), 1, 2048);
             settings.size = {320, 180};
             const Frame frame = drawnOf(scene, settings,
                                         {Channel::local_visibility, Channel::material_id, Channel::position});
@@ -213,7 +213,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
         Scene scene = ground({castingPoint({2, 2, 0})}, {board(1)});
         scene.materials[1].alpha_mode = mode;
         scene.materials[1].base_color.a = alpha;
-        return locallySeen(drawnOf(scene, locally(smallPicture(GBufferEncoding::standard), 1))).least;
+        return locallySeen(drawnOf(scene, locally(smallImage(GBufferEncoding::standard), 1))).least;
     };
     EXPECT_EQ(darkest(AlphaMode::opaque, 0.3f), 0);
     EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
@@ -222,7 +222,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     // Without a caster no pass is added, and surfaces facing away from the light are unaffected.
     Scene scene = ground({castingPoint({2, 2, 0})}, {board(1)});
     for (Material& material : scene.materials) material.alpha_mode = AlphaMode::blend;
-    const Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
+    const Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
     const Frame frame = drawnOf(scene, settings);
     EXPECT_TRUE(says(frame, "shadows of 1 local light: no tile is drawn; "));
     EXPECT_TRUE(says(frame, "without a tile: no caster"));
@@ -236,7 +236,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
 // whatever --shadow-lights says. The sun's shadow is independent.
 TEST(LocalShadowCasters, AreThoseThatAsk) {
     Scene scene = ground({castingPoint({2, 2, 0}), castingPoint({-2, 1, 0})}, {board(1)});
-    Settings off = smallPicture(GBufferEncoding::standard), none = locally(off, 0), one = locally(off, 1);
+    Settings off = smallImage(GBufferEncoding::standard), none = locally(off, 0), one = locally(off, 1);
     const std::vector<Channel> channels{Channel::local_visibility, Channel::material_id, Channel::lit};
     const Frame without = drawnOf(scene, off, channels), asked = drawnOf(scene, none, channels);
     EXPECT_EQ(differingPixels(without.channels.at(Channel::lit), asked.channels.at(Channel::lit)), 0u);
@@ -259,7 +259,7 @@ TEST(LocalShadowCasters, AreChosenForEachTile) {
     addBox(standing, {0.9f, 0.4f, -0.1f}, {1.1f, 0.6f, 0.1f}, 1);  // six sides beside the lamp
     addBox(standing, {-3.2f, 0.9f, -0.1f}, {-3.0f, 1.1f, 0.1f}, 1);
     Light light = castingSpot({2, 0.5, 0}, {0, 0.5, 0}, 20);
-    const Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
+    const Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
     EXPECT_TRUE(says(drawnOf(ground({light}, standing), settings), "13 draws, "));
     light.range = 3;
     EXPECT_TRUE(says(drawnOf(ground({light}, standing), settings), "7 draws, ")) << "and the ground";
@@ -273,7 +273,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
     std::vector<Light> lamps(50, castingPoint({2, 2, 0}));
     for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i].intensity = 100.0f - static_cast<float>(i);
     const Frame frame =
-        drawnOf(ground(lamps, {board(1)}), locally(smallPicture(GBufferEncoding::standard), 45));
+        drawnOf(ground(lamps, {board(1)}), locally(smallImage(GBufferEncoding::standard), 45));
     EXPECT_TRUE(says(frame, "shadows of 42 local lights: ")) << "256 / 6";
     EXPECT_TRUE(says(frame, "8 point or spot lights cast no shadow"));
     EXPECT_TRUE(says(frame, "3 of them should cast one, but the atlas is full (256 tiles)"));
@@ -283,7 +283,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
 // With every assignment the same lights cast, and every sum has the same order.
 TEST(LocalShadowLists, AreNoDifference) {
     const Scene scene = loadScene("builtin:points");
-    Settings settings = locally(smallPicture(GBufferEncoding::full), 3, 512);
+    Settings settings = locally(smallImage(GBufferEncoding::full), 3, 512);
     settings.lights = "spot:40,point:40,area:3";
     settings.assign = Assignment::every;
     const std::vector<Channel> channels{Channel::local_visibility, Channel::lit};
@@ -305,7 +305,7 @@ TEST(LocalShadowLists, AreNoDifference) {
 TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     const Scene scene =
         ground({castingPoint({2, 2, 0}), castingPoint({0, 3, 1}), castingPoint({0, 3, 2})}, {board(1)});
-    Settings settings = locally(smallPicture(GBufferEncoding::standard), 1);
+    Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
     settings.assign = Assignment::per_object;
     settings.pixel_lights = 0;
     EXPECT_EQ(locallySeen(drawnOf(scene, settings)).least, 0);
@@ -319,7 +319,7 @@ TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
     sun.kind = LightKind::directional;
     sun.direction = glm::normalize(glm::dvec3(-1, -1, 0.3));
     scene.lights.push_back(sun);
-    Settings settings = locally(smallPicture(GBufferEncoding::full), 0, 256);
+    Settings settings = locally(smallImage(GBufferEncoding::full), 0, 256);
     settings.size = {32, 18};
     settings.lights = "point:70000";
     const std::vector<Channel> channels{Channel::local_visibility, Channel::shadow_visibility, Channel::lit};
@@ -343,8 +343,7 @@ TEST(LocalShadowAtlas, HoldsNothingElseThatIsRead) {
          {LocalScene{"lamp", lampInARoom, 1}, LocalScene{"both", bothLightsInARoom, 2}})
         for (const int kernel : {1, 7}) {
             const Scene scene = row.make();
-            const Settings settings =
-                locally(smallPicture(GBufferEncoding::standard), row.lights, 300, kernel);
+            const Settings settings = locally(smallImage(GBufferEncoding::standard), row.lights, 300, kernel);
             SharedResources shared(device(), scene, pipelines());
             const SceneView view = makeSceneView(scene, viewRequest(settings));
             PreparedFrame prepared(device(), shared, view, settings);

@@ -15,7 +15,7 @@ std::vector<Frame> drawMaps(Scene scene, double degrees) {
     makeTangents(p, tangentMap(m), false, turned.layers != 0 ? &turned.map : nullptr);
     scene.nodes[0].parent_from_node =
         glm::scale(glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::dvec3(0, 0, 1)), {2, -1, 1});
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {4, 4};
     std::vector<Frame> frames = bothPaths(scene, settings);
     settings.path = Path::reference;

@@ -31,7 +31,7 @@ Cell withFactors(const std::string& name) {
 Cell withTextures(const std::string& name) {
     Cell cell = withFactors(name);
     for (std::size_t slot = 0; slot < cell.textures.size(); ++slot)
-        cell.textures[slot].picture = static_cast<int>(slot);
+        cell.textures[slot].image = static_cast<int>(slot);
     return cell;
 }
 
@@ -103,7 +103,7 @@ void addSlots(std::vector<Cell>& cells) {
     // One image as sRGB and as linear, except in the normal slot: its colours are not normals.
     Cell shared = withTextures("one image in every slot");
     for (CellTexture& use : shared.textures)
-        if (use.picture != gpu::SLOT_normal) use.picture = gpu::SLOT_base_color;
+        if (use.image != gpu::SLOT_normal) use.image = gpu::SLOT_base_color;
     cells.push_back(shared);
 }
 

@@ -28,7 +28,7 @@ inline constexpr std::size_t cellSlots = gpu::SLOT_lightmap + 1;
 
 // A texture slot in the file.
 struct CellTexture {
-    int picture = -1;  // index of the image, by slot; -1: no texture
+    int image = -1;  // index of the image, by slot; -1: no texture
     int texcoord = 0;
     struct Transform {
         glm::dvec2 offset{0};
@@ -93,7 +93,7 @@ const std::vector<CellCamera>& cellCameras();
 Scene materialScene(const std::vector<Cell>& cells);
 
 // Codes (0 to 255) of an image.
-glm::ivec4 codesAt(int picture, int column, int row);
+glm::ivec4 codesAt(int image, int column, int row);
 
 // Decoded values of codes; exact by default.
 struct CellDecode {

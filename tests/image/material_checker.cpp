@@ -84,7 +84,7 @@ std::optional<JudgedPixel> judgedPixel(const std::vector<Cell>& cells, const Cel
         const CellPlace near = cellPlace(cells, camera, centre + side * judgedMargin);
         if (near.cell != pixel.place.cell) return {};
         for (std::size_t slot = 0; slot < cell.textures.size(); ++slot)
-            if (cell.textures[slot].picture >= 0 &&
+            if (cell.textures[slot].image >= 0 &&
                 texelAt(cell, slot, near.at) != texelAt(cell, slot, pixel.place.at))
                 pixel.slots &= ~(1u << slot);
     }

@@ -16,20 +16,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string pngOf(int picture) {
+std::string pngOf(int index) {
     Image8 image{4, 4, 4, {}};
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
             for (int c = 0; c < 4; ++c)
-                image.data.push_back(static_cast<std::uint8_t>(codesAt(picture, column, row)[c]));
-    const auto file = testFolder() / ("picture" + std::to_string(picture) + ".png");
+                image.data.push_back(static_cast<std::uint8_t>(codesAt(index, column, row)[c]));
+    const auto file = testFolder() / ("picture" + std::to_string(index) + ".png");
     writePng(file, image);
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // Texture n is image n, unfiltered.
-void writePictures(GltfFile& file) {
+void writeImages(GltfFile& file) {
     file.json["samplers"] = {{{"magFilter", 9728}, {"minFilter", 9728}}};
     for (int slot = 0; slot < static_cast<int>(cellSlots); ++slot) {
         const std::string png = pngOf(slot);
@@ -52,7 +52,7 @@ Json triple(const glm::dvec3& v) {
 Json materialOfCell(const Cell& cell) {
     const auto texture = [&](std::size_t slot) {
         const CellTexture& use = cell.textures[slot];
-        Json info = {{"index", use.picture}, {"texCoord", use.texcoord}};
+        Json info = {{"index", use.image}, {"texCoord", use.texcoord}};
         if (use.transform) {
             Json& t = info["extensions"]["KHR_texture_transform"];
             t = {{"offset", pair(use.transform->offset)},
@@ -62,7 +62,7 @@ Json materialOfCell(const Cell& cell) {
         }
         return info;
     };
-    const auto has = [&](std::size_t slot) { return cell.textures[slot].picture >= 0; };
+    const auto has = [&](std::size_t slot) { return cell.textures[slot].image >= 0; };
     Json m = {{"name", cell.name}, {"emissiveFactor", triple(cell.emissive)}};
     const auto put = [&](Json& where, const char* name, std::size_t slot) {
         if (has(slot)) where[name] = texture(slot);
@@ -105,7 +105,7 @@ Json materialOfCell(const Cell& cell) {
     if (has(gpu::SLOT_lightmap)) {
         const CellTexture& use = cell.textures[gpu::SLOT_lightmap];
         m["extras"]["diptych"]["lightmap"] = {
-            {"index", use.picture}, {"texCoord", use.texcoord}, {"intensity", cell.lightmap_intensity}};
+            {"index", use.image}, {"texCoord", use.texcoord}, {"intensity", cell.lightmap_intensity}};
     }
     if (cell.masked) m["alphaMode"] = "MASK";
     if (cell.alpha_cutoff) m["alphaCutoff"] = *cell.alpha_cutoff;
@@ -206,7 +206,7 @@ Scene materialScene(const std::vector<Cell>& cells) {
                                    "KHR_materials_ior",     "KHR_materials_specular",
                                    "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
                                    "KHR_lights_punctual"};
-    writePictures(file);
+    writeImages(file);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         file.json["materials"].push_back(materialOfCell(cells[i]));
         writeSquare(file, cells[i], i);

@@ -35,7 +35,7 @@ CellDecode deviceDecode() {
             [](int code) { return double{deviceSampling().linear[static_cast<std::size_t>(code)]}; }};
 }
 
-Settings materialPicture(const CellCamera& camera) {
+Settings materialImage(const CellCamera& camera) {
     Settings settings = unshadowed();
     settings.gbuffer = GBufferEncoding::full;
     settings.assign = Assignment::every;
@@ -47,7 +47,7 @@ Settings materialPicture(const CellCamera& camera) {
 
 Frame materialReference(const Scene& scene, const CellCamera& camera) {
     SceneViews views(scene);
-    Settings settings = materialPicture(camera);
+    Settings settings = materialImage(camera);
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     RenderOptions options;
@@ -79,7 +79,7 @@ std::vector<Frame> materialFrames(const CellCamera& camera) {
     options.runs = 0;
     std::vector<Frame> frames;
     for (const Path path : {Path::deferred, Path::forward_plus}) {
-        Settings settings = materialPicture(camera);
+        Settings settings = materialImage(camera);
         settings.path = path;
         frames.push_back(renderer.draw(settings, options));
     }
@@ -88,7 +88,7 @@ std::vector<Frame> materialFrames(const CellCamera& camera) {
 
 // ---- images ------------------------------------------------------------------------------------------
 
-class MaterialPictures : public testing::TestWithParam<CellCamera> {
+class MaterialImages : public testing::TestWithParam<CellCamera> {
 protected:
     // `channels`: number of channels that must have been checked.
     static void expectRight(const std::string& who, const ChannelChecks& judgement, std::size_t channels) {
@@ -100,7 +100,7 @@ protected:
     }
 };
 
-TEST_P(MaterialPictures, AreWhatTheFileSays) {
+TEST_P(MaterialImages, AreWhatTheFileSays) {
     const CellCamera& camera = GetParam();
     EXPECT_EQ(sceneOf(camera).notes, std::vector<std::string>{});
     expectRight(
@@ -122,7 +122,7 @@ TEST_P(MaterialPictures, AreWhatTheFileSays) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, MaterialPictures, testing::ValuesIn(cellCameras()),
+INSTANTIATE_TEST_SUITE_P(Cameras, MaterialImages, testing::ValuesIn(cellCameras()),
                          [](const auto& camera) { return std::string(camera.param.name); });
 
 // ---- injected faults ---------------------------------------------------------------------------------

@@ -76,14 +76,14 @@ glm::dvec2 firstTexcoord(const Cell& cell, const glm::dvec2& at) {
 // highlight magnifies rounding. Other components of a texel differ by at least 55 codes, texels of an
 // image by at least 9. One texel is opaque: 255 is exact on every device, so its products with halves
 // equal a cutoff exactly.
-glm::ivec4 codesAt(int picture, int column, int row) {
+glm::ivec4 codesAt(int image, int column, int row) {
     const int texel = 4 * row + column;
     glm::ivec4 codes;
-    for (int c = 0; c < 4; ++c) codes[c] = (texel * 53 + c * 67 + picture * 29) % 256;
-    if (picture == gpu::SLOT_base_color && texel == 11) codes.a = 255;
-    if (picture == gpu::SLOT_metallic_roughness)
+    for (int c = 0; c < 4; ++c) codes[c] = (texel * 53 + c * 67 + image * 29) % 256;
+    if (image == gpu::SLOT_base_color && texel == 11) codes.a = 255;
+    if (image == gpu::SLOT_metallic_roughness)
         for (int c = 0; c < 4; ++c) codes[c] = 100 + codes[c] * 150 / 255;
-    if (picture == gpu::SLOT_normal) {
+    if (image == gpu::SLOT_normal) {
         const double around = texel * 2.4, lean = 0.25 + 0.5 * texel / 15;
         const glm::dvec3 n(std::sin(lean) * std::cos(around), std::sin(lean) * std::sin(around),
                            std::cos(lean));
@@ -143,11 +143,11 @@ glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at) {
 std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
                                                                  const CellDecode& decode) {
     const auto texel = [&](std::size_t slot, bool srgb) {
-        const int picture = cell.textures[slot].picture;
+        const int image = cell.textures[slot].image;
         glm::dvec4 value(1);
-        if (picture < 0) return value;
+        if (image < 0) return value;
         const glm::ivec2 at = texelAt(cell, slot, place.at);
-        const glm::ivec4 codes = codesAt(picture, at.x, at.y);
+        const glm::ivec4 codes = codesAt(image, at.x, at.y);
         for (int c = 0; c < 4; ++c)
             value[c] = srgb && c < 3 ? decode.srgb(codes[c]) : decode.linear(codes[c]);
         return value;
@@ -168,13 +168,13 @@ std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cel
         const glm::dvec4 orm = texel(gpu::SLOT_metallic_roughness, false);
         s.metallic = cell.metallic * orm.b;
         s.roughness = cell.roughness * orm.g;
-        if (cell.textures[gpu::SLOT_normal].picture >= 0)
+        if (cell.textures[gpu::SLOT_normal].image >= 0)
             mapNormal(cell, glm::dvec3(texel(gpu::SLOT_normal, false)) * 2.0 - 1.0, s);
         s.occlusion = 1 + cell.occlusion_strength * (texel(gpu::SLOT_occlusion, false).r - 1);
-        if (cell.textures[gpu::SLOT_occlusion].picture < 0) s.occlusion = 1;
+        if (cell.textures[gpu::SLOT_occlusion].image < 0) s.occlusion = 1;
         s.emission =
             cell.emissive * cell.emissive_strength.value_or(1) * glm::dvec3(texel(gpu::SLOT_emissive, true));
-        s.lightmapped = cell.textures[gpu::SLOT_lightmap].picture >= 0;
+        s.lightmapped = cell.textures[gpu::SLOT_lightmap].image >= 0;
         if (s.lightmapped) s.lightmap = cell.lightmap_intensity * glm::dvec3(texel(gpu::SLOT_lightmap, true));
         const double ior = cell.ior.value_or(1.5);
         const double r = ior == 0 ? 1 : (ior - 1) / (ior + 1);

@@ -15,7 +15,7 @@ namespace diptych::tests {
 namespace {
 
 // Everything that motion may affect: light lists, a shadowed sun, haze.
-Settings movingPicture(double time, const std::string& animation = {}) {
+Settings movingImage(double time, const std::string& animation = {}) {
     Settings settings;
     settings.gbuffer = GBufferEncoding::full;
     settings.size = {128, 72};
@@ -77,8 +77,7 @@ TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
     std::size_t drawn = 0;
     for (std::size_t a = 0; a < moving->scene.animations.size(); ++a)
         for (const double part : {0.0, 0.5, 1.0}) {
-            Settings settings =
-                movingPicture(part * lengthOf(moving->scene.animations[a]), std::to_string(a));
+            Settings settings = movingImage(part * lengthOf(moving->scene.animations[a]), std::to_string(a));
             // Lights beyond the per-pixel limit are evaluated per vertex, which `every` does not do.
             settings.pixel_lights = 64;
             settings.assign = Assignment::every;
@@ -110,7 +109,7 @@ TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
     UploadedScene* const moving = scene();
     if (moving == nullptr)
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
-    Settings settings = movingPicture(0.7);
+    Settings settings = movingImage(0.7);
     // Each vertex attribute affects one of them.
     const std::vector<Channel> channels{
         Channel::lit,   Channel::albedo,           Channel::normals, Channel::material_id, Channel::texcoords,
@@ -156,7 +155,7 @@ TEST(Moving, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     scene.cameras.resize(1);
     scene.cameras[0].world_from_camera[3].z = 2;
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {8, 8};
     for (const auto& [normals, expected] :
          {std::pair{SkinNormals::joints, glm::vec3(1.5f, 0, 1)}, {SkinNormals::blended, glm::vec3(4, 0, 3)}})
@@ -181,7 +180,7 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
          {std::pair(pcf, Skinning::compute), {clipmap, Skinning::compute}, {pcf, Skinning::vertex}}) {
         std::vector<Settings> times;
         for (const double time : {0.0, 0.6, 1.7}) {
-            times.push_back(movingPicture(time));
+            times.push_back(movingImage(time));
             times.back().size = {96, 54};
             times.back().shadows = shadows;
             times.back().skinning = skinning;
@@ -209,7 +208,7 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
 // The clipmap caches pages between images, except those that a moving caster touches.
 TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
     const Scene scene = loadScene("builtin:motion");
-    Settings before = movingPicture(0.2);
+    Settings before = movingImage(0.2);
     before.shadows = Shadows::clipmap;
     before.clipmap_page_size = 32;
     Settings after = before;
@@ -267,7 +266,7 @@ Scene vanishingCasters() {
 
 TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
     const Scene scene = vanishingCasters();
-    Settings before = movingPicture(0.5);
+    Settings before = movingImage(0.5);
     before.haze = false;
     before.lights = "";
     before.shadows = Shadows::clipmap;
@@ -288,9 +287,9 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
 TEST(Moving, ASecondTimeCompilesNothing) {
     const Scene scene = loadScene("builtin:motion");
     Renderer renderer(device(), scene);
-    drawnOnce(renderer, movingPicture(0.7), Path::deferred, {});
+    drawnOnce(renderer, movingImage(0.7), Path::deferred, {});
     const std::size_t compiled = renderer.pipelines();
-    drawnOnce(renderer, movingPicture(1.3), Path::deferred, {});
+    drawnOnce(renderer, movingImage(1.3), Path::deferred, {});
     EXPECT_EQ(renderer.pipelines(), compiled);
 }
 
@@ -300,7 +299,7 @@ TEST(Moving, NothingIsPosedWhereNothingDeforms) {
         const Scene scene = loadScene(name);
         SharedResources shared(device(), scene, pipelines());
         SceneViews views(scene);
-        Settings settings = movingPicture(0.7);
+        Settings settings = movingImage(0.7);
         settings.skinning = skinning;
         const PreparedFrame frame(device(), shared, views.at(viewRequest(settings)), settings);
         return frame.passes.names();
@@ -356,7 +355,7 @@ TEST(Moving, BlendedDrawsAreSortedAndCulledByTheLivePose) {
     SharedResources shared(device(), scene, pipelines());
     SceneViews views(scene);
     const auto drawnAt = [&](double time) {
-        Settings settings = movingPicture(time);
+        Settings settings = movingImage(time);
         settings.lights = "";
         const SceneView& view = views.at(viewRequest(settings));
         const DrawList draws =
@@ -374,7 +373,7 @@ TEST(Moving, BlendedDrawsAreSortedAndCulledByTheLivePose) {
 // Triangles sorted on the host match fragments sorted on the device.
 TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
     UploadedScene& moving = uploaded("builtin:motion");
-    Settings settings = movingPicture(0.7);
+    Settings settings = movingImage(0.7);
     settings.transparency = Transparency::triangles;
     const Frame triangles = drawnOnce(moving.renderer, settings, Path::forward_plus, {Channel::lit});
     settings.transparency = Transparency::list;
@@ -396,7 +395,7 @@ TEST_P(MovingParity, SilhouettesAreTheReferences) {
     if (moving == nullptr)
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
     for (const double time : {0.3, 0.7}) {
-        Settings settings = movingPicture(time);
+        Settings settings = movingImage(time);
         settings.haze = false;
         settings.lights = "";
         settings.shadow_lights = 0;

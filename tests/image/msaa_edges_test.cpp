@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The samples that deferred lighting shades (--msaa-edges), compared with shading every sample.
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/lit_samples.h"
 #include "tests/image/square.h"
@@ -15,7 +15,7 @@ namespace diptych::tests {
 namespace {
 
 Settings sampled(Size size, MsaaEdges edges) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::deferred;
     settings.size = size;
     settings.msaa = 4;

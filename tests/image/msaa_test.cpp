@@ -21,7 +21,7 @@ namespace diptych::tests {
 namespace {
 
 Settings sampled(Size size, MsaaShading shading = MsaaShading::pixel) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.msaa = 4;
     settings.msaa_shading = shading;
@@ -217,7 +217,7 @@ TEST(Msaa, ShadowsAreFittedToEverySample) {
     }
 }
 
-TEST(Msaa, PicturesOfAnySize) {
+TEST(Msaa, ImagesOfAnySize) {
     for (const Size size : {Size{1, 1}, Size{33, 17}, Size{4097, 3}})
         expectTheSame(uploaded("builtin:cutout").renderer, sampled(size), "");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images with 4 samples a pixel against the reference with 64, each resolve against its own ground truth.
+#include "compare/image/channel_image.h"
 #include "compare/metrics/flip.h"
-#include "compare/picture/picture.h"
 #include "tests/image/scenes.h"
 
 #include <array>
@@ -23,16 +23,16 @@ Frame referenceLit(Renderer& renderer, Settings settings, int samples) {
 
 // As displayed: tone-mapped and in sRGB.
 Image shown(const Image& radiance, const Exposure& exposure) {
-    Image picture = radiance;
-    for (std::size_t i = 0; i + 2 < picture.data.size(); i += 3) {
+    Image image = radiance;
+    for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
         std::array<float, 3> rgb{};
         for (std::size_t c = 0; c < 3; ++c)
             rgb.at(c) = radiance.data[i + c] * static_cast<float>(exposure.factor);
         rgb = pbrNeutral(rgb);
         for (std::size_t c = 0; c < 3; ++c)
-            picture.data[i + c] = static_cast<float>(srgbFromLinear(double{rgb.at(c)}));
+            image.data[i + c] = static_cast<float>(srgbFromLinear(double{rgb.at(c)}));
     }
-    return picture;
+    return image;
 }
 
 // Mean FLIP against the reference with 64 samples: of the paths with 4, and of the reference with 4, which
@@ -56,7 +56,7 @@ Flips flipsOf(const Scene& scene, const Settings& settings) {
 }
 
 Settings fourSamples(Resolve resolve, Size size = {112, 63}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.msaa = 4;
     settings.resolve = resolve;

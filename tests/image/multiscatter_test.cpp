@@ -11,7 +11,7 @@ namespace {
 constexpr std::array compensations{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez};
 
 Settings inFurnace(Multiscatter multiscatter) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {240, 60};
     settings.ambient = {1, 1, 1};
     settings.multiscatter = multiscatter;
@@ -57,7 +57,7 @@ TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
 TEST(MultiscatterDirect, NeedsNoAmbientLight) {
     UploadedScene& scene = uploaded("builtin:normals");
     const auto drawn = [&](Multiscatter multiscatter, float radiance) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.multiscatter = multiscatter;
         settings.ambient = {radiance, radiance, radiance};
         return bothPaths(scene.renderer, settings, {Channel::lit_specular});
@@ -84,7 +84,7 @@ TEST_P(MultiscatterReference, BothPathsAreTheReference) {
     const auto [name, multiscatter] = GetParam();
     const bool gallery = std::string(name) == "builtin:gallery";
     UploadedScene& scene = uploaded(name);
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.shadows = Shadows::off;
     settings.size = {96, 54};
     settings.ambient = {0.3f, 0.4f, 0.5f};

@@ -37,7 +37,7 @@ TEST(Panes, WhatPassesIsWhatTheLayerAndTheBaseLeave) {
           Case{{1, 1, 1}, 1, 0.5f, 0.48}, Case{{1, 1, 1}, 1, 1, 0}})
         for (const Path path : drawn_paths) {
             const glm::dvec3 made = litAt(
-                drawnBlended(path, paneOf(c.color, c.transmission, c.metallic), blendedPicture()), 48, 27);
+                drawnBlended(path, paneOf(c.color, c.transmission, c.metallic), blendedImage()), 48, 27);
             for (int i = 0; i < 3; ++i)
                 EXPECT_NEAR(made[i], c.passes * double{c.color[i]} * (i + 1), 1e-5) << nameOf(path);
         }
@@ -86,7 +86,7 @@ Scene panes(float film = 0) {
 TEST(Panes, AreTheReferences) {
     const Scene scene = panes();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.ambient = {0.2f, 0.3f, 0.4f};
     EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
     settings.haze = true;
@@ -100,7 +100,7 @@ TEST(Panes, AreTheReferences) {
 TEST(Panes, UnderAFilmAreTheReferences) {
     const Scene scene = panes(1);
     Renderer renderer(device(), scene, pipelines());
-    EXPECT_EQ(failedChannels(scene, renderer, blendedPicture()), std::vector<std::string>{});
+    EXPECT_EQ(failedChannels(scene, renderer, blendedImage()), std::vector<std::string>{});
 }
 
 // Leaves with every weight, coloured and textured, lit from both sides by suns and lamps.
@@ -130,7 +130,7 @@ Scene leaves() {
 TEST(Panes, LeavesAreTheReferences) {
     const Scene scene = leaves();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.ambient = {0.2f, 0.3f, 0.4f};
     EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
     settings.shadows = Shadows::pcf;
@@ -150,7 +150,7 @@ TEST(Panes, LeavesAreInvisibleInAWhiteFurnace) {
         m.diffuse_transmission_texture = m.diffuse_transmission_color_texture = {};
         m.metallic = m.specular = 0;
     }
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.ambient = {1, 1, 1};
     for (const Frame& frame :
          bothPaths(scene, settings, {Channel::lit, Channel::material_id, Channel::lit_transmission})) {
@@ -198,7 +198,7 @@ TEST(Panes, EveryCombinationKeepsAWhiteFurnace) {
             b.add("pane", quad({-0.4, -0.4, 0}, {0.8, 0, 0}, {0, 0.8, 0}), material,
                   at(i - 2.5, layers - 1.5, 0));
         }
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.ambient = {1, 1, 1};
     settings.multiscatter = Multiscatter::energy;
     for (const Layers way : {Layers::gbuffer, Layers::forward}) {
@@ -220,7 +220,7 @@ TEST(Panes, BothPathsAreEqualBitForBit) {
     const Scene scene = panes(1);
     Renderer renderer(device(), scene, pipelines());
     for (const auto& [transparency, name] : enumNames<Transparency>()) {
-        Settings settings = blendedPicture();
+        Settings settings = blendedImage();
         settings.transparency = transparency;
         settings.shadows = Shadows::pcf;
         settings.haze = true;
@@ -241,7 +241,7 @@ TEST(Panes, BothPathsAreEqualBitForBit) {
 TEST(Panes, AreOffWithWhatIsBlended) {
     Scene scene = paneOf({0.5f, 0.8f, 1}, 0.9f), wall = scene;
     wall.nodes.pop_back();
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.transparency = Transparency::off;
     for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), bare(device(), wall, pipelines());
@@ -272,7 +272,7 @@ TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     b.add("leaves", all, material, glm::dvec3(0.0));
     b.sun({0, 0, 1}, glm::vec3(1), 2);  // from behind
     Renderer renderer(device(), b.scene, pipelines());
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.msaa = 4;
     settings.msaa_edges = MsaaEdges::similar;
     const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
@@ -303,7 +303,7 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     far.range = 0.1f;
     const std::size_t most = device().profile().light_iterations;
     many.lights.insert(many.lights.end(), 2 * most + 7, far);
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {24, 14};
     settings.assign = Assignment::every;
     settings.ambient = {0.1f, 0.2f, 0.3f};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Both paths draw the same picture: bit for bit with a float32 G-buffer; with a packed one they differ by
+// Both paths draw the same image: bit for bit with a float32 G-buffer; with a packed one they differ by
 // exactly the effect of its encoding.
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/encoding_use.h"
@@ -83,22 +83,22 @@ void expectPackedParity(UploadedScene& scene, const Settings& settings) {
 }
 
 TEST_P(BuiltinParity, FullIsBitEqual) {
-    expectFullParity(uploaded(GetParam()), smallPicture(GBufferEncoding::full));
+    expectFullParity(uploaded(GetParam()), smallImage(GBufferEncoding::full));
 }
 
 TEST_P(BuiltinParity, CompactDiffersByItsEncodingAlone) {
-    expectPackedParity(uploaded(GetParam()), smallPicture(GBufferEncoding::compact));
+    expectPackedParity(uploaded(GetParam()), smallImage(GBufferEncoding::compact));
 }
 
 TEST_P(BuiltinParity, StandardDiffersByItsEncodingAlone) {
-    expectPackedParity(uploaded(GetParam()), smallPicture(GBufferEncoding::standard));
+    expectPackedParity(uploaded(GetParam()), smallImage(GBufferEncoding::standard));
 }
 
-TEST_P(BuiltinParity, PrepassNeverChangesThePicture) {
+TEST_P(BuiltinParity, PrepassNeverChangesTheImage) {
     RenderOptions options;
     options.channels = allChannels();
     options.runs = 0;
-    Settings with = smallPicture(GBufferEncoding::standard), without = with;
+    Settings with = smallImage(GBufferEncoding::standard), without = with;
     with.prepass = Switch::on;
     without.prepass = Switch::off;
     Renderer& renderer = uploaded(GetParam()).renderer;
@@ -113,9 +113,9 @@ TEST_P(AssetParity, FullIsBitEqualAndPackedIsExplained) {
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
     UploadedScene& scene = uploaded(file.string());
-    expectFullParity(scene, assetPicture(GBufferEncoding::full));
-    expectPackedParity(scene, assetPicture(GBufferEncoding::standard));
-    expectPackedParity(scene, assetPicture(GBufferEncoding::compact));
+    expectFullParity(scene, assetImage(GBufferEncoding::full));
+    expectPackedParity(scene, assetImage(GBufferEncoding::standard));
+    expectPackedParity(scene, assetImage(GBufferEncoding::compact));
 }
 
 INSTANTIATE_TEST_SUITE_P(Asset, AssetParity, testing::ValuesIn(assetScenes()), [](const auto& scene) {
@@ -128,12 +128,12 @@ TEST_P(LayeredParity, FullIsBitEqualAndPackedIsExplained) {
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
     UploadedScene scene(file.string());
-    Settings full = assetPicture(GBufferEncoding::full);
+    Settings full = assetImage(GBufferEncoding::full);
     for (const Layers layers : {Layers::gbuffer, Layers::forward}) {
         full.layers = layers;
         expectBitEqual(scene.bothPaths(full));
     }
-    expectExplained(scene.bothPaths(assetPicture(GBufferEncoding::standard)));
+    expectExplained(scene.bothPaths(assetImage(GBufferEncoding::standard)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Asset, LayeredParity, testing::ValuesIn(layeredScenes()), [](const auto& scene) {
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Asset, LayeredParity, testing::ValuesIn(layeredScenes()
 });
 
 TEST(DrawnTwice, NothingOrLitOrEveryChannel) {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     RenderOptions options;
     options.channels = {Channel::lit, Channel::albedo, Channel::depth};
     options.runs = 0;
@@ -166,7 +166,7 @@ TEST(DrawnTwice, NothingOrLitOrEveryChannel) {
 TEST(DrawnTwice, LitAloneIsDrawnOnce) {
     const Scene scene = loadScene("builtin:spheres");
     Renderer renderer(device(), scene);
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     RenderOptions options;
     options.channels = {Channel::lit};
     options.runs = 0;
@@ -192,7 +192,7 @@ void expectParity(const char* name, const Settings& given, std::initializer_list
 // Ambient light uses the same table in both paths. It changes the channels of lighting only.
 TEST(Parity, OfAmbientLight) {
     using enum GBufferEncoding;
-    Settings settings = smallPicture(full);
+    Settings settings = smallImage(full);
     settings.ambient = {0.3f, 0.4f, 0.5f};
     expectParity("builtin:gallery", settings, {full});
     expectParity("builtin:dielectrics", settings, {full, standard, compact});
@@ -204,7 +204,7 @@ TEST(Parity, OfAmbientLight) {
 // compensates.
 TEST(Parity, OfLightBetweenMicrofacets) {
     using enum GBufferEncoding;
-    Settings settings = smallPicture(full);
+    Settings settings = smallImage(full);
     settings.ambient = {0.3f, 0.4f, 0.5f};
     settings.multiscatter = Multiscatter::fdez;
     expectParity("builtin:gallery", settings, {full});
@@ -219,9 +219,9 @@ TEST(Parity, OfLightBetweenMicrofacets) {
 TEST(Parity, AnotherEncodingCompilesAgainWhatEncodesAlone) {
     const Scene scene = loadScene("builtin:triangle");
     Renderer renderer(device(), scene);
-    drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::standard));
+    drawnBy(Path::forward_plus, renderer, smallImage(GBufferEncoding::standard));
     const std::size_t before = renderer.pipelines();
-    drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::compact));
+    drawnBy(Path::forward_plus, renderer, smallImage(GBufferEncoding::compact));
     EXPECT_EQ(renderer.pipelines(), before + 1);
 }
 
@@ -229,12 +229,12 @@ TEST(Parity, AnotherEncodingCompilesAgainWhatEncodesAlone) {
 class ParityNegativeControl : public testing::Test {
 protected:
     const std::vector<Frame>& sound(GBufferEncoding encoding) {
-        return scene.bothPaths(smallPicture(encoding));
+        return scene.bothPaths(smallImage(encoding));
     }
     // Pixels that differ between deferred on the original scene and forward+ on the changed one.
     std::size_t changedPixels(Channel mode) {
         Renderer renderer(device(), changed, pipelines());
-        const Frame faulty = drawnBy(Path::forward_plus, renderer, smallPicture(GBufferEncoding::full));
+        const Frame faulty = drawnBy(Path::forward_plus, renderer, smallImage(GBufferEncoding::full));
         return differingPixels(sound(GBufferEncoding::full)[0].channels.at(mode), faulty.channels.at(mode));
     }
     UploadedScene& scene = uploaded("builtin:gallery");

@@ -204,7 +204,7 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     Triangles triangles;
     constexpr std::uint32_t width = 8, height = 4;
     PassList passes(device(), width, height);
-    const ImageRef picture = passes.image(
+    const ImageRef image = passes.image(
         {.name = "picture", .format = VK_FORMAT_R32_SFLOAT, .usage = VK_IMAGE_USAGE_STORAGE_BIT});
     const GpuBuffer arguments(device(), "arguments", 32,
                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -227,8 +227,8 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     });
     passes.compute("dispatch")
         .uses(argumentsRef, access::indirectRead)
-        .uses(picture, access::storageImageWrite(inCompute), {}, true)
-        .prepare([&] { sets.image(0, 0, passes.view(picture), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL); })
+        .uses(image, access::storageImageWrite(inCompute), {}, true)
+        .prepare([&] { sets.image(0, 0, passes.view(image), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL); })
         .record([&](VkCommandBuffer commands) {
             const VkDescriptorSet set = sets[0];
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel);
@@ -238,14 +238,14 @@ TEST(PassKinds, PassesAreDispatchedAndDrawnIndirectly) {
     const Pipeline add =
         triangles.pipelines().get({.colors = {VK_FORMAT_R32_SFLOAT}, .blends = {Blend::add}});
     passes.draw("draw")
-        .color(picture, Load::keep)
+        .color(image, Load::keep)
         .uses(argumentsRef, access::indirectRead)
         .record([&](VkCommandBuffer commands) {
             triangles.bind(commands, add, {{100, 0, 0, 0}});
             vkCmdDrawIndirect(commands, arguments.handle(), 16, 1, 0);
         });
     passes.run();
-    const std::vector<float> got = readOne(passes, picture);
+    const std::vector<float> got = readOne(passes, image);
     for (std::uint32_t i = 0; i < got.size(); ++i)
         if (const std::uint32_t x = i % width; x < groups) {
             EXPECT_EQ(got[i], 100.0f + static_cast<float>(x + 1)) << i;
@@ -288,7 +288,7 @@ TEST(PassKinds, TransientsOfOneMemoryKeepTheirContentsWhileTheyLive) {
     EXPECT_EQ(passes.sharedBytes(), 2u * 7 * 5 * 16);
 }
 
-// A mip chain has a third more texels than its picture.
+// A mip chain has a third more texels than its image.
 TEST(PassKinds, LevelsCountAmongBytesPerPixel) {
     PassList passes(device(), 16, 8);
     const ImageRef chain = passes.image({.name = "chain", .format = colorFormat, .levels = 4});

@@ -17,7 +17,7 @@
 namespace diptych::tests {
 namespace {
 
-Settings picture(Assignment assign, int pixels, Size size = {160, 90}) {
+Settings image(Assignment assign, int pixels, Size size = {160, 90}) {
     Settings settings = unshadowed();
     settings.path = Path::forward_plus;
     settings.size = size;
@@ -34,13 +34,13 @@ std::vector<Frame> drawnAll(const Scene& scene, const std::vector<Settings>& set
 }
 
 Frame drawn(const Scene& scene, Assignment assign, int pixels, Size size = {160, 90}) {
-    return drawnAll(scene, {picture(assign, pixels, size)}).front();
+    return drawnAll(scene, {image(assign, pixels, size)}).front();
 }
 
 // With all lights, and with four per pixel.
 std::pair<Frame, Frame> bothWays(const Scene& scene) {
     std::vector<Frame> frames =
-        drawnAll(scene, {picture(Assignment::every, 0), picture(Assignment::per_object, 4)});
+        drawnAll(scene, {image(Assignment::every, 0), image(Assignment::per_object, 4)});
     return {std::move(frames[0]), std::move(frames[1])};
 }
 
@@ -218,7 +218,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
             scene.lights.push_back(light);
         }
         const View view = makeView(scene, poseAt(scene, 0), "0", 4, 4);
-        Settings settings = picture(Assignment::per_object, pixels, {4, 4});
+        Settings settings = image(Assignment::per_object, pixels, {4, 4});
         GpuLights lights = gpuLights(scene.lights, view.eye());
         if (pixels == 0) {
             settings.range_window = RangeWindow::squared;

@@ -92,7 +92,7 @@ TEST(Precision, BothPathsAreEqualBitForBit) {
                                             {"lit-format", "fp16"},
                                             {"lit-format", "b10g11r11"},
                                             {"shading-precision", "fp16"}}) {
-            Settings settings = smallPicture(GBufferEncoding::full);
+            Settings settings = smallImage(GBufferEncoding::full);
             settings.set(option, value);
             const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, shown);
             for (const auto& [mode, image] : frames[0].channels) {
@@ -111,7 +111,7 @@ TEST(Precision, BothPathsAreEqualBitForBit) {
 // The same pixels are covered in either depth direction; the environment covers the rest.
 TEST(Precision, NothingIsLostToTheBackground) {
     for (const DepthFormat format : {DepthFormat::d32f_standard, DepthFormat::d24, DepthFormat::d16}) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         const std::vector<Channel> idOnly{Channel::material_id};
         const Frame plain = drawnBy(Path::deferred, uploaded("builtin:deep").renderer, settings, idOnly);
         settings.depth_format = format;
@@ -134,7 +134,7 @@ TEST(Precision, NothingIsLostToTheBackground) {
 TEST(Precision, RadianceIsRoundedToItsFormat) {
     for (const auto& [format, bits] :
          {std::pair(LitFormat::fp16, std::array{10, 10, 10}), {LitFormat::b10g11r11, std::array{6, 6, 5}}}) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         UploadedScene& scene = uploaded("builtin:points");
         const Frame exact = drawnBy(Path::forward_plus, scene.renderer, settings, {Channel::lit});
         settings.lit_format = format;
@@ -157,7 +157,7 @@ TEST(Precision, RadianceIsRoundedToItsFormat) {
 // Half floats have 11 significant bits: directions and half vectors err by 5e-4. A highlight of roughness
 // 0.1 magnifies that some fifty times; elsewhere the error is small.
 TEST(Precision, HalfShadingIsNearAndFinite) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     UploadedScene& scene = uploaded("builtin:spheres");
     const std::vector<Channel> shown{Channel::lit, Channel::lit_diffuse};
     const Frame exact = drawnBy(Path::deferred, scene.renderer, settings, shown);

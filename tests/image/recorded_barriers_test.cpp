@@ -51,7 +51,7 @@ public:
 };
 
 Settings settingsOf(Path path, Assignment assign, LightKernel kernel, Switch prepass) {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.path = path;
     settings.assign = assign;
     settings.lights = "point:40,spot:10";

@@ -118,7 +118,7 @@ class BuiltinReference : public testing::TestWithParam<std::string> {};
 TEST_P(BuiltinReference, EveryChannelInBothModes) {
     const Scene& scene = uploaded(GetParam()).scene;
     Renderer& renderer = uploaded(GetParam()).renderer;
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {96, 54};
     const gpu::uint layers = requirements(scene, poseAt(scene, 0)).layers;
     const Frame surface = reference(renderer, settings),
@@ -148,7 +148,7 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
 
 TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
     Scene scene = loadScene("builtin:suns");
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     const Frame surface = reference(scene, settings);
     scene.lights.front().intensity *= 1.01f;
     const Frame traced = reference(scene, settings, ReferenceMode::scene);
@@ -185,7 +185,7 @@ class ReferenceNegativeControl : public testing::TestWithParam<Fault> {
 protected:
     // The reference and both paths.
     static std::vector<Frame> framesOf(const Scene& scene) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.size = {96, 54};
         Renderer renderer(device(), scene, pipelines());
         std::vector<Frame> frames{reference(renderer, settings)};

@@ -12,14 +12,14 @@
 namespace diptych::tests {
 namespace {
 
-Settings tracedPicture() {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+Settings tracedImage() {
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.size = {240, 135};
     return settings;
 }
 
 Frame tracedReference(UploadedScene& scene) {
-    Settings settings = tracedPicture();
+    Settings settings = tracedImage();
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     RenderOptions options;
@@ -55,7 +55,7 @@ class SceneVerdict : public testing::TestWithParam<std::string> {};
 
 TEST_P(SceneVerdict, SoundPathsPass) {
     UploadedScene& scene = uploaded(GetParam());
-    EXPECT_EQ(failuresAgainst(tracedReference(scene), scene.bothPaths(tracedPicture()), scene.scene),
+    EXPECT_EQ(failuresAgainst(tracedReference(scene), scene.bothPaths(tracedImage()), scene.scene),
               std::set<std::string>());
 }
 
@@ -98,7 +98,7 @@ TEST(SceneVerdictNegativeControl, FaultsOfBothPathsFailInTheirChannels) {
         fault.plant(changed);
         Renderer renderer(device(), changed, pipelines());
         const std::set<std::string> failures =
-            failuresAgainst(reference, bothPaths(renderer, tracedPicture()), scene.scene);
+            failuresAgainst(reference, bothPaths(renderer, tracedImage()), scene.scene);
         for (const char* path : {"deferred ", "forward_plus "})
             EXPECT_TRUE(failures.contains(std::string(path) + fault.channel)) << path << fault.channel;
     }

@@ -214,7 +214,7 @@ inline Settings unshadowed() {
 }
 
 // Common settings for asset scenes, so that the suites share Frames.
-inline Settings assetPicture(GBufferEncoding gbuffer) {
+inline Settings assetImage(GBufferEncoding gbuffer) {
     Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
     settings.size = {320, 180};
@@ -222,7 +222,7 @@ inline Settings assetPicture(GBufferEncoding gbuffer) {
     return settings;
 }
 
-inline Settings smallPicture(GBufferEncoding gbuffer) {
+inline Settings smallImage(GBufferEncoding gbuffer) {
     Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
     settings.size = {160, 90};

@@ -55,7 +55,7 @@ TEST(SecondGBuffer, SkinnedMorphedAndMaskedSurfacesAreBitEqual) {
         if (m.name == "clay" || m.name == "ball" || m.name == "leaf") addEveryLayer(m);
     Renderer renderer(device(), scene, pipelines());
     for (const int samples : {1, 4}) {
-        Settings settings = smallPicture(GBufferEncoding::full);
+        Settings settings = smallImage(GBufferEncoding::full);
         settings.time = 0.6;
         settings.msaa = samples;
         settings.alpha_to_coverage = samples > 1;
@@ -84,7 +84,7 @@ TEST(SecondGBuffer, OfTwoSurfacesAtOneDepthTheLastIsStored) {
             sun.kind = LightKind::directional;
             sun.direction = glm::normalize(glm::dvec3(-0.3, -0.2, -1));
             scene.lights = {sun};
-            Settings settings = smallPicture(GBufferEncoding::full);
+            Settings settings = smallImage(GBufferEncoding::full);
             settings.size = {8, 8};
             settings.msaa = samples;
             ASSERT_TRUE(hasSecondPass(scene, settings));
@@ -102,7 +102,7 @@ TEST(SecondGBuffer, PackedLayersAreStored) {
     m.emissive = {1, 1, 1};
     m.lightmap_texture.texture = 0;
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
-        Settings settings = smallPicture(encoding);
+        Settings settings = smallImage(encoding);
         settings.size = {4, 4};
         settings.msaa = 4;
         ASSERT_TRUE(hasSecondPass(scene, settings));
@@ -119,7 +119,7 @@ TEST(SecondGBuffer, PackedLayersAreStored) {
 }
 
 TEST(SecondGBuffer, ThePlanNamesIt) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.path = Path::deferred;
     const auto planned = [&](const Scene& scene) {
         SceneViews views(scene);

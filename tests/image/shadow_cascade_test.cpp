@@ -17,7 +17,7 @@ namespace diptych::tests {
 namespace {
 
 Settings cascaded(const Size& size, int texels, int cascades) {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.size = size;
     settings.shadows = Shadows::pcf;
     settings.shadow_size = texels;

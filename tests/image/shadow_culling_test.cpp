@@ -16,7 +16,7 @@ namespace diptych::tests {
 namespace {
 
 Settings shadowedBy(Shadows shadows, int size, int kernel) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.shadows = shadows;
     settings.shadow_size = size;
     settings.shadow_kernel = kernel;

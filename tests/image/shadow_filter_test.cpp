@@ -20,7 +20,7 @@ namespace diptych::tests {
 namespace {
 
 Settings filteredBy(Shadows shadows, GBufferEncoding gbuffer, int size = 256, int kernel = 3) {
-    Settings settings = smallPicture(gbuffer);
+    Settings settings = smallImage(gbuffer);
     settings.shadows = shadows;
     settings.shadow_size = size;
     settings.shadow_kernel = kernel;
@@ -73,7 +73,7 @@ TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
 }
 
 // The bounds are those of the depth channel, every pixel has a cascade, and the last is no coarser.
-TEST_P(ShadowFilters, MapsFitWhatThePictureShows) {
+TEST_P(ShadowFilters, MapsFitWhatTheImageShows) {
     const Scene scene = loadScene(GetParam());
     SharedResources shared(device(), scene, pipelines());
     SceneViews views(scene);

@@ -57,7 +57,7 @@ TEST_P(ShadowPaths, SeeTheSame) {
         {GBufferEncoding::compact, 1}, {GBufferEncoding::standard, 5}, {GBufferEncoding::full, 7}};
     const std::size_t first = GetParam() == "builtin:gallery" ? 2 : 0;
     for (const auto& [encoding, kernel] : std::span(kernels).subspan(first)) {
-        const Settings settings = shadowed(smallPicture(encoding), 256, kernel);
+        const Settings settings = shadowed(smallImage(encoding), 256, kernel);
         const std::vector<Frame> frames =
             bothPaths(uploaded(GetParam()).renderer, settings,
                       {Channel::shadow_visibility, Channel::cascade, Channel::lit});
@@ -71,7 +71,7 @@ TEST_P(ShadowPaths, SeeTheSame) {
 // A path's image against rays: outside the filter's radius and a texel from an edge, visibility is
 // correct. At most one pixel in 2,000 is falsely lit, and as many falsely dark.
 TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
-    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    Settings settings = shadowed(smallImage(GBufferEncoding::full));
     settings.size = {320, 180};
     Settings truth = settings;
     truth.path = Path::reference;
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowPaths,
 TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
     for (const double degrees : {0.1, 0.3, 1.0, 3.0, 10.0, 20.0, 35.0, 50.0, 70.0, 89.0, 89.9})
         for (const int kernel : {1, 3, 5, 7}) {
-            Settings settings = shadowed(smallPicture(GBufferEncoding::standard), 512, kernel);
+            Settings settings = shadowed(smallImage(GBufferEncoding::standard), 512, kernel);
             settings.shadow_cascades = 2;
             const Seen seen =
                 seenWhere(drawn(groundUnder(sunAt(degrees)), settings), [](int, int) { return true; });
@@ -129,7 +129,7 @@ TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
 }
 
 TEST(ShadowPlane, IsDarkWhereTheSunIsBelowIt) {
-    const Frame frame = drawn(groundUnder(sunAt(-20)), shadowed(smallPicture(GBufferEncoding::standard)));
+    const Frame frame = drawn(groundUnder(sunAt(-20)), shadowed(smallImage(GBufferEncoding::standard)));
     EXPECT_EQ(seenWhere(frame, [](int, int) { return true; }).most, 0);
 }
 
@@ -138,7 +138,7 @@ TEST(ShadowPlane, IsFullyLitAtEveryScale) {
     for (const double scale : {1e-3, 1.0, 1e4})
         for (const double degrees : {5.0, 45.0, 90.0}) {
             const Seen seen = seenWhere(drawn(groundUnder(sunAt(degrees), {}, scale),
-                                              shadowed(smallPicture(GBufferEncoding::standard))),
+                                              shadowed(smallImage(GBufferEncoding::standard))),
                                         [](int, int) { return true; });
             EXPECT_EQ(seen.least, 1) << scale << " " << degrees;
         }
@@ -148,7 +148,7 @@ TEST(ShadowPlane, IsFullyLitAtEveryScale) {
 // side. It covers 1 / tan(degrees) of ground.
 TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
     for (const double degrees : {20.0, 45.0, 70.0}) {
-        Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+        Settings settings = shadowed(smallImage(GBufferEncoding::standard));
         settings.size = {320, 180};
         const Scene scene = groundUnder(sunAt(degrees), {board(1)});
         const Frame frame =
@@ -184,7 +184,7 @@ TEST(ShadowCasters, FollowTheirAlphaMode) {
         Scene scene = groundUnder(sunAt(45), {board(1)});
         scene.materials[1].alpha_mode = mode;
         scene.materials[1].base_color.a = alpha;
-        Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+        Settings settings = shadowed(smallImage(GBufferEncoding::standard));
         const Frame frame = drawn(scene, settings);
         return seenWhere(frame,
                          [&](int x, int y) { return frame.channels.at(Channel::material_id).at(x, y) == 0; })
@@ -200,7 +200,7 @@ TEST(ShadowCasters, FollowTheirAlphaMode) {
 // shadow.
 TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     const Scene scene = groundUnder(sunAt(45), {board(1)});
-    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    Settings settings = shadowed(smallImage(GBufferEncoding::full));
     settings.assign = Assignment::every;
     const Frame every = drawn(scene, settings, {Channel::lit, Channel::material_id});
     settings.assign = Assignment::per_object;
@@ -217,7 +217,7 @@ TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
 // The brightest of several suns casts. Without a sun there is no shadow and no pass.
 TEST(ShadowCasters, AreOfTheBrightestSun) {
     Scene scene = groundUnder(sunAt(45), {board(1)});
-    const Settings settings = shadowed(smallPicture(GBufferEncoding::standard));
+    const Settings settings = shadowed(smallImage(GBufferEncoding::standard));
     const Frame alone = drawn(scene, settings);
     Light weak = sunAt(-90);
     weak.direction = {0, -1, 0};
@@ -252,7 +252,7 @@ TEST(ShadowMapsOfNothing, AreNotDrawn) {
         return std::ranges::count(names, "shadow maps");
     };
     Scene scene = groundUnder(sunAt(45), {board(1)});
-    Settings settings = shadowed(smallPicture(GBufferEncoding::full));
+    Settings settings = shadowed(smallImage(GBufferEncoding::full));
     settings.shadow_distance = 400;
     EXPECT_TRUE(says(drawn(scene, settings), "shadow maps: 1 of 4 cascades"));
     EXPECT_EQ(passes(scene, settings), 1);

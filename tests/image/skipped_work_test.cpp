@@ -15,7 +15,7 @@ namespace diptych::tests {
 namespace {
 
 Settings smallFrame(Path path) {
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.path = path;
     settings.lights = "point:40,spot:20";
     return settings;
@@ -49,7 +49,7 @@ TEST(SkippedWork, TheViewIsTheSameFromEverySource) {
 }
 
 // A texture transform needs all inputs; without a texture it has no effect.
-TEST(SkippedWork, FewerInputsBringTheSamePictureAsAll) {
+TEST(SkippedWork, FewerInputsBringTheSameImageAsAll) {
     std::size_t scene = 0;
     for (const std::string& name : builtinScenes())
         expectSame(name, smallFrame(scene++ % 2 == 0 ? Path::deferred : Path::forward_plus),

@@ -21,8 +21,8 @@ Settings filtered(Settings settings, SpecularNormals of = SpecularNormals::geome
     return settings;
 }
 
-Settings fullPicture(Size size = {160, 90}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings fullImage(Size size = {160, 90}) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     return settings;
 }
@@ -56,7 +56,7 @@ TEST(SpecularAa, OfAKnownCurvature) {
             const auto normalAt = [&](int x) {
                 return glm::normalize(glm::dvec3(double{slope} * (2 * x + 1 - pixels) / pixels, 0, 1));
             };
-            for (const Frame& frame : bothPaths(scene, filtered(fullPicture({pixels, pixels})), {roughness}))
+            for (const Frame& frame : bothPaths(scene, filtered(fullImage({pixels, pixels})), {roughness}))
                 for (int x = 0; x < pixels; ++x) {
                     const glm::dvec3 change = normalAt(x | 1) - normalAt(x & ~1);
                     const double expected = expectedRoughness(rough, glm::dot(change, change));
@@ -76,7 +76,7 @@ TEST(SpecularAa, BySlopeItIsTheLargestChange) {
             const auto normalAt = [&](int x) {
                 return glm::normalize(glm::dvec3(double{slope} * (2 * x + 1 - pixels) / pixels, 0, 1));
             };
-            Settings settings = filtered(fullPicture({pixels, pixels}));
+            Settings settings = filtered(fullImage({pixels, pixels}));
             settings.spec_aa_kernel = SpecularKernel::slope;
             for (const Frame& frame : bothPaths(scene, settings, {roughness}))
                 for (int x = 0; x < pixels; ++x) {
@@ -94,7 +94,7 @@ TEST(SpecularAa, TakesItsTwoNumbersFromTheSettings) {
     const Scene scene = cylindrical(2, 0.2f);
     for (const auto& [variance, limit] :
          {std::pair(0.05f, 1.0f), std::pair(0.5f, 1.0f), std::pair(100.0f, 0.3f), std::pair(0.5f, 1e-3f)}) {
-        Settings settings = filtered(fullPicture({pixels, pixels}));
+        Settings settings = filtered(fullImage({pixels, pixels}));
         settings.spec_aa_variance = variance;
         settings.spec_aa_limit = limit;
         const auto normalAt = [](int x) {
@@ -108,7 +108,7 @@ TEST(SpecularAa, TakesItsTwoNumbersFromTheSettings) {
                 << frame.name << " " << variance << " " << limit;
     }
     for (const bool none : {false, true}) {
-        Settings settings = filtered(fullPicture({pixels, pixels}));
+        Settings settings = filtered(fullImage({pixels, pixels}));
         (none ? settings.spec_aa_limit : settings.spec_aa_variance) = 0;
         for (const Frame& frame : bothPaths(scene, settings, {roughness}))
             EXPECT_EQ(frame.channels.at(roughness).at(8, 8, 0), 0.2f) << frame.name;
@@ -127,7 +127,7 @@ TEST(SpecularAa, OfASphereAtAKnownDistance) {
     camera.far = 10;
     camera.world_from_camera[3] = {0, 0, 5, 1};
     const double pixel = 2 * camera.ymag / pixels;  // m; the radius is 1
-    for (const Frame& frame : bothPaths(scene, filtered(fullPicture({pixels, pixels})), {roughness}))
+    for (const Frame& frame : bothPaths(scene, filtered(fullImage({pixels, pixels})), {roughness}))
         for (const int at : {pixels / 2 - 1, pixels / 2}) {
             const double kernel = std::pow(double{frame.channels.at(roughness).at(at, at, 0)}, 4) - 1e-4;
             // Normals interpolated over segments of 1.4 degrees are chords: up to 1 % off the arc's
@@ -148,7 +148,7 @@ TEST(SpecularAa, AFlatSurfaceKeepsItsRoughnessBitForBit) {
                 glm::scale(glm::dmat4(1), glm::dvec3(1000));
         for (const float rough : {0.0f, 0.01f, 0.045f, 0.3333333f, 1.0f}) {
             scene.materials[0].roughness = rough;
-            Settings settings = filtered(fullPicture({161, 91}));
+            Settings settings = filtered(fullImage({161, 91}));
             settings.spec_aa_variance = 100;
             settings.spec_aa_limit = 1;
             for (const Frame& frame : bothPaths(scene, settings, {roughness, Channel::material_id})) {
@@ -187,7 +187,7 @@ Scene wavy(float scale, int cells) {
 }
 
 TEST(SpecularAa, OfANormalMapWhereThatIsAskedFor) {
-    const Settings settings = fullPicture({64, 64});
+    const Settings settings = fullImage({64, 64});
     for (const Frame& frame : bothPaths(wavy(1, 1), filtered(settings), {roughness}))
         for (const float value : frame.channels.at(roughness).data) ASSERT_EQ(value, 0.2f) << frame.name;
     for (const Frame& frame :
@@ -213,7 +213,7 @@ TEST(SpecularAa, OfANormalMapWhereThatIsAskedFor) {
 // Helper pixels of a quad, outside the triangle, also get the map's scale: fine triangles filter like a
 // single one.
 TEST(SpecularAa, OfANormalMapAtTheEdgesOfTriangles) {
-    const Settings settings = filtered(fullPicture({64, 64}), SpecularNormals::mapped);
+    const Settings settings = filtered(fullImage({64, 64}), SpecularNormals::mapped);
     for (const float scale : {0.5f, -0.7f}) {
         const std::vector<Frame> one = bothPaths(wavy(scale, 1), settings, {roughness}),
                                  many = bothPaths(wavy(scale, 23), settings, {roughness});
@@ -237,8 +237,8 @@ TEST_P(SpecularAaBuiltin, BothPathsFilterAlike) {
     UploadedScene& scene = uploaded(GetParam());
     for (const SpecularNormals of : {SpecularNormals::geometry, SpecularNormals::mapped}) {
         const std::vector<Channel> channels{Channel::lit, roughness, Channel::material_id};
-        const std::vector<Frame> on = bothPaths(scene.renderer, filtered(fullPicture(), of), channels),
-                                 off = bothPaths(scene.renderer, fullPicture(), channels);
+        const std::vector<Frame> on = bothPaths(scene.renderer, filtered(fullImage(), of), channels),
+                                 off = bothPaths(scene.renderer, fullImage(), channels);
         expectSameChannels(on[0], on[1], 3);
         const PixelData &rough = on[0].channels.at(roughness).data,
                         &before = off[0].channels.at(roughness).data;
@@ -252,7 +252,7 @@ TEST_P(SpecularAaBuiltin, BothPathsFilterAlike) {
 
 TEST_P(SpecularAaBuiltin, TheStandardGBufferKeepsItWithinAStep) {
     UploadedScene& scene = uploaded(GetParam());
-    Settings settings = filtered(fullPicture());
+    Settings settings = filtered(fullImage());
     settings.gbuffer = GBufferEncoding::standard;
     const std::vector<Frame> frames = bothPaths(scene.renderer, settings, {roughness, Channel::material_id});
     const PixelData &packed = frames[0].channels.at(roughness).data,
@@ -272,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, SpecularAaBuiltin,
 // where triangles cover pixels partly. lavapipe's centre is half a pixel off, which changes this curve's
 // roughness by 1.5e-4. Differences between shading locations would change it by 5e-3.
 TEST(SpecularAa, SeveralSamplesFilterAlike) {
-    Settings settings = filtered(fullPicture({64, 64}));
+    Settings settings = filtered(fullImage({64, 64}));
     const Scene scene = cylindrical(1, 0.2f);
     Renderer renderer(device(), scene, pipelines());
     const Image one = drawnBy(Path::forward_plus, renderer, settings, {roughness}).channels.at(roughness);
@@ -288,7 +288,7 @@ TEST(SpecularAa, SeveralSamplesFilterAlike) {
 // The reference in mode surface shades the filtered surface: it checks shading alone.
 TEST(SpecularAa, TheReferenceShadesWhatWasFiltered) {
     UploadedScene& scene = uploaded("builtin:normals");
-    const Settings settings = filtered(fullPicture({96, 54}));
+    const Settings settings = filtered(fullImage({96, 54}));
     const std::vector<Channel> channels{Channel::lit, roughness, Channel::material_id};
     const Frame reference = drawnBy(Path::reference, scene.renderer, settings, channels);
     for (const Frame& path : bothPaths(scene.renderer, settings, channels)) {

@@ -7,8 +7,8 @@
 namespace diptych::tests {
 namespace {
 
-Settings picture(bool filtered, float variance = Settings().spec_aa_variance, Size size = {96, 54}) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings image(bool filtered, float variance = Settings().spec_aa_variance, Size size = {96, 54}) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = size;
     settings.spec_aa = filtered;
     if (filtered) {
@@ -67,14 +67,14 @@ TEST_P(SpecularShimmer, HalvesAndKeepsTheLight) {
         scene = loadScene("builtin:gallery");
     }
     const std::size_t first = scene.cameras.size();
-    scene = withPhases(std::move(scene), picture(false).size);
+    scene = withPhases(std::move(scene), image(false).size);
     Renderer renderer(device(), scene, pipelines());
-    const OverPhases off = overPhases(renderer, first, picture(false)),
-                     on = overPhases(renderer, first, picture(true, GetParam().variance));
+    const OverPhases off = overPhases(renderer, first, image(false)),
+                     on = overPhases(renderer, first, image(true, GetParam().variance));
     EXPECT_GT(off.highlights.pixels, 100u);
     EXPECT_LE(on.highlights.rmse, off.highlights.rmse / 2);
 
-    Settings truth = picture(false);
+    Settings truth = image(false);
     truth.reference_mode = ReferenceMode::scene;
     truth.spp = GetParam().samples;
     const double expected =
@@ -99,7 +99,7 @@ TEST(SpecularEnergy, DoesNotDependOnResolutionOrSamples) {
     const Scene sheet = displacedSheet();
     Renderer renderer(device(), sheet, pipelines());
     const auto mean = [&](Size size, int samples) {
-        Settings settings = picture(true, Settings().spec_aa_variance, size);
+        Settings settings = image(true, Settings().spec_aa_variance, size);
         settings.msaa = samples;
         return meanOf(
             drawnBy(Path::forward_plus, renderer, settings, {Channel::lit}).channels.at(Channel::lit));

@@ -78,7 +78,7 @@ inline Scene crossingSquares() {
 
 // Frames of both paths at full precision; every expectation is checked on both.
 inline std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {pixels, pixels};
     return bothPaths(scene, settings);
 }

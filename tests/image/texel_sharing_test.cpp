@@ -45,8 +45,8 @@ Scene turnedSquare(const TextureImage& image) {
     return scene;
 }
 
-Settings litPicture(TexturePrecision textures = TexturePrecision::device) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings litImage(TexturePrecision textures = TexturePrecision::device) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.ambient = {0.2f, 0.3f, 0.4f};
     settings.textures = textures;
     return settings;
@@ -63,7 +63,7 @@ SlotTexels texelsOnDevice(const Scene& scene, TexturePrecision textures = Textur
     return texels;
 }
 
-void expectSamePictures(const Scene& a, const Scene& b, const Settings& settings) {
+void expectSameImages(const Scene& a, const Scene& b, const Settings& settings) {
     const std::vector<Frame> framesA = bothPaths(a, settings), framesB = bothPaths(b, settings);
     for (std::size_t i = 0; i < framesA.size(); ++i) {
         SCOPED_TRACE(framesA[i].name);
@@ -92,7 +92,7 @@ TEST(TexelSharing, OneSampleHasTheBitsOfTwo) {
             EXPECT_EQ(texelsOnDevice(shared, textures)[slot], gpu::TEXEL_SHARED);
             EXPECT_EQ(texelsOnDevice(twice, textures)[slot], gpu::TEXEL_OWN);
         }
-        expectSamePictures(shared, twice, litPicture(textures));
+        expectSameImages(shared, twice, litImage(textures));
     }
 }
 
@@ -134,7 +134,7 @@ TEST(TexelSharing, AFactorHasTheBitsOfASampleOfItsColor) {
                     }
                 SCOPED_TRACE(std::string(nameOf(textures)) + (nearest ? ", nearest, " : ", linear, ") +
                              std::to_string(round));
-                expectSamePictures(one, sampled, litPicture(textures));
+                expectSameImages(one, sampled, litImage(textures));
             }
 }
 
@@ -153,7 +153,7 @@ TEST(TexelSharing, AMaskOfOneColorCutsAlike) {
         m.base_color.a = 0.9f;
         Scene sampled = one;
         sampled.images[0].rgba.back() ^= 255;
-        Settings settings = litPicture();
+        Settings settings = litImage();
         settings.prepass = Switch::on;
         for (const int samples : {1, 4}) {
             settings.msaa = samples;
@@ -181,10 +181,10 @@ TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
         p.normals[i] = glm::normalize(p.positions[i] * 0.5f + glm::vec3(0, 0, 1));
     Scene sampled = one;
     sampled.images[0].rgba[sampled.images[0].rgba.size() - 3] ^= 255;
-    Settings settings = litPicture();
+    Settings settings = litImage();
     settings.spec_aa = true;
     settings.spec_aa_normals = SpecularNormals::mapped;
-    expectSamePictures(one, sampled, settings);
+    expectSameImages(one, sampled, settings);
 }
 
 // Roughness and metallic of the other textures' size: channels that both linear 8-bit samples store are
@@ -215,8 +215,8 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
         constexpr TexturePrecision packed = TexturePrecision::packed;
         EXPECT_EQ(texelsOnDevice(scene)[gpu::SLOT_metallic_roughness], gpu::TEXEL_OWN);
         EXPECT_EQ(texelsOnDevice(scene, packed)[gpu::SLOT_metallic_roughness], gpu::TEXEL_ALPHAS);
-        const std::vector<Frame> apart = bothPaths(scene, litPicture()),
-                                 together = bothPaths(scene, litPicture(packed));
+        const std::vector<Frame> apart = bothPaths(scene, litImage()),
+                                 together = bothPaths(scene, litImage(packed));
         expectSameChannels(together[0], together[1]);  // both paths
         for (std::size_t i = 0; i < apart.size(); ++i) {
             double worst[2] = {}, sum[2] = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_transmission, _volume, _dispersion and _diffuse_transmission in both paths, compared with
-// closed forms, with the picture of what is behind, and with each other.
+// closed forms, with the image of what is behind, and with each other.
 #include "compare/frames/frame_facts.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/builtin/builder.h"
@@ -22,8 +22,8 @@
 namespace diptych::tests {
 namespace {
 
-Settings picture() {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings image() {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {96, 54};
     return settings;
 }
@@ -88,7 +88,7 @@ const Image& wallOf(Path path) {
     static std::map<Path, Image> walls;
     const auto found = walls.find(path);
     return found != walls.end() ? found->second
-                                : walls[path] = litOf(path, paneBeforeWall({}, true), picture());
+                                : walls[path] = litOf(path, paneBeforeWall({}, true), image());
 }
 
 // The largest difference to expected(x, y, component), right of the columns before `first`.
@@ -116,7 +116,7 @@ double largestError(const Image& made, const Image& wall, double thickness, cons
 }
 void expectThrough(const Material& glass, const glm::dvec3& iors, const glm::dvec3& kept, double most) {
     for (const Path path : drawn_paths) {
-        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        const Image made = litOf(path, paneBeforeWall(glass), image());
         EXPECT_LT(largestError(made, wallOf(path), double{glass.thickness}, iors, kept, glass.specular > 0),
                   most)
             << nameOf(path) << " " << glass.ior;
@@ -130,7 +130,7 @@ TEST(Refraction, AThinWallShowsWhatIsStraightBehind) {
     expectThrough(glassOf(0), glm::dvec3(1.5), glm::dvec3(1), 1e-5);
 }
 
-TEST(Refraction, ASlabMovesThePictureBySnellsLaw) {
+TEST(Refraction, ASlabMovesTheImageBySnellsLaw) {
     for (const float ior : {1.0f, 1.33f, 2.4f}) {
         Material glass = glassOf(0.7f, ior);
         glass.specular = 0;  // no reflection, whose F0 follows the index
@@ -156,7 +156,7 @@ TEST(Refraction, ASlabAbsorbsByItsThickness) {
 TEST(Refraction, ThicknessIsInTheSpaceOfTheMesh) {
     Scene scene = paneBeforeWall(glassOf(0.1f));
     scene.nodes.back().parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(5));
-    const Image made = litOf(Path::deferred, scene, picture());
+    const Image made = litOf(Path::deferred, scene, image());
     EXPECT_LT(largestError(made, wallOf(Path::deferred), double{0.1f} * 5, glm::dvec3(1.5), glm::dvec3(1)),
               rounding);
 }
@@ -170,15 +170,15 @@ TEST(Refraction, RoughGlassShowsTheMeanOfWhatIsBehind) {
         mean += glm::dvec3(wall.pixel(i)[0], wall.pixel(i)[1], wall.pixel(i)[2]) /
                 static_cast<double>(wall.pixels());
     for (const Path path : drawn_paths) {
-        const Image made = litOf(path, paneBeforeWall(glass), picture());
+        const Image made = litOf(path, paneBeforeWall(glass), image());
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(made.at(48, 27, c), 0.96 * mean[c], 0.02 * mean[c]) << nameOf(path);
     }
 }
 
-// The mip chain of a picture: each texel is the mean over its area.
-std::vector<Image> meansOf(const Image& picture) {
-    std::vector<Image> levels{picture};
+// The mip chain of an image: each texel is the mean over its area.
+std::vector<Image> meansOf(const Image& image) {
+    std::vector<Image> levels{image};
     while (std::max(levels.back().width, levels.back().height) > 1) {
         const Image& from = levels.back();
         Image to(std::max(from.width / 2, 1), std::max(from.height / 2, 1), 3);
@@ -212,7 +212,7 @@ double blurred(const std::vector<Image>& levels, const glm::dvec2& p, double lev
 }
 
 // Level log2(width) times roughness; the lobe is narrower if the index is below 1.5, also a thin wall's.
-TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
+TEST(Refraction, RoughGlassReadsTheMeansOfTheImage) {
     struct Case {
         float roughness, thickness, ior;
     };
@@ -224,7 +224,7 @@ TEST(Refraction, RoughGlassReadsTheMeansOfThePicture) {
         glass.specular = 0;
         const double narrower = std::clamp(2 * double{of.ior} - 2, 0.0, 1.0);
         for (const Path path : drawn_paths) {
-            const Image made = litOf(path, paneBeforeWall(glass), picture());
+            const Image made = litOf(path, paneBeforeWall(glass), image());
             const double level = std::log2(made.width) * double{of.roughness} * narrower;
             const double most = largestDifference(made, [&](int x, int y, int c) {
                 return blurred(levels,
@@ -251,7 +251,7 @@ TEST(Refraction, AnOrthographicCameraSeesASlabsShiftEverywhere) {
     for (Node& node : wall.nodes) node.parent_from_node[3].z -= 6;  // the turned pane does not cross it
     scene.nodes[0].parent_from_node[3].z -= 6;
     for (const Path path : drawn_paths) {
-        const Image behind = litOf(path, wall, picture()), made = litOf(path, scene, picture());
+        const Image behind = litOf(path, wall, image()), made = litOf(path, scene, image());
         const double refracted = std::asin(std::sin(turn) / 1.5),
                      pixels = 0.5 * std::sin(turn - refracted) * made.height / 0.8;
         // The normal leans to the right (+X), and with it the ray's way inside to the left.
@@ -273,7 +273,7 @@ TEST(Refraction, ABallOfIndexOneIsInvisible) {
     b.scene.materials.push_back(glass);
     for (const Path path : drawn_paths) {
         const auto behind = [&](int x, int y, int c) { return double{wallOf(path).at(x, y, c)}; };
-        EXPECT_LT(largestDifference(litOf(path, b.scene, picture()), behind), rounding) << nameOf(path);
+        EXPECT_LT(largestDifference(litOf(path, b.scene, image()), behind), rounding) << nameOf(path);
     }
 }
 
@@ -292,7 +292,7 @@ TEST(Refraction, TheNearestPaneIsSeen) {
         two.meshes[2].primitives[0].material = 2;
         if (turned) std::swap(two.nodes[1], two.nodes[2]);
         for (const Path path : drawn_paths)
-            EXPECT_EQ(differingPixels(litOf(path, scene, picture()), litOf(path, two, picture())), 0u)
+            EXPECT_EQ(differingPixels(litOf(path, scene, image()), litOf(path, two, image())), 0u)
                 << nameOf(path) << turned;
     }
 }
@@ -305,7 +305,7 @@ TEST(Refraction, OnlyRoughSurfacesHaveAMipChain) {
         const Scene scene = paneBeforeWall(glass);
         SharedResources shared(device(), scene, pipelines());
         SceneViews views(scene);
-        Settings settings = picture();
+        Settings settings = image();
         settings.path = Path::forward_plus;
         settings.spec_aa = spec_aa;
         const PreparedFrame prepared(device(), shared, views.at(viewRequest(settings)), settings);
@@ -322,7 +322,7 @@ TEST(Refraction, OnlyRoughSurfacesHaveAMipChain) {
 void expectSamePaths(int msaa, MsaaShading shading = MsaaShading::pixel) {
     const Scene scene = loadScene("builtin:transmission");
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = smallPicture(GBufferEncoding::full);
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.ambient = {0.1f, 0.2f, 0.3f};
     settings.shadows = Shadows::pcf;
     settings.haze = true;
@@ -361,7 +361,7 @@ TEST(DiffuseTransmission, IsLambertsLawOnTheFarSide) {
     b.add("leaf", quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), 0, glm::dvec3(0.0));
     b.scene.materials.push_back(leaf);
     b.sun({0, 0, 1}, glm::vec3(1), 2);  // from behind, head-on
-    Settings settings = picture();
+    Settings settings = image();
     settings.size = {9, 9};
     for (const Path path : drawn_paths) {
         const Image made = litOf(path, b.scene, settings);

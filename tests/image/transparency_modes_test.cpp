@@ -19,8 +19,8 @@ constexpr Path bothOf[] = {Path::deferred, Path::forward_plus};
 constexpr Transparency allModes[] = {Transparency::sorted,   Transparency::unsorted, Transparency::triangles,
                                      Transparency::weighted, Transparency::moments,  Transparency::list};
 
-Settings pictureOf(Transparency transparency, Path path = Path::forward_plus) {
-    Settings settings = smallPicture(GBufferEncoding::full);
+Settings imageSettings(Transparency transparency, Path path = Path::forward_plus) {
+    Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {96, 54};
     settings.path = path;
     settings.transparency = transparency;
@@ -42,7 +42,7 @@ struct Stacks {
     Scene scene;
 
     static Settings settings(Transparency transparency, int layers) {
-        Settings s = pictureOf(transparency);
+        Settings s = imageSettings(transparency);
         s.size = {3 * columns, 3 * rows};  // a cell's middle pixel is far from its edges
         if (transparency == Transparency::list) s.transparency_layers = layers;
         return s;
@@ -192,7 +192,7 @@ Scene withoutBlended(Scene scene) {
 TEST(TransparencyModes, ListIsTheExactBlendingOfItsFragments) {
     for (const char* name : {"builtin:glass", "builtin:crossed"}) {
         const Scene scene = loadScene(name);
-        Settings settings = pictureOf(Transparency::list);
+        Settings settings = imageSettings(Transparency::list);
         settings.transparency_layers = 32;
         const std::size_t pixels = 96 * 54;
         std::vector<std::vector<Fragment>> all;
@@ -284,7 +284,7 @@ TEST(TransparencyModes, WhatFindsNoRoomIsCountedInEveryPart) {
     for (int layer = 0; layer < blended_layers; ++layer)
         for (const double y : {-0.95, 0.9})
             b.add("layer", quad({0, y, layer * 1e-3}, {0.05, 0, 0}, {0, 0.05, 0}), blended, glm::dvec3(0.0));
-    Settings settings = pictureOf(Transparency::list);
+    Settings settings = imageSettings(Transparency::list);
     settings.size = {256, 192};
     settings.transparency_layers = listed_layers;
     FragmentLists::Overflow overflow;
@@ -318,7 +318,7 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
         const Scene scene = crossed ? loadScene("builtin:crossed") : stacks(6, 0.0f, 3).scene;
         for (const Transparency mode : {Transparency::list, Transparency::weighted, Transparency::moments}) {
             for (const int layers : {16, 2}) {
-                Settings settings = pictureOf(mode);
+                Settings settings = imageSettings(mode);
                 if (mode == Transparency::list) settings.transparency_layers = layers;
                 const Image first = litWith(scene, settings, nothing);
                 double most = 0;
@@ -342,8 +342,8 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
 // The negative control: shuffled draws give another image where their order matters.
 TEST(TransparencyModes, TheOrderOfDrawsChangesUnsorted) {
     const Scene scene = stacks(6, 0.5f, 3).scene;
-    const Image first = litWith(scene, pictureOf(Transparency::unsorted), nothing),
-                turned = litWith(scene, pictureOf(Transparency::unsorted), [](PreparedView&view) {
+    const Image first = litWith(scene, imageSettings(Transparency::unsorted), nothing),
+                turned = litWith(scene, imageSettings(Transparency::unsorted), [](PreparedView&view) {
                     std::reverse(view.draws.items.begin() + static_cast<std::ptrdiff_t>(view.draws.solid),
                                  view.draws.items.end());
                 });
@@ -388,7 +388,7 @@ TEST(TransparencyModes, BothPathsAreEqualBitForBit) {
         for (const Transparency mode : allModes) {
             std::vector<Image> made;
             for (const Path path : bothOf) {
-                Settings settings = pictureOf(mode, path);
+                Settings settings = imageSettings(mode, path);
                 settings.haze = true;
                 settings.haze_density = 2000;
                 settings.lights = "point:200,spot:56";
@@ -412,7 +412,7 @@ TEST(TransparencyModes, ExtremesStayNumbers) {
             b.add("layer", quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material, glm::dvec3(0.0));
         }
         for (const Transparency mode : allModes) {
-            const Image made = litWith(b.scene, pictureOf(mode), nothing);
+            const Image made = litWith(b.scene, imageSettings(mode), nothing);
             EXPECT_EQ(nonfinitePixels(made), 0u) << nameOf(mode) << " " << radiance;
             // All layers emit the same radiance, so every order gives that.
             EXPECT_NEAR(double{made.at(48, 27, 0)} / double{radiance}, 1, 1e-4)
@@ -431,13 +431,14 @@ TEST(TransparencyModes, ManyOpaqueLayersAtOneDepthAreSeen) {
     for (int i = 0; i < 64; ++i)
         b.add("layer", quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material, glm::dvec3(0.0));
     for (const Transparency mode : allModes)
-        EXPECT_NEAR(litWith(b.scene, pictureOf(mode), nothing).at(48, 27, 0), 0.5f, 1e-5f) << nameOf(mode);
+        EXPECT_NEAR(litWith(b.scene, imageSettings(mode), nothing).at(48, 27, 0), 0.5f, 1e-5f)
+            << nameOf(mode);
 }
 
 // An image that needs more than the largest bindable buffer is rendered in parts.
-TEST(TransparencyModes, PartsOfAPictureJoin) {
+TEST(TransparencyModes, PartsOfAnImageJoin) {
     const Scene scene = loadScene("builtin:crossed");
-    Settings settings = pictureOf(Transparency::list);
+    Settings settings = imageSettings(Transparency::list);
     settings.size = {256, 144};
     const Image whole = litWith(scene, settings, nothing);
     settings.transparency_layers = 256;
@@ -449,7 +450,7 @@ TEST(TransparencyModes, PartsOfAPictureJoin) {
 
 // Light lists that would need several draws are an error where something is blended.
 TEST(TransparencyModes, ListsThatOneDrawDoesNotWalkAreAnError) {
-    Settings settings = pictureOf(Transparency::sorted);
+    Settings settings = imageSettings(Transparency::sorted);
     settings.assign = Assignment::every;
     settings.lights = fmt::format("point:{}", device().profile().light_iterations + 1);
     const Scene scene = loadScene("builtin:glass");

@@ -47,7 +47,7 @@ TEST(Transparent, LayersAreBlendedOver) {
             for (std::size_t i = 1; i < colors.size(); ++i)
                 expected = glm::mix(expected, glm::dvec3(colors[i]), double{opacity});
             for (const Path path : drawn_paths) {
-                const glm::dvec3 made = litAt(drawnBlended(path, layers(colors), blendedPicture()), 40, 20);
+                const glm::dvec3 made = litAt(drawnBlended(path, layers(colors), blendedImage()), 40, 20);
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(made[c], expected[c], 2e-7 * static_cast<double>(count + 4))
                         << count << " " << opacity << " " << nameOf(path);
@@ -62,12 +62,12 @@ TEST(Transparent, WhatIsOpaqueHidesAllBehindItAndOpacity0Nothing) {
     std::vector<glm::vec4> more = front;
     more.insert(more.begin() + 1, glm::vec4(5, 5, 5, 0));
     for (const Path path : drawn_paths) {
-        const Image whole = drawnBlended(path, layers(colors), blendedPicture()).channels.at(Channel::lit);
+        const Image whole = drawnBlended(path, layers(colors), blendedImage()).channels.at(Channel::lit);
         EXPECT_EQ(differingPixels(
-                      whole, drawnBlended(path, layers(front), blendedPicture()).channels.at(Channel::lit)),
+                      whole, drawnBlended(path, layers(front), blendedImage()).channels.at(Channel::lit)),
                   0u);
-        EXPECT_EQ(differingPixels(
-                      whole, drawnBlended(path, layers(more), blendedPicture()).channels.at(Channel::lit)),
+        EXPECT_EQ(differingPixels(whole,
+                                  drawnBlended(path, layers(more), blendedImage()).channels.at(Channel::lit)),
                   0u);
     }
 }
@@ -77,7 +77,7 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
         Renderer& renderer = uploaded(name).renderer;
         std::optional<Image> first;
         for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered}) {
-            Settings settings = blendedPicture();
+            Settings settings = blendedImage();
             settings.assign = assign;
             settings.lights = "point:200,spot:56";
             settings.light_cutoff = 0;
@@ -90,7 +90,7 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
                 << name << " " << nameOf(assign) << " leaves out a light";
         }
         for (const Shadows shadows : {Shadows::pcf, Shadows::evsm}) {
-            Settings settings = blendedPicture();
+            Settings settings = blendedImage();
             settings.shadows = shadows;
             settings.haze = true;
             settings.haze_density = 2000;
@@ -114,8 +114,8 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
     const std::vector<Channel> channels{Channel::lit, Channel::albedo, Channel::depth, Channel::lit_diffuse};
     for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), without(device(), opaque, pipelines());
-        const Frame all = drawnBy(path, renderer, blendedPicture(), channels),
-                    rest = drawnBy(path, without, blendedPicture(), channels);
+        const Frame all = drawnBy(path, renderer, blendedImage(), channels),
+                    rest = drawnBy(path, without, blendedImage(), channels);
         const auto most = [&](Channel mode) {
             const DebugMode& m = debugMode(mode);
             const Image &a = rest.channels.at(mode), &b = all.channels.at(mode);
@@ -137,7 +137,7 @@ TEST(Transparent, WithoutBlendingEveryModeIsTheSameFrame) {
     for (const Path path : drawn_paths) {
         std::optional<Frame> first;
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
-            Settings settings = blendedPicture();
+            Settings settings = blendedImage();
             settings.path = path;
             settings.transparency = transparency;
             Frame frame = uploaded("builtin:cutout").renderer.draw(settings, options);
@@ -160,7 +160,7 @@ TEST(Transparent, WithoutBlendingThereIsNoPass) {
         RenderOptions options;
         options.channels = {Channel::lit};
         options.runs = 1;
-        Settings settings = blendedPicture();
+        Settings settings = blendedImage();
         settings.path = Path::deferred;
         const Frame frame = uploaded(name).renderer.draw(settings, options);
         EXPECT_EQ(std::ranges::count(frame.passes, std::string("transparent"), &PassTime::name),
@@ -170,7 +170,7 @@ TEST(Transparent, WithoutBlendingThereIsNoPass) {
 }
 
 TEST(Transparent, SortedIsTheReferencesOrder) {
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{});
     settings.camera = "inside";
     EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{})
@@ -182,7 +182,7 @@ TEST(Transparent, SortedIsTheReferencesOrder) {
 }
 
 TEST(Transparent, AnotherOrderFails) {
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.transparency = Transparency::unsorted;
     const std::vector<std::string> failed = failedChannels("builtin:crossed", settings);
     ASSERT_EQ(failed.size(), 2u);
@@ -227,7 +227,7 @@ Scene interleavedRows() {
 TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
     const Scene scene = interleavedRows();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     EXPECT_EQ(failedChannels(scene, renderer, settings).size(), 2u) << "sorted";
     settings.transparency = Transparency::triangles;
     EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
@@ -251,7 +251,7 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
 
 // Balls seen from outside and inside, 32 layers in a row, a draw's back faces before its front faces.
 TEST(Transparent, TrianglesAreRightWhereDrawsAre) {
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.transparency = Transparency::triangles;
     EXPECT_EQ(failedChannels("builtin:glass", settings), std::vector<std::string>{});
     settings.camera = "inside";
@@ -289,7 +289,7 @@ class BlendedScene : public testing::TestWithParam<std::string> {};
 // cast no shadow.
 TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     const Scene scene = loadScene(GetParam());
-    Settings settings = blendedPicture();
+    Settings settings = blendedImage();
     settings.path = Path::forward_plus;
     settings.shadows = Shadows::off;
     settings.transparency = Transparency::list;
@@ -315,7 +315,7 @@ TEST(Transparent, WhereEverythingBlendsBothPathsAreAlikeInEveryMode) {
         const Scene scene = allOf(AlphaMode::blend, 0.5f, loadScene(each));
         Renderer renderer(device(), scene, pipelines());
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
-            Settings settings = blendedPicture();
+            Settings settings = blendedImage();
             settings.transparency = transparency;
             const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
             EXPECT_EQ(
@@ -353,7 +353,7 @@ TEST(Transparent, HazeIsThatOfItsOwnDepth) {
     const Scene& scene = b.scene;
     for (const int steps : {0, 32})
         for (const auto& [transparency, name] : enumNames<Transparency>()) {
-            Settings settings = blendedPicture();
+            Settings settings = blendedImage();
             settings.size = {97, 55};  // its middle pixel looks straight ahead
             settings.transparency = transparency;
             settings.haze = true;
@@ -388,7 +388,7 @@ TEST(Transparent, TheNearPlaneCutsWhatIsBlended) {
         // From 4 m in front of the camera, below the horizon, to behind it.
         b.add("pane", quad({-20, -2, -4}, {40, 0, 0}, {0, 3, 4.5}), material, glm::dvec3(0.0));
         b.scene.environment = {"sky", Image(8, 4, 3, 2.0f)};
-        Settings settings = blendedPicture();
+        Settings settings = blendedImage();
         settings.transparency = transparency;
         for (const Path path : drawn_paths) {
             const Frame frame = drawnBlended(path, b.scene, settings);

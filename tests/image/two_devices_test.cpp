@@ -131,7 +131,7 @@ TEST(TwoDevices, AMissingLightIsFound) {
     for (const std::string& fault : faults(report)) EXPECT_NE(fault.find("lit "), std::string::npos) << fault;
 }
 
-TEST(TwoDevices, APictureOfAPixelElsewhereIsFound) {
+TEST(TwoDevices, AnImageOfAPixelElsewhereIsFound) {
     const Report report = against({}, [](Frame& frame) {
         for (auto& [mode, image] : frame.channels)
             for (int y = 0; y < image.height; ++y)

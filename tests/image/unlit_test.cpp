@@ -98,7 +98,7 @@ TEST(Unlit, BlackStaysBlackUnderAnyLight) {
     scene.materials[0].base_color = {0, 0, 0, 1};
     for (const GBufferEncoding encoding :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
-        Settings settings = smallPicture(encoding);
+        Settings settings = smallImage(encoding);
         settings.size = {4, 4};
         for (const Frame& frame : bothPaths(scene, settings))
             EXPECT_EQ(colorAt(frame, Channel::lit, 2, 2), glm::vec3(0)) << frame.name;
@@ -108,7 +108,7 @@ TEST(Unlit, BlackStaysBlackUnderAnyLight) {
 // Packed encodings store the colour in the nine bits of 9.9.9.e5: 0.5, 0.25 and 0.125 are exact.
 TEST(Unlit, PackedEncodingsKeepThePowersOfTwo) {
     for (const GBufferEncoding encoding : {GBufferEncoding::compact, GBufferEncoding::standard}) {
-        Settings settings = smallPicture(encoding);
+        Settings settings = smallImage(encoding);
         settings.size = {4, 4};
         for (const Frame& frame : bothPaths(unlitSquare(), settings))
             EXPECT_EQ(colorAt(frame, Channel::lit, 2, 2), glm::vec3(0.5f, 0.25f, 0.125f)) << frame.name;

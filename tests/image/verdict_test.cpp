@@ -53,7 +53,7 @@ TEST_P(VerdictNegativeControl, Fails) {
     UploadedScene& scene = uploaded(GetParam().scene);
     Scene changed = scene.scene;
     GetParam().change(changed);
-    Settings settings = smallPicture(GBufferEncoding::standard);
+    Settings settings = smallImage(GBufferEncoding::standard);
     settings.ambient = GetParam().ambient;
     if (GetParam().shadows >= 0) {
         settings.shadows = Shadows::pcf;
@@ -302,7 +302,7 @@ TEST(VerdictNegativeControls, CoverEverySharedChannel) {
 // A lit that the capture does not reproduce, or that is not finite, fails regardless of the channels.
 TEST(Verdict, AnUnreproducedLitFails) {
     const Scene scene = loadScene("builtin:triangle");
-    std::vector<Frame> frames = bothPaths(scene, smallPicture(GBufferEncoding::standard));
+    std::vector<Frame> frames = bothPaths(scene, smallImage(GBufferEncoding::standard));
     EXPECT_TRUE(verdictOn(frames, scene).passed());
     frames[0].counters.unreproduced_pixels = 1;
     EXPECT_FALSE(verdictOn(frames, scene).passed());

@@ -2,8 +2,8 @@
 // The window's drawing thread produces the same results as the other commands, and it survives errors.
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/frames/frame_facts.h"
+#include "compare/image/channel_image.h"
 #include "compare/output/writers.h"
-#include "compare/picture/picture.h"
 #include "compare/render/renderer.h"
 #include "compare/viewer/drawing_thread.h"
 #include "compare/viewer/fly_camera.h"
@@ -61,7 +61,7 @@ Frame drawn(Device& device, const Scene& scene, const Settings& settings,
     return Renderer(device, scene).draw(settings, options);
 }
 
-TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
+TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
     DrawingThread drawing(validated());
     Order order = orderOf("builtin:points");
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
@@ -77,12 +77,12 @@ TEST(DrawingThread, ItsPanelsAreThePicturesOfBothPaths) {
     const Exposure exposure =
         exposureFor({}, &frames[0].channels.at(Channel::lit), coverage(frames[0], frames[0]));
     const Frame* both[] = {&frames[0], &frames[1]};
-    const PictureScale scale = scaleFor(debugMode(Channel::lit), exposure, both);
+    const ImageScale scale = scaleFor(debugMode(Channel::lit), exposure, both);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(shown->panels.at(i).name, nameOf(drawn_paths.at(i)));
         EXPECT_EQ(shown->panels.at(i).values.data, frames.at(i).channels.at(Channel::lit).data);
-        EXPECT_EQ(shown->panels.at(i).picture.data,
-                  channelPicture(debugMode(Channel::lit), frames.at(i), scale).data);
+        EXPECT_EQ(shown->panels.at(i).image.data,
+                  channelImage(debugMode(Channel::lit), frames.at(i), scale).data);
         EXPECT_FALSE(shown->paths.at(i).passes.empty());
         EXPECT_GT(shown->paths.at(i).ms, 0);
     }
@@ -190,7 +190,7 @@ TEST(DrawingThread, ASceneThatCannotBeReadLeavesTheOldOne) {
 TEST(DrawingThread, ALostDeviceIsMadeAnew) {
     std::atomic<int> losses{1};
     DrawingOptions options = validated();
-    options.before_picture = [&losses] {
+    options.before_image = [&losses] {
         if (losses > 0) {
             --losses;
             throw std::runtime_error("Vulkan: vkQueueSubmit: the device was lost");
@@ -219,7 +219,7 @@ TEST(DrawingThread, EveryChannelOfBothPathsIsThereOrSaysWhyNot) {
         order.look.difference = Difference::absolute;
         ASSERT_TRUE(isDrawn(drawing, order)) << mode.name << drawing.status().error;
         for (const Panel& panel : drawing.shown()->panels) {
-            EXPECT_EQ(panel.picture.data.empty(), !panel.missing.empty()) << mode.name;
+            EXPECT_EQ(panel.image.data.empty(), !panel.missing.empty()) << mode.name;
         }
         EXPECT_TRUE(drawing.shown()->difference) << mode.name;
     }

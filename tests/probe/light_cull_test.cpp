@@ -267,7 +267,7 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1), both(-1, 1);
     std::vector<RectCase> cases;
-    for (int picture = 0; picture < 120; ++picture) {
+    for (int image = 0; image < 120; ++image) {
         View view;
         view.width = 1 + static_cast<int>(400 * unit(random) * unit(random));
         view.height = 1 + static_cast<int>(300 * unit(random) * unit(random));
@@ -288,7 +288,7 @@ std::vector<RectCase> rectCases(bool orthographic, unsigned seed) {
         }
         const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
         const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
-        const bool tiled = picture % 3 == 0;
+        const bool tiled = image % 3 == 0;
         const gpu::LightGrid grid =
             makeLightGrid({tiled ? gpu::LISTS_TILED : gpu::LISTS_CLUSTERED}, view, gpu, bounds,
                           probeDevice().profile().costs, std::uint64_t{128} << 20);

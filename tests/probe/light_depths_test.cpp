@@ -16,7 +16,7 @@ namespace diptych {
 namespace {
 
 // Reversed depths of an image, `samples` per pixel, side by side; 0: background.
-struct Picture {
+struct DepthSamples {
     int width, height, samples;
     std::vector<float> z = std::vector<float>(static_cast<std::size_t>(width * height * samples));
     float& at(int x, int y, int sample) {
@@ -47,18 +47,18 @@ struct DepthImage {
     OwnedImage image;
     OwnedImageView view;
 
-    explicit DepthImage(const Picture& picture) {
+    explicit DepthImage(const DepthSamples& stored) {
         const VkImageCreateInfo info{
             .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
             .pNext = nullptr,
             .flags = 0,
             .imageType = VK_IMAGE_TYPE_2D,
             .format = VK_FORMAT_D32_SFLOAT,
-            .extent = {static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height),
+            .extent = {static_cast<std::uint32_t>(stored.width), static_cast<std::uint32_t>(stored.height),
                        1},
             .mipLevels = 1,
             .arrayLayers = 1,
-            .samples = static_cast<VkSampleCountFlagBits>(picture.samples),
+            .samples = static_cast<VkSampleCountFlagBits>(stored.samples),
             .tiling = VK_IMAGE_TILING_OPTIMAL,
             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
             .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
@@ -79,7 +79,7 @@ struct DepthImage {
 
 // Renders a full-screen triangle to the samples of `mask` only.
 OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask mask) {
-    const OwnedShaderModule modules[] = {probeModule(probeDevice(), "whole_picture.vert"),
+    const OwnedShaderModule modules[] = {probeModule(probeDevice(), "whole_image.vert"),
                                          probeModule(probeDevice(), "sample_depths.frag")};
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -141,9 +141,9 @@ OwnedPipeline depthPipeline(VkPipelineLayout layout, int samples, VkSampleMask m
 // Renders the image's samples one after another, for a compute shader to read.
 class SampleDraw {
 public:
-    SampleDraw(Uploader& uploader, const Picture& picture)
-        : picture_(picture),
-          values_(makeBuffer<float>(probeDevice(), uploader, "sample depths", picture.z,
+    SampleDraw(Uploader& uploader, const DepthSamples& stored)
+        : image_(stored),
+          values_(makeBuffer<float>(probeDevice(), uploader, "sample depths", stored.z,
                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
           set_layout_(makeSetLayout(probeDevice(), types)),
           sets_(probeDevice(), set_layout_, types, 1) {
@@ -152,14 +152,13 @@ public:
         const std::array<VkDescriptorSetLayout, 1> layouts{set_layout_};
         const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 12};
         layout_ = makePipelineLayout(probeDevice(), layouts, range);
-        for (int s = 0; s < picture.samples; ++s)
-            pipelines_.push_back(depthPipeline(layout_, picture.samples, 1u << s));
+        for (int s = 0; s < stored.samples; ++s)
+            pipelines_.push_back(depthPipeline(layout_, stored.samples, 1u << s));
     }
 
     void record(VkCommandBuffer commands, const DepthImage& target) const {
         const VkRect2D all{
-            {0, 0},
-            {static_cast<std::uint32_t>(picture_.width), static_cast<std::uint32_t>(picture_.height)}};
+            {0, 0}, {static_cast<std::uint32_t>(image_.width), static_cast<std::uint32_t>(image_.height)}};
         constexpr ImageState attachment{
             VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
             VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
@@ -184,14 +183,14 @@ public:
         info.layerCount = 1;
         info.pDepthAttachment = &depth;
         vkCmdBeginRendering(commands, &info);
-        const VkViewport viewport{
-            0, 0, static_cast<float>(picture_.width), static_cast<float>(picture_.height), 0, 1};
+        const VkViewport viewport{0, 0, static_cast<float>(image_.width), static_cast<float>(image_.height),
+                                  0, 1};
         vkCmdSetViewport(commands, 0, 1, &viewport);
         vkCmdSetScissor(commands, 0, 1, &all);
         const VkDescriptorSet set = sets_[0];
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0, nullptr);
         for (std::uint32_t s = 0; s < pipelines_.size(); ++s) {
-            const std::array constants{all.extent.width, static_cast<std::uint32_t>(picture_.samples), s};
+            const std::array constants{all.extent.width, static_cast<std::uint32_t>(image_.samples), s};
             vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                                constants.data());
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[s]);
@@ -203,7 +202,7 @@ public:
 
 private:
     static constexpr std::array types{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    const Picture& picture_;
+    const DepthSamples& image_;
     GpuBuffer values_;
     OwnedDescriptorSetLayout set_layout_;
     DescriptorSets sets_;
@@ -217,21 +216,21 @@ struct TileBounds {
 };
 
 // The compute shader's result, for tiles of 1 << tileShift pixels.
-TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint tileShift) {
+TileBounds tileDepthBounds(const View& view, const DepthSamples& stored, gpu::uint tileShift) {
     KernelFrame frame(probeDevice(), view);
     gpu::LightGrid grid{};
     grid.tile_shift = tileShift;
     const gpu::uint side = 1u << tileShift;
-    grid.tiles = {(static_cast<gpu::uint>(picture.width) + side - 1) / side,
-                  (static_cast<gpu::uint>(picture.height) + side - 1) / side};
+    grid.tiles = {(static_cast<gpu::uint>(stored.width) + side - 1) / side,
+                  (static_cast<gpu::uint>(stored.height) + side - 1) / side};
     const GpuBuffer gridBuffer =
         makeBuffer<gpu::LightGrid>(probeDevice(), frame.uploader(), "light grid", std::span(&grid, 1),
                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     frame.uploader().flush();
     frame.sets().buffer(0, gpu::BINDING_LIGHT_GRID, gridBuffer.handle());
 
-    const DepthImage image(picture);
-    const SampleDraw samples(frame.uploader(), picture);
+    const DepthImage image(stored);
+    const SampleDraw samples(frame.uploader(), stored);
     const std::size_t tiles = std::size_t{grid.tiles.x} * grid.tiles.y;
     const GpuBuffer out(probeDevice(), "tile depths", tiles * sizeof(gpu::vec2),
                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
@@ -243,7 +242,7 @@ TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint t
     const OwnedSampler sampler = makeNearestSampler(probeDevice());
     set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     Pipelines kernels(probeDevice(), VK_NULL_HANDLE);
-    const auto samples_of = static_cast<gpu::uint>(picture.samples);
+    const auto samples_of = static_cast<gpu::uint>(stored.samples);
     const Pipeline kernel = kernels.compute(
         Shader::light_depths_comp, Variant().set(gpu::FEATURE_samples, samples_of), frame.lists().pipeline());
     probeDevice().submit([&](VkCommandBuffer commands) {
@@ -261,35 +260,35 @@ TileBounds tileDepthBounds(const View& view, const Picture& picture, gpu::uint t
 
 // Depths from 0.5 m to 500 m. The nearest and farthest depth of a tile are each in one sample of one
 // pixel, anywhere in it. Some tiles have background in one sample, some only background.
-Picture randomPicture(const View& view, int samples, gpu::uint tileShift, unsigned seed) {
+DepthSamples randomImage(const View& view, int samples, gpu::uint tileShift, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     const auto among = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
-    Picture picture{view.width, view.height, samples};
+    DepthSamples stored{view.width, view.height, samples};
     const int side = 1 << tileShift;
-    for (int y = 0; y < picture.height; y += side)
-        for (int x = 0; x < picture.width; x += side) {
+    for (int y = 0; y < stored.height; y += side)
+        for (int x = 0; x < stored.width; x += side) {
             if (among(6) == 0) continue;
-            const int across = std::min(side, picture.width - x), down = std::min(side, picture.height - y);
+            const int across = std::min(side, stored.width - x), down = std::min(side, stored.height - y);
             const double middle = 1 + 99 * unit(random);
             const auto sampleOf = [&]() -> float& {
-                return picture.at(x + among(across), y + among(down), among(samples));
+                return stored.at(x + among(across), y + among(down), among(samples));
             };
             for (int v = 0; v < down; ++v)
                 for (int u = 0; u < across; ++u)
                     for (int s = 0; s < samples; ++s)
-                        picture.at(x + u, y + v, s) =
+                        stored.at(x + u, y + v, s) =
                             static_cast<float>(reversedOf(view, middle * (1 + 0.1 * unit(random))));
             sampleOf() = static_cast<float>(reversedOf(view, middle * (0.5 + 0.3 * unit(random))));
             sampleOf() = static_cast<float>(reversedOf(view, middle * (2 + 3 * unit(random))));
             if (among(3) == 0) sampleOf() = 0;
         }
-    return picture;
+    return stored;
 }
 
 // Counts the tiles whose bounds differ from the samples' in double. A float32 division is within 3 ULP
 // (2.5 by Vulkan, and one for the sum).
-int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, const TileBounds& bounds) {
+int wrongTiles(const View& view, const DepthSamples& stored, gpu::uint tileShift, const TileBounds& bounds) {
     const int side = 1 << tileShift;
     const auto same = [](float a, double b) { return std::abs(double{a} - b) <= 4e-7 * b; };
     int wrong = 0;
@@ -297,10 +296,10 @@ int wrongTiles(const View& view, const Picture& picture, gpu::uint tileShift, co
         for (gpu::uint tx = 0; tx < bounds.tiles.x; ++tx) {
             double least = gpu::MAX_BOUND_RADIUS, largest = 0;
             const int x0 = static_cast<int>(tx) * side, y0 = static_cast<int>(ty) * side;
-            for (int y = y0; y < std::min(y0 + side, picture.height); ++y)
-                for (int x = x0; x < std::min(x0 + side, picture.width); ++x)
-                    for (int s = 0; s < picture.samples; ++s) {
-                        const float z = picture.at(x, y, s);
+            for (int y = y0; y < std::min(y0 + side, stored.height); ++y)
+                for (int x = x0; x < std::min(x0 + side, stored.width); ++x)
+                    for (int s = 0; s < stored.samples; ++s) {
+                        const float z = stored.at(x, y, s);
                         if (z == 0) continue;
                         least = std::min(least, depthOf(view, double{z}));
                         largest = std::max(largest, depthOf(view, double{z}));
@@ -316,9 +315,9 @@ TEST(LightDepths, AreThoseOfAllSamples) {
     const View view = plainView(75, 53);
     for (const int samples : {1, 4})
         for (const gpu::uint tileShift : {4u, 5u}) {
-            const Picture picture = randomPicture(view, samples, tileShift, 41);
-            const TileBounds bounds = tileDepthBounds(view, picture, tileShift);
-            EXPECT_EQ(wrongTiles(view, picture, tileShift, bounds), 0)
+            const DepthSamples stored = randomImage(view, samples, tileShift, 41);
+            const TileBounds bounds = tileDepthBounds(view, stored, tileShift);
+            EXPECT_EQ(wrongTiles(view, stored, tileShift, bounds), 0)
                 << samples << " samples, 2^" << tileShift;
         }
 }
@@ -327,11 +326,11 @@ TEST(LightDepths, AreThoseOfAllSamples) {
 // bounds.
 TEST(LightDepths, NoSampleIsPassedOver) {
     const View view = plainView(75, 53);
-    const Picture picture = randomPicture(view, 4, 4, 42);
-    const TileBounds bounds = tileDepthBounds(view, picture, 4);
-    EXPECT_EQ(wrongTiles(view, picture, 4, bounds), 0);
+    const DepthSamples stored = randomImage(view, 4, 4, 42);
+    const TileBounds bounds = tileDepthBounds(view, stored, 4);
+    EXPECT_EQ(wrongTiles(view, stored, 4, bounds), 0);
     for (int s = 0; s < 4; ++s) {
-        Picture other = picture;
+        DepthSamples other = stored;
         for (int y = 0; y < other.height; ++y)
             for (int x = 0; x < other.width; ++x)
                 if (float& z = other.at(x, y, s); z > 0) z *= 0.1f;

@@ -94,7 +94,7 @@ void print(const std::string& what, const Pairs& pairs) {
 
 constexpr gpu::uint kinds[] = {gpu::LISTS_CLUSTERED, gpu::LISTS_TILED};
 
-View pictureOf(int width, int height, bool orthographic) {
+View viewOf(int width, int height, bool orthographic) {
     View view = plainView(width, height);
     view.camera.orthographic = orthographic;
     view.camera.ymag = 8;
@@ -127,7 +127,7 @@ TEST(LightKernels, MarkTheSameCells) {
             for (const auto& [width, height] : {std::pair{1, 1}, {15, 17}, {213, 119}, {640, 360}})
                 for (const std::size_t count : {std::size_t{1}, std::size_t{33}, std::size_t{1500}}) {
                     const Pairs pairs =
-                        pairsOf(pictureOf(width, height, orthographic), lightsAround(count, 1, 91), kind);
+                        pairsOf(viewOf(width, height, orthographic), lightsAround(count, 1, 91), kind);
                     EXPECT_EQ(pairs.different, 0u)
                         << width << "x" << height << ", " << count << " lights, lists " << kind;
                     marked += pairs.marked;
@@ -151,7 +151,7 @@ TEST(LightKernels, MarkTheSameCellsOfExtremeLights) {
     for (const bool orthographic : {false, true})
         for (const gpu::uint kind : kinds)
             for (const auto& [width, height] : {std::pair{9, 700}, {320, 180}}) {
-                const Pairs pairs = pairsOf(pictureOf(width, height, orthographic), lights, kind);
+                const Pairs pairs = pairsOf(viewOf(width, height, orthographic), lights, kind);
                 EXPECT_EQ(pairs.different, 0u) << width << "x" << height << ", lists " << kind;
                 EXPECT_GT(pairs.marked, 0u);
             }
@@ -172,7 +172,7 @@ TEST(LightKernels, GatherTestsFewLightsInFewCells) {
 
 // Negative control: the masks detect a light that is 1 % smaller.
 TEST(LightKernels, ASmallerLightIsFound) {
-    const View view = pictureOf(213, 119, false);
+    const View view = viewOf(213, 119, false);
     std::vector<Light> lights = lightsAround(200, 1, 95);
     const Masks whole = masksOf(view, lights, gpu::LISTS_TILED, ListKernel::scatter);
     for (Light& light : lights) light.range *= 0.99f;

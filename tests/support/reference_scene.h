@@ -70,32 +70,32 @@ inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>&
 
 struct Drawn {
     Pose pose;
-    Picture picture;
-    const Image& operator[](Channel mode) const { return picture.channels.at(mode); }
+    ReferenceImage image;
+    const Image& operator[](Channel mode) const { return image.channels.at(mode); }
 };
 // `shadows`: of every light and of the environment. `keep`: stem of the checkpoint.
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,
                    const std::filesystem::path& keep = {}, const std::function<void(double)>& progress = {}) {
     Drawn result{poseAt(scene, 0), {}};
     std::optional<Checkpoint> checkpoint;
-    result.picture = draw({.scene = scene,
-                           .pose = result.pose,
-                           .view = view,
-                           .lights = result.pose.lights,
-                           .casters = shadows ? everyLight(result.pose.lights) : std::vector<std::size_t>{},
-                           .shadowed_environment = shadows,
-                           .mode = ReferenceMode::scene,
-                           .samples = samples,
-                           .surfaces = nullptr,
-                           .keep = keptAt(keep, checkpoint),
-                           .progress = progress});
+    result.image = draw({.scene = scene,
+                         .pose = result.pose,
+                         .view = view,
+                         .lights = result.pose.lights,
+                         .casters = shadows ? everyLight(result.pose.lights) : std::vector<std::size_t>{},
+                         .shadowed_environment = shadows,
+                         .mode = ReferenceMode::scene,
+                         .samples = samples,
+                         .surfaces = nullptr,
+                         .keep = keptAt(keep, checkpoint),
+                         .progress = progress});
     return result;
 }
 
 // The same view in mode surface, from `surfaces` as if a path had captured them.
-inline Picture shadedAgain(const Scene& scene, const View& view, const Drawn& traced,
-                           const std::map<Channel, Image>& surfaces, bool shadows = false,
-                           const std::optional<Air>& air = {}) {
+inline ReferenceImage shadedAgain(const Scene& scene, const View& view, const Drawn& traced,
+                                  const std::map<Channel, Image>& surfaces, bool shadows = false,
+                                  const std::optional<Air>& air = {}) {
     return draw({.scene = scene,
                  .pose = traced.pose,
                  .view = view,

@@ -67,8 +67,8 @@ TEST(Baseline, AChangeOfTheLightFailsInEveryRow) {
 TEST(Baseline, OfAnotherRendererNeedsARule) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render builtin:points --size 32x18 --runs 0 -q -o mine.exr").code, 0);
-    const PictureFile mine = readExr(folder / "mine.exr");
-    const auto lit = std::ranges::find(mine.layers, "", &PictureLayer::name);
+    const ImageFile mine = readExr(folder / "mine.exr");
+    const auto lit = std::ranges::find(mine.layers, "", &ImageLayer::name);
     ASSERT_NE(lit, mine.layers.end());
     Image rgb(32, 18, 3);
     for (std::size_t i = 0; i < rgb.pixels(); ++i)

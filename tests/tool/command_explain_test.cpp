@@ -68,7 +68,7 @@ TEST(Command, ExplainLeavesAPageWithItsMaps) {
 }
 
 // From two files, which name their scene and Settings.
-TEST(Command, ExplainReadsPictures) {
+TEST(Command, ExplainReadsImages) {
     const Folder folder;
     const std::string view = " builtin:points --size 64x36 ";
     ASSERT_EQ(runTool(folder, "render" + view + "--path forward_plus -o a.exr").code, 0);
@@ -98,9 +98,9 @@ TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
     const Folder folder;
     const std::string scene = "builtin:points";
     ASSERT_EQ(runTool(folder, "render " + scene + " --size 64x36 --path forward_plus -o a.exr").code, 0);
-    PictureFile theirs = readExr(folder / "a.exr");
+    ImageFile theirs = readExr(folder / "a.exr");
     const auto layer = [&](std::string_view name) -> Image& {
-        return std::ranges::find(theirs.layers, name, &PictureLayer::name)->image;
+        return std::ranges::find(theirs.layers, name, &ImageLayer::name)->image;
     };
     Image &lit = layer(""), &specular = layer("lit_specular");
     for (std::size_t p = 0; p < lit.pixels(); ++p)
@@ -109,7 +109,7 @@ TEST(Command, ExplainNamesTheStageOfAnotherRenderer) {
             specular.pixel(p)[c] *= 1.5f;
         }
     std::vector<ExrLayerView> views;
-    for (const PictureLayer& one : theirs.layers) views.push_back({one.channels, &one.image});
+    for (const ImageLayer& one : theirs.layers) views.push_back({one.channels, &one.image});
     writeExr(folder / "b.exr", views);
     const Ran ran = runTool(folder, "explain a.exr b.exr -o why --json");
     ASSERT_EQ(ran.code, 0) << ran.err;

@@ -253,7 +253,7 @@ TEST(Command, PlanSaysOfAPathTheSameAloneAndBesideAnother) {
     }
 }
 
-TEST(Command, RenderDrawsAPictureOfEachChannelAskedFor) {
+TEST(Command, RenderDrawsAnImageOfEachChannelAskedFor) {
     const Folder folder;
     const auto pngs = [&](const char* in) {
         std::set<std::string> names;

@@ -32,7 +32,7 @@ Json comparisonWith(const Json& report, const std::string& name) {
 
 // Diptych itself as the renderer, through the template. The job is sufficient to reproduce the image from
 // a scene, lights and a camera written as glTF and JSON.
-TEST(External, WhatAJobSaysIsEnoughToDrawThePictureAgain) {
+TEST(External, WhatAJobSaysIsEnoughToDrawTheImageAgain) {
     for (const std::string scene :
          {"builtin:points", "builtin:spots --camera 'eye=1,2,6 target=0,1,0 fov=50 far=40'"}) {
         const Folder folder;
@@ -196,9 +196,9 @@ TEST(External, TheBackgroundIsNotCompared) {
     const Folder folder;
     const std::string ours = "builtin:triangle --size 32x18 --runs 0 -q ";
     ASSERT_EQ(runTool(folder, "render " + ours + "--channels lit,material_id -o p.exr").code, 0);
-    const PictureFile file = readExr(folder / "p.exr");
-    Image lit = std::ranges::find(file.layers, "", &PictureLayer::name)->image;
-    const Image& ids = std::ranges::find(file.layers, "material_id", &PictureLayer::name)->image;
+    const ImageFile file = readExr(folder / "p.exr");
+    Image lit = std::ranges::find(file.layers, "", &ImageLayer::name)->image;
+    const Image& ids = std::ranges::find(file.layers, "material_id", &ImageLayer::name)->image;
     std::size_t behind = 0;
     for (std::size_t i = 0; i < lit.pixels(); ++i)
         if (ids.pixel(i)[0] < 0) {
@@ -338,8 +338,8 @@ TEST(External, GrantsChangeWhatIsToldAndReadAndAreReported) {
     const auto readWith = [&](const Json& granted) {
         writeRenderer(folder, "fake", {"copy", (folder / "theirs.exr").string()}, {{"granted", granted}});
         EXPECT_EQ(runTool(folder, compare_points + "--renderer fake=fake.json").code, 1);
-        PictureFile file = readExr(folder / "diptych-report/fake.exr");
-        return std::ranges::find(file.layers, "", &PictureLayer::name)->image;
+        ImageFile file = readExr(folder / "diptych-report/fake.exr");
+        return std::ranges::find(file.layers, "", &ImageLayer::name)->image;
     };
     // In the middle of the image, where the scene's floor is visible.
     EXPECT_FLOAT_EQ(readWith(Json::object()).at(16, 12), image.at(16, 12));

@@ -11,7 +11,7 @@
 
 namespace diptych {
 
-// Modes: picture (all pixels 0.25, 0.5, 0.75), wide, nan, none, exit, crash, hang FILE (a child writes its
+// Modes: image (all pixels 0.25, 0.5, 0.75), wide, nan, none, exit, crash, hang FILE (a child writes its
 // process id there), flee FILE (hang, but the child has a session of its own), stop FILE (hang, but stops its
 // parent), link EXR, old EXR, chatter, keep FOLDER (stores its inputs), copy EXR.
 inline const std::string fake_renderer = R"py(

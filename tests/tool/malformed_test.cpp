@@ -30,22 +30,22 @@ std::vector<std::string> filesOf(const std::string& wanted) {
 
 class Malformed : public testing::TestWithParam<const char*> {};
 
-TEST_P(Malformed, FilesEndInAPictureOrOneLine) {
+TEST_P(Malformed, FilesEndInAnImageOrOneLine) {
     if (!fs::exists(malformed))
         GTEST_SKIP() << "NO ASSETS at " << malformed << ": malformed files are not drawn";
     const Folder folder;
     const std::vector<std::string> files = filesOf(GetParam());
     EXPECT_GT(files.size(), 5u);
     for (const std::string& file : files) {
-        const fs::path scene = malformed / file, picture = folder / "picture.png";
-        fs::remove(picture);
+        const fs::path scene = malformed / file, image = folder / "picture.png";
+        fs::remove(image);
         // Ten seconds of processor time, independent of the machine's load; and a limit against hanging.
         const Ran ran = runShell(folder,
                                  "ulimit -t 10; timeout 120 '" DIPTYCH_PROGRAM "' render '" + scene.string() +
                                      "' --size 64x36 --runs 0 -q -o picture.png",
                                  folder.path());
         if (ran.code == 0)
-            EXPECT_TRUE(fs::exists(picture) && ran.err.empty()) << file << ": " << ran.err;
+            EXPECT_TRUE(fs::exists(image) && ran.err.empty()) << file << ": " << ran.err;
         else
             EXPECT_TRUE(ran.failedOver(scene.string() + ": ")) << file;
     }

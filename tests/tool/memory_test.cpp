@@ -89,7 +89,7 @@ TEST(Memory, PlanningTakesLittle) {
 // 8-bit images stay in 8 bits, and metrics are measured a few rows at a time. Besides both images there
 // are the mask of counted pixels and FLIP's errors, 1 and 4 bytes. Both sizes have the same width, so the
 // threads' row buffers cancel. With float images and per-metric errors it took 44.
-TEST(Memory, DiffHoldsPicturesAsTheyAreStored) {
+TEST(Memory, DiffHoldsImagesAsTheyAreStored) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer keeps what was freed";
 #endif
@@ -97,12 +97,12 @@ TEST(Memory, DiffHoldsPicturesAsTheyAreStored) {
     constexpr int width = 2048, low = 512, high = 2560;
     const Folder scratch;
     const auto diff = [&](int height) {
-        Image8 picture{width, height, 3, std::vector<std::uint8_t>(std::size_t{3} * width * height)};
-        for (std::size_t i = 0; i < picture.data.size(); ++i)
-            picture.data[i] = static_cast<std::uint8_t>(i / 3 * 7919 >> 6);
-        writePng(scratch / "a.png", picture);
-        for (std::size_t i = 0; i < picture.data.size(); i += 5) picture.data[i] ^= 9;
-        writePng(scratch / "b.png", picture);
+        Image8 image{width, height, 3, std::vector<std::uint8_t>(std::size_t{3} * width * height)};
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            image.data[i] = static_cast<std::uint8_t>(i / 3 * 7919 >> 6);
+        writePng(scratch / "a.png", image);
+        for (std::size_t i = 0; i < image.data.size(); i += 5) image.data[i] ^= 9;
+        writePng(scratch / "b.png", image);
         return largestMemory(scratch, {"diff", "a.png", "b.png", "--json"});
     };
     const double small = diff(low), large = diff(high);

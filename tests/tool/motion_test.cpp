@@ -82,9 +82,9 @@ const std::string reference = " --path reference --reference-mode scene";
 
 // Coverage of the middle row's columns, such as "01000".
 std::string columnsIn(const fs::path& exr) {
-    const PictureFile picture = readExr(exr);
+    const ImageFile image = readExr(exr);
     std::string row;
-    for (const PictureLayer& layer : picture.layers)
+    for (const ImageLayer& layer : image.layers)
         if (layer.name == "material_id")
             for (int x = 0; x < 5; ++x) row += layer.image.at(x, 2) >= 0 ? '1' : '0';
     return row;
@@ -180,7 +180,7 @@ TEST(Motion, TimesThatCannotBeAreRefused) {
 }
 
 // One line of output for each, and one file per path.
-TEST(Motion, FramesAreNumberedPicturesOfTheirTimes) {
+TEST(Motion, FramesAreNumberedImagesOfTheirTimes) {
     const Folder folder;
     folder.write("node.gltf", byItsNode().dump());
     folder.write("target.gltf", byATarget().dump());
@@ -233,7 +233,7 @@ TEST(Motion, FramesInAFolderAreListedAndReplaced) {
 }
 
 // One exposure for all: otherwise lit would flicker as the sun rises.
-TEST(Motion, PicturesOfAMotionAreExposedAlike) {
+TEST(Motion, ImagesOfAMotionAreExposedAlike) {
     const Folder folder;
     const Ran ran = runTool(folder,
                             "render builtin:motion --size 16x9 --frames 2 --fps 1 --runs 0 --channels lit "

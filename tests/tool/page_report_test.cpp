@@ -74,7 +74,7 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
 }
 
 // A window of 1400 x 900 pixels, before any scrolling, opening or hovering.
-TEST(PageReport, TheFirstScreenShowsPictures) {
+TEST(PageReport, TheFirstScreenShowsImages) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     for (const bool fails : {false, true}) {

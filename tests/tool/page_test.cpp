@@ -59,7 +59,7 @@ TEST(Page, SliderKeysAndButtonsWork) {
 }
 
 // Every panel of a card shows the same part of its image.
-TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
+TEST(Page, ZoomAndPanMoveAllImagesOfACard) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const Visit seen = visit(folder, written(folder, reportOf(rampFrames())), R"(
@@ -121,7 +121,7 @@ TEST(Page, ZoomAndPanMoveAllPicturesOfACard) {
     together("pinch", 0.25, 0.25, 0.5);
 }
 
-TEST(Page, WorstPixelsLeadIntoThePicture) {
+TEST(Page, WorstPixelsLeadIntoTheImage) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const std::string script = R"(

@@ -45,7 +45,7 @@ TEST(PageValues, TheValuesUnderTheCursorAreThoseOfTheFrames) {
 }
 
 // Larger images are quantized, and the page says so; the difference keeps its digits.
-TEST(PageValues, LargerPicturesAreQuantisedAndSaySo) {
+TEST(PageValues, LargerImagesAreQuantisedAndSaySo) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     std::vector<Frame> frames = rampFrames(256, 192);

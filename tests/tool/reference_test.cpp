@@ -271,7 +271,7 @@ fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::
 }
 
 // A different image starts a new checkpoint; the first one's is neither used nor lost.
-bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::string>& words) {
+bool keepsWhatIsOfAnotherImage(const Folder& folder, const std::vector<std::string>& words) {
     const std::string command = "render builtin:triangle --path reference --size 32x18 --force -o r.exr";
     const Ran first = runTool(folder, command);
     EXPECT_EQ(first.code, 0);
@@ -299,8 +299,8 @@ bool keepsWhatIsOfAnotherPicture(const Folder& folder, const std::vector<std::st
     return true;
 }
 
-TEST(ReferenceTool, WhatIsKeptOfAnotherPictureStaysAndIsNamed) {
-    untilCaughtAtWork(keepsWhatIsOfAnotherPicture);
+TEST(ReferenceTool, WhatIsKeptOfAnotherImageStaysAndIsNamed) {
+    untilCaughtAtWork(keepsWhatIsOfAnotherImage);
 }
 
 // Two programs render the same image with the same -o and are both killed: no tile of either is lost.
@@ -401,8 +401,8 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     for (const std::size_t row : {0u, 1u})
         EXPECT_NE(report["comparisons"][row]["channels"].dump().find("the reference's uncertainty"),
                   std::string::npos);
-    const PictureFile exr = readExr(folder / "r.exr");
-    EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &PictureLayer::name), 1);
+    const ImageFile exr = readExr(folder / "r.exr");
+    EXPECT_EQ(std::ranges::count(exr.layers, "uncertainty", &ImageLayer::name), 1);
     const Ran diff = runTool(folder, "diff r.exr r.exr --json");
     EXPECT_EQ(diff.code, 0) << diff.err;
     EXPECT_NE(diff.out.find("albedo"), std::string::npos) << diff.out;

@@ -30,13 +30,13 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
     SharedResources shared(device, scene);
     for (const Skinning skinning : {Skinning::compute, Skinning::vertex}) {
         std::deque<PreparedFrame> frames;
-        std::vector<Image> pictures;
+        std::vector<Image> images;
         const auto drawAt = [&](double time) {
             for (const Path path : drawn_paths) {
                 const Settings settings = settingsAt(time, path, skinning);
                 frames.emplace_back(device, shared, views.at(viewRequest(settings)), settings);
                 frames.back().passes.run();
-                pictures.push_back(readLit(frames.back()));
+                images.push_back(readLit(frames.back()));
             }
         };
         const std::size_t posed = shared.posings.made();
@@ -54,9 +54,9 @@ TEST(Times, ASecondTimeUploadsItsPoseAndCompilesNothing) {
             << "of " << shared.geometry.bytes() << " bytes of geometry";
         // Each time gives a different image, whichever was rendered last.
         for (std::size_t i = 0; i < 2; ++i) {
-            EXPECT_NE(pictures[i].data, pictures[i + 4].data) << i;
+            EXPECT_NE(images[i].data, images[i + 4].data) << i;
             frames[i].passes.run();
-            EXPECT_EQ(readLit(frames[i]).data, pictures[i].data) << i;
+            EXPECT_EQ(readLit(frames[i]).data, images[i].data) << i;
         }
     }
 }

@@ -19,7 +19,7 @@ Ran runPrinted(const Folder& folder, const std::string& command, const std::stri
     return runTool(folder, command.substr(8) + " " + more);
 }
 
-TEST(Tradeoff, LeavesTableCsvJsonPlotsPageAndPictures) {
+TEST(Tradeoff, LeavesTableCsvJsonPlotsPageAndImages) {
     const Folder folder;
     const Ran ran = runTool(folder, sweep);
     ASSERT_EQ(ran.code, 0) << ran.err;
@@ -92,9 +92,9 @@ TEST(Tradeoff, EveryRowIsReproducedByItsCommand) {
         ASSERT_EQ(one["rows"].size(), 1u) << row["measure"];
         EXPECT_EQ(one["rows"][0]["errors"], row["errors"]) << row["measure"] << ": to the last bit";
         EXPECT_EQ(one["rows"][0]["settings"], row["settings"]);
-        const Ran picture = runPrinted(folder, row["render"], "-q --json --runs 0 -o picture");
-        ASSERT_EQ(picture.code, 0) << picture.err;
-        const Json frames = Json::parse(picture.out)["frames"];
+        const Ran image = runPrinted(folder, row["render"], "-q --json --runs 0 -o picture");
+        ASSERT_EQ(image.code, 0) << image.err;
+        const Json frames = Json::parse(image.out)["frames"];
         ASSERT_EQ(frames.size(), 2u);
         EXPECT_EQ(frames[0]["settings"], row["settings"]) << row["render"];
         if (row["compare"].is_null()) continue;

@@ -31,9 +31,9 @@ const char* const coloured = R"({
 
 const std::string small = " v.gltf --size 16x9 ";
 
-// The index of the one material in the picture.
+// The index of the one material in the image.
 int materialIn(const fs::path& exr) {
-    for (const PictureLayer& layer : readExr(exr).layers)
+    for (const ImageLayer& layer : readExr(exr).layers)
         if (layer.name == "material_id") return static_cast<int>(*std::ranges::max_element(layer.image.data));
     return -1;
 }

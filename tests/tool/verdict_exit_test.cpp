@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Warnings, bounds met exactly, and FLIP's options, as scripts see them: exit codes and numbers.
 #include "compare/metrics/flip.h"
+#include "shared/image/image_file.h"
 #include "shared/image/pfm.h"
-#include "shared/image/picture_file.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>
@@ -62,8 +62,8 @@ TEST(VerdictExit, AWarningIsNoFailure) {
 TEST(VerdictExit, FlipsOptionsReachIt) {
     const Folder folder;
     writePair(folder);
-    const Image a = readPicture(folder / "a.pfm").layers.at(0).image,
-                b = readPicture(folder / "b.pfm").layers.at(0).image;
+    const Image a = readImage(folder / "a.pfm").layers.at(0).image,
+                b = readImage(folder / "b.pfm").layers.at(0).image;
     const auto flipOf = [&](const std::string& options) {
         const Ran ran = runTool(folder, "diff a.pfm b.pfm --json " + options);
         return Json::parse(ran.out)["metrics"]["flip"].get<double>();

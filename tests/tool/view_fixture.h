@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A window of `diptych view` on a virtual screen, and its pictures.
+// A window of `diptych view` on a virtual screen, and its images.
 #pragma once
 
 #include "compare/viewer/canvas.h"
@@ -91,16 +91,16 @@ protected:
     }
 
     // The image that render writes for `words`.
-    PngPicture rendered(const std::string& words) {
+    PngImage rendered(const std::string& words) {
         const Ran ran = runTool(folder_, "render " + words + " --runs 0 --force -o rendered.png");
         EXPECT_EQ(ran.code, 0) << ran.err;
         const std::string bytes = contentsOf(folder_ / "rendered.png");
-        return readPngPicture(std::as_bytes(std::span(bytes)), "rendered.png");
+        return readPngImage(std::as_bytes(std::span(bytes)), "rendered.png");
     }
 
-    // Number of image pixels that differ from the panel by more than one display level. `picture` may have
+    // Number of image pixels that differ from the panel by more than one display level. `image` may have
     // a strip below.
-    int differing(const PngPicture& picture, std::size_t panel, const viewer::CanvasView& view,
+    int differing(const PngImage& image, std::size_t panel, const viewer::CanvasView& view,
                   bool difference = false) {
         const Screen screen = display_->screen();
         viewer::InterfaceState state;
@@ -123,7 +123,7 @@ protected:
                     ++seen;
                     const auto& shown = screen.at(static_cast<int>(px), static_cast<int>(py));
                     for (int c = 0; c < 3; ++c)
-                        if (std::abs(shown[static_cast<std::size_t>(c)] - 255 * picture.image.at(x, y, c)) >
+                        if (std::abs(shown[static_cast<std::size_t>(c)] - 255 * image.image.at(x, y, c)) >
                             1.01) {
                             ++count;
                             break;

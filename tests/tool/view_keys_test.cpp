@@ -112,7 +112,7 @@ TEST_F(ViewCamera, KeysThatShowSomethingTakeItAwayAgain) {
     EXPECT_TRUE(side() != timed);
     key("i");
     // While pressed, it swaps the panels.
-    const PngPicture deferred = rendered("builtin:points --size 320x180 --exposure 1 --path deferred");
+    const PngImage deferred = rendered("builtin:points --size 320x180 --exposure 1 --path deferred");
     display_->events("keydown b");
     viewer::CanvasView other;
     other.other = true;

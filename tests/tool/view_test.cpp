@@ -39,8 +39,8 @@ TEST_F(View, TheWipesHalvesAreWhatRenderWrites) {
     // Few bits, so that the two images differ visibly.
     open({"builtin:normals", "--exposure", "1", "--gbuffer", "compact"});
     const std::string scene = "builtin:normals --size 320x180 --exposure 1 --gbuffer compact";
-    const PngPicture deferred = rendered(scene + " --path deferred"),
-                     forward = rendered(scene + " --path forward_plus");
+    const PngImage deferred = rendered(scene + " --path deferred"),
+                   forward = rendered(scene + " --path forward_plus");
     EXPECT_EQ(differing(deferred, 0, wipe()), 0);
     EXPECT_EQ(differing(forward, 1, wipe()), 0);
     EXPECT_GT(differing(forward, 0, wipe()), 100);
@@ -191,17 +191,17 @@ TEST_F(View, ABrokenSceneOnReadingAgainKeepsTheOldOne) {
 "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
     folder_.write("a.gltf", scene);
     open({"a.gltf", "--watch", "--exposure", "1"});
-    const PngPicture picture = rendered("a.gltf --size 320x180 --exposure 1");
-    EXPECT_EQ(differing(picture, 1, wipe()), 0);
+    const PngImage image = rendered("a.gltf --size 320x180 --exposure 1");
+    EXPECT_EQ(differing(image, 1, wipe()), 0);
     folder_.write("a.gltf", "{");
     display_->events("key r");
     EXPECT_TRUE(soon([&] { return times("a.gltf: ") > 0; })) << view_->err();
-    EXPECT_EQ(differing(picture, 1, wipe()), 0) << "the old scene stays";
+    EXPECT_EQ(differing(image, 1, wipe()), 0) << "the old scene stays";
     stills_ = times("view: still");
     folder_.write("a.gltf", scene);  // --watch reads it by itself
     EXPECT_TRUE(soon([&] { return times("a file has changed") > 0; })) << view_->err();
     settle();
-    EXPECT_EQ(differing(picture, 1, wipe()), 0);
+    EXPECT_EQ(differing(image, 1, wipe()), 0);
     close();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture of opaque surfaces and the background, and its mip chain, behind surfaces with transmission.
+// The image of opaque surfaces and the background, and its mip chain, behind surfaces with transmission.
 #ifndef BACKDROP_GLSL
 #define BACKDROP_GLSL
 
@@ -18,7 +18,7 @@ vec3 backdropLevel(const vec2 p, const int level) {
     return blend(blend(aa, ba, t.x), blend(ab, bb, t.x), t.y);
 }
 
-// Radiance, W/(sr m^2), at pixel `p`, which may lie outside the picture. `level`: at least 0, between levels.
+// Radiance, W/(sr m^2), at pixel `p`, which may lie outside the image. `level`: at least 0, between levels.
 vec3 backdropAt(const vec2 p, const float level) {
     vec2 inside = clamp(p, vec2(0.0), vec2(textureSize(backdrop, 0)));
     float last = float(textureQueryLevels(backdrop) - 1), at = min(level, last), first = floor(at);

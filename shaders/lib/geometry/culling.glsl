@@ -9,7 +9,7 @@
 #include "shared/contract/culling.h"
 
 // The view's render target, from CullingConstants.
-struct CulledPicture {
+struct CulledImage {
     vec2 half_size;   // pixels
     uint samples;     // per pixel
     float place_off;  // pixels
@@ -83,14 +83,14 @@ struct PixelTriangle {
 // Rasterised corners are within `off` pixels of these, across and down. x / w is at most 1; the errors
 // of x and of w both count, divided by the smallest possible w. Rounding of pixel coordinates and the
 // rasteriser's snapping add to it.
-PixelTriangle inPixels(const CulledItem item, const CulledPicture picture, const ClipTriangle t) {
+PixelTriangle inPixels(const CulledItem item, const CulledImage image, const ClipTriangle t) {
     PixelTriangle c;
     float nearest = min(t.w.x, min(t.w.y, t.w.z)) - item.error.w;
-    vec2 far = picture.half_size * slackOf(item).xy / nearest;
-    float off = picture.snap + picture.place_off + max(far.x, far.y);
+    vec2 far = image.half_size * slackOf(item).xy / nearest;
+    float off = image.snap + image.place_off + max(far.x, far.y);
     c.wide = 1.4143 * off;
-    vec3 across = t.x / t.w * picture.half_size.x + picture.half_size.x,
-         down = t.y / t.w * picture.half_size.y + picture.half_size.y;
+    vec3 across = t.x / t.w * image.half_size.x + image.half_size.x,
+         down = t.y / t.w * image.half_size.y + image.half_size.y;
     c.p = vec2(across.x, down.x), c.q = vec2(across.y, down.y), c.r = vec2(across.z, down.z);
     c.low = min(c.p, min(c.q, c.r)) - off, c.high = max(c.p, max(c.q, c.r)) + off;
     c.reach = c.high.x - c.low.x + c.high.y - c.low.y;
@@ -139,7 +139,7 @@ bool coversSample(const PixelTriangle t, const uint samples) {
 }
 
 // Whether a triangle may cover a sample of its draw; corners in object space, m.
-bool mayShow(const CulledItem item, const CulledPicture picture, const vec3 first, const vec3 second,
+bool mayShow(const CulledItem item, const CulledImage image, const vec3 first, const vec3 second,
              const vec3 third) {
     vec4 a = item.clip_from_object * vec4(first, 1.0), b = item.clip_from_object * vec4(second, 1.0),
          c = item.clip_from_object * vec4(third, 1.0);
@@ -148,9 +148,9 @@ bool mayShow(const CulledItem item, const CulledPicture picture, const vec3 firs
     if (isBeyondView(item, clip)) return false;
     // Clipping moves corners, so clipped triangles are kept.
     if (!isWithinView(item, clip)) return true;
-    PixelTriangle triangle = inPixels(item, picture, clip);
+    PixelTriangle triangle = inPixels(item, image, clip);
     if (facesAway(triangle)) return false;
-    return coversSample(triangle, picture.samples);
+    return coversSample(triangle, image.samples);
 }
 
 #endif

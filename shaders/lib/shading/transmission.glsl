@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_transmission, _volume and _dispersion: light from opaque surfaces behind this one. A surface
 // without thickness shows what is straight behind it. One with thickness stands for a slab (slab.glsl), and
-// shows what the camera sees where the ray leaves it. Roughness blurs by the picture's mip chain, as in
+// shows what the camera sees where the ray leaves it. Roughness blurs by the image's mip chain, as in
 // three.js and the Khronos sample viewer.
 #ifndef TRANSMISSION_GLSL
 #define TRANSMISSION_GLSL

@@ -33,7 +33,7 @@ ivec2 pixelHere() {
 }
 
 // Workgroups at the right and lower edge extend beyond the image.
-bool isInPicture() {
+bool isInImage() {
     ivec2 size = multisampled() ? imageSize(lit_samples) : imageSize(lit_target);
     return all(lessThan(pixelHere(), size));
 }

@@ -28,7 +28,7 @@ struct Parameter {
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
-constexpr bool PICTURE = false, TEST = true;
+constexpr bool IMAGE = false, TEST = true;
 
 struct Row {
     std::string_view name, shows;
@@ -60,12 +60,12 @@ double arrayBytes(Numbers n) {
 
 constexpr std::array ROWS{
     Row{"gallery", "sculpture hall in the evening: every kind of material, about 70 lights (the default)",
-        builtin::gallery, PICTURE},
-    Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", nullptr, PICTURE,
+        builtin::gallery, IMAGE},
+    Row{"spheres", "400 spheres, a sun and N point lights: many-light benchmark", nullptr, IMAGE,
         [](Builder& b, Numbers n) { builtin::spheres(b, n[0]); }, sphereParameters,
         [](Numbers n) { return lightBytes * n[0]; }},
     Row{"furnace", "white furnace: white spheres, metallic by roughness, in uniform light", builtin::furnace,
-        PICTURE},
+        IMAGE},
     Row{"normals", "normals of every direction under sharp highlights: seams of normal encodings",
         builtin::normals},
     Row{"emission", "emitters from 1e-6 to 1e6 W/(sr m^2), grey and saturated: range of packed HDR formats",

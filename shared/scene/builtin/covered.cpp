@@ -16,7 +16,7 @@
 namespace diptych::builtin {
 namespace {
 
-// The wall exactly fills a picture of 16:9, m.
+// The wall exactly fills an image of 16:9, m.
 constexpr glm::dvec2 wallSize(16, 9);
 constexpr std::uint32_t tilesAcross = 20, tilesOfWall = tilesAcross * tilesAcross;  // 4 are 1 %
 constexpr double fieldOfView = 60;                                                  // vertical, degrees

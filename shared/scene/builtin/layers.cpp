@@ -172,7 +172,7 @@ const BallRow transmitting[] = {
 // roughness; thickness of a film on a dark dielectric, 100 to 1000 nm; weight and index of a film on a metal;
 // both, textured; a coat over sheen over film over stretched highlights.
 void layers(Builder& b) {
-    // The frame holds both blocks; a narrower picture shows more above and below.
+    // The frame holds both blocks; a narrower image shows more above and below.
     b.camera("front", {0, 0.3, 14}, {0, 0, 0}, 29, 0.1, 100).aspect = 16.0 / 9;
     b.scene.background = glm::vec3(0.05f);
     const Maps maps{

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/gltf/texture.h"
 
+#include "shared/image/image_file.h"
 #include "shared/image/limits.h"
-#include "shared/image/picture_file.h"
 #include "shared/scene/gltf/accessor.h"
 #include "shared/scene/gltf/model.h"
 #include "shared/scene/gltf/value.h"
@@ -53,12 +53,12 @@ Sampler readSampler(const Json& file, const std::string& who) {
 // Decodes an HDR image as a texture. `most`: limit of its decoded bytes. Errors begin with `who`.
 TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t most,
                             std::vector<std::string>& notes) {
-    const PictureFile picture = readPicture(std::as_bytes(bytes), who, {}, most);
-    if (picture.width > limits::texture_side || picture.height > limits::texture_side)
-        fail(who, fmt::format("has {} x {} pixels; each side must be 1 to {}", picture.width, picture.height,
+    const ImageFile stored = readImage(std::as_bytes(bytes), who, {}, most);
+    if (stored.width > limits::texture_side || stored.height > limits::texture_side)
+        fail(who, fmt::format("has {} x {} pixels; each side must be 1 to {}", stored.width, stored.height,
                               limits::texture_side));
     constexpr std::size_t bytesPerPixel = 4 * sizeof(float);
-    const Image light = named(who, [&] { return radianceOf(picture, who, notes); });
+    const Image light = named(who, [&] { return radianceOf(stored, who, notes); });
     if (light.pixels() > most / bytesPerPixel)
         fail(who, fmt::format("with it the decoded images exceed the limit of {} MiB",
                               limits::imageBytes() >> 20));
@@ -130,7 +130,7 @@ std::vector<Claim> readImages(const Model& model, const std::vector<int>& imageO
         if (image.bufferView >= 0) all[i].cut = cutOf(model, image.bufferView);
         if (all[i].bytes.empty())
             fail(all[i].who, image.bufferView < 0 ? "cannot be read, or is empty" : "is empty");
-        all[i].radiance = lightmaps[i] && isRadiancePicture(std::as_bytes(all[i].bytes));
+        all[i].radiance = lightmaps[i] && isRadianceImage(std::as_bytes(all[i].bytes));
     }
     // Headers give the total decoded size before any image is decoded.
     ofEach([](std::size_t, Encoded& image) {

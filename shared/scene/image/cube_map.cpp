@@ -89,11 +89,11 @@ Image latLongOf(const CubeMap& cube, const glm::dmat3& cube_from_world) {
     return image;
 }
 
-Image decodedRgbd(const TextureImage& picture) {
-    Image image(picture.width, picture.height, 3);
-    const bool deep = !picture.rgba16.empty();
+Image decodedRgbd(const TextureImage& rgbd) {
+    Image image(rgbd.width, rgbd.height, 3);
+    const bool deep = !rgbd.rgba16.empty();
     const auto component = [&](std::size_t i) {
-        return deep ? picture.rgba16[i] / 65535.0 : picture.rgba[i] / 255.0;
+        return deep ? rgbd.rgba16[i] / 65535.0 : rgbd.rgba[i] / 255.0;
     };
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const double alpha = component(4 * i + 3);

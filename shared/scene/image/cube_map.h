@@ -27,6 +27,6 @@ glm::dvec3 radianceOf(const CubeMap& cube, const glm::dvec3& direction);
 Image latLongOf(const CubeMap& cube, const glm::dmat3& cube_from_world);
 
 // Decodes RGBD of EXT_lights_image_based: linear colour divided by alpha; 0 if alpha is 0.
-Image decodedRgbd(const TextureImage& picture);
+Image decodedRgbd(const TextureImage& image);
 
 }  // namespace diptych

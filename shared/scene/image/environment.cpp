@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/image/environment.h"
 
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/scene/image/radiance_layer.h"
 #include "shared/text/counted.h"
 #include "shared/text/fail.h"
@@ -28,19 +28,19 @@ void limitRadiance(Image& radiance, const std::string& where, std::vector<std::s
 }
 
 Environment readEnvironment(const std::filesystem::path& file, std::vector<std::string>& notes) {
-    const PictureFile picture = readPicture(file);
+    const ImageFile image = readImage(file);
     const std::string name = file.string();
-    if (picture.display_referred)
+    if (image.display_referred)
         fail(
             fmt::format("{}: is a {} with display colours, but an environment needs radiance; give an "
                         "OpenEXR or Radiance HDR file",
-                        name, picture.format));
+                        name, image.format));
     const std::string where = "environment " + oneLine(name);
-    Environment environment{name, named(name, [&] { return radianceOf(picture, where, notes); })};
+    Environment environment{name, named(name, [&] { return radianceOf(image, where, notes); })};
     limitRadiance(environment.radiance, where, notes);
-    if (picture.width != 2 * picture.height)
+    if (image.width != 2 * image.height)
         notes.push_back(fmt::format("{}: {} x {} pixels, not twice as wide as high; mapped to all directions",
-                                    where, picture.width, picture.height));
+                                    where, image.width, image.height));
     return environment;
 }
 

@@ -20,7 +20,7 @@ namespace {
 using Channels = std::array<std::size_t, 3>;
 
 // Indices of the channels R, G and B ("R" or "LAYER.R") of a layer, if it has all three.
-std::optional<Channels> colourOf(const PictureLayer& layer) {
+std::optional<Channels> colourOf(const ImageLayer& layer) {
     Channels channels{};
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const auto at = std::ranges::find_if(layer.channels, [&](const std::string& channel) {
@@ -32,9 +32,9 @@ std::optional<Channels> colourOf(const PictureLayer& layer) {
     return channels;
 }
 
-const PictureLayer* layerOf(const PictureFile& picture) {
-    const PictureLayer* found = nullptr;
-    for (const PictureLayer& layer : picture.layers)
+const ImageLayer* layerOf(const ImageFile& image) {
+    const ImageLayer* found = nullptr;
+    for (const ImageLayer& layer : image.layers)
         if (colourOf(layer) && (!found || layer.name.empty())) {
             found = &layer;
             if (layer.name.empty()) break;
@@ -46,7 +46,7 @@ const PictureLayer* layerOf(const PictureFile& picture) {
 struct Repaired {
     std::size_t negative = 0, not_finite = 0;
 };
-Image repairedFrom(const PictureLayer& layer, Repaired& repaired) {
+Image repairedFrom(const ImageLayer& layer, Repaired& repaired) {
     const Channels channels = *colourOf(layer);
     Image radiance(layer.image.width, layer.image.height, 3);
     for (std::size_t i = 0; i < radiance.pixels(); ++i)
@@ -76,16 +76,16 @@ void note(std::vector<std::string>& notes, std::size_t pixels, const std::string
 
 }  // namespace
 
-bool isRadiancePicture(std::span<const std::byte> bytes) {
+bool isRadianceImage(std::span<const std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     constexpr std::array<std::string_view, 4> beginnings{"\x76\x2f\x31\x01", "#?", "PF", "Pf"};
     return std::ranges::any_of(beginnings, [&](std::string_view b) { return text.starts_with(b); });
 }
 
-Image radianceOf(const PictureFile& picture, const std::string& where, std::vector<std::string>& notes) {
-    const PictureLayer* layer = layerOf(picture);
+Image radianceOf(const ImageFile& image, const std::string& where, std::vector<std::string>& notes) {
+    const ImageLayer* layer = layerOf(image);
     if (!layer) fail("has no layer with R, G and B");
-    for (const auto* said : {&picture.notes.lines, &picture.notes.not_applied, &picture.notes.in_part})
+    for (const auto* said : {&image.notes.lines, &image.notes.not_applied, &image.notes.in_part})
         for (const std::string& line : *said) notes.push_back(where + ": " + line);
     if (!layer->name.empty())
         notes.push_back(

@@ -57,7 +57,7 @@ const std::vector<Module> modules = {
      {"shared/contract", "shared/image", "shared/frame", "shared/scene", "shared/scene/model",
       "shared/scene/motion"}},
     {"compare/files", 41},
-    {"compare/picture", 41},
+    {"compare/image", 41},
     {"compare/page", 41},
     {"compare/plot", 42},
     {"compare/output", 43},

@@ -40,7 +40,7 @@ TEST(PrepassChoice, WhatIsHiddenIsSaved) {
     EXPECT_FALSE(choiceFor(2, 1, 197).on) << "a million triangles take 197 ms, fragments 4 ms";
 }
 
-TEST(PrepassChoice, AnEmptyPictureHasNoFragmentsPerPixel) {
+TEST(PrepassChoice, AnEmptyImageHasNoFragmentsPerPixel) {
     const auto says = [](std::uint64_t covered, const char* fragments) {
         const PrepassChoice choice =
             choosePrepass({.triangles = 1, .fragments = 3, .covered = covered, .textures = 0}, 1, {});

@@ -299,12 +299,12 @@ TEST(Relations, WhatIsNoNumberIsBroken) {
         EXPECT_FALSE(evaluate(endless, given, toleranceFor(equality)).passes()) << nameOf(equality);
 }
 
-TEST(Relations, PicturesAreMappedBack) {
+TEST(Relations, ImagesAreMappedBack) {
     Frame changed = twoWalls();
     changed.channels[Channel::lit].at(5, 2, 0) = 8;
     changed.channels[Channel::normals].at(5, 2, 0) = 1;
     changed.channels[Channel::normals].at(5, 2, 2) = 0;
-    PictureMap map;
+    PixelMap map;
     map.border = 1;
     map.mirrored = true;
     map.light = 4;

@@ -94,7 +94,7 @@ TEST(BenchConclusion, StandsInTableJsonAndPage) {
     EXPECT_EQ(json["conclusions"][0]["pass_ms"], (nlohmann::json{0, 19}));
 }
 
-TEST(BenchConclusion, AnotherPictureIsMarked) {
+TEST(BenchConclusion, AnotherImageIsMarked) {
     const Bench bench = oneCount();
     EXPECT_NE(benchTable(bench, 0).find("per_object *"), std::string::npos);
     EXPECT_NE(benchEnd(bench).find(starMeans), std::string::npos);

@@ -115,7 +115,8 @@ void addWays(Bench& bench, const Cover& cover, std::uint32_t lights, const std::
         row.measured.set(FrameTime{sorted[sorted.size() / 2], sorted.front(), sorted.back(),
                                    static_cast<int>(sorted.size())});
         const std::uint64_t stored = way == 0 ? 4u : way == 1 && !cover.kind.empty() ? 28u : 24u;
-        row.measured.set(FrameBytes{.gbuffer_per_pixel = stored, .picture_images = (stored + 16) * 64 * 36});
+        row.measured.set(
+            FrameBytes{.gbuffer_per_pixel = stored, .full_size_images = (stored + 16) * 64 * 36});
         row.parts = partsOf(bench.options, row.settings);
         bench.rows.push_back(std::move(row));
     }

@@ -90,7 +90,7 @@ BenchRow sampledRow(Path path, Transparency transparency, int samples, double ms
     made.measured.set(FrameTime{ms, ms - 1, ms + 2, 3});
     made.ms = {ms, ms - 1, ms + 2};
     made.passes = {{"shade earlier lights", 1}, {"assign lights", 10}, {"shade", ms / 2}};
-    made.measured.set(FrameBytes{.gbuffer_per_pixel = bytes, .picture_images = (bytes + 16) * 64 * 48});
+    made.measured.set(FrameBytes{.gbuffer_per_pixel = bytes, .full_size_images = (bytes + 16) * 64 * 48});
     BenchOptions options;
     options.table = BenchTable::msaa;
     made.parts = partsOf(options, made.settings);

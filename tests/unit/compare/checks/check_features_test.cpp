@@ -197,7 +197,7 @@ TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
     EXPECT_TRUE(cuts());
 }
 
-TEST(CheckFeatures, MirroredPicturesNeedNotBeReadable) {
+TEST(CheckFeatures, MirroredImagesNeedNotBeReadable) {
     Scene scene = plainScene();
     scene.materials[0].base_color_texture.texture = 0;
     EXPECT_EQ(featuresIn(scene), (std::set<std::string>{"orientation"}));

@@ -21,7 +21,7 @@ TEST(VisualChecks, TheBoxOfATriangleByHand) {
     EXPECT_EQ(boxesOf(checksIn(scene, viewOf())), (Boxes{{75, 25, 125, 75}}));
 }
 
-TEST(VisualChecks, NothingBehindTheCameraOrBesideThePicture) {
+TEST(VisualChecks, NothingBehindTheCameraOrBesideTheImage) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(0, 0, 2)), viewOf())), Boxes{});
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(0, 0, -0.5f)), viewOf())), Boxes{})
         << "before the near plane";
@@ -39,7 +39,7 @@ TEST(VisualChecks, WhatReachesThroughAPlaneIsCutOff) {
     EXPECT_EQ(boxesOf(checksIn(away, viewOf(1, 3))), (Boxes{{75, 66, 125, 75}}));
 }
 
-TEST(VisualChecks, WhatReachesOutOfThePictureEndsAtItsEdge) {
+TEST(VisualChecks, WhatReachesOutOfTheImageEndsAtItsEdge) {
     EXPECT_EQ(boxesOf(checksIn(sceneOf(squareAt(4, 2, -2)), viewOf())), (Boxes{{175, 0, 200, 25}}));
 }
 

@@ -61,8 +61,8 @@ TEST(CommandLine, TheOtherSharedOptionsParse) {
         EXPECT_EQ(options.scenes, std::vector<std::string>{"a.glb"});
         EXPECT_EQ(options.shown, Channel::normals);
         EXPECT_EQ(options.channels, (std::vector{Channel::lit, Channel::albedo, Channel::normals}));
-        EXPECT_EQ(options.picture.ev100, -2.5);
-        EXPECT_FALSE(options.picture.tonemap);
+        EXPECT_EQ(options.image.ev100, -2.5);
+        EXPECT_FALSE(options.image.tonemap);
         EXPECT_EQ(options.device, "llvmpipe");
         EXPECT_TRUE(options.validate && options.force && options.json && options.verbose);
         EXPECT_EQ(options.out, "out");
@@ -88,8 +88,8 @@ TEST(CommandLine, TimesAndFrames) {
 TEST(CommandLine, LimitsAreTaken) {
     EXPECT_EQ(parsedAs<SceneGroup>({"compare", "--runs", "0"}).runs, 0) << "no times, no profile";
     EXPECT_EQ(parsedAs<DiffLine>({"diff", "a", "b", "--tolerance", "0"}).diff.tolerance, 0);
-    EXPECT_EQ(parsedAs<PictureGroup>({"compare", "--ev100", "0"}).picture.ev100, 0);
-    EXPECT_EQ(parsedAs<PictureGroup>({"compare", "--exposure", "1e-30"}).picture.exposure, 1e-30);
+    EXPECT_EQ(parsedAs<ImageGroup>({"compare", "--ev100", "0"}).image.ev100, 0);
+    EXPECT_EQ(parsedAs<ImageGroup>({"compare", "--exposure", "1e-30"}).image.exposure, 1e-30);
     EXPECT_EQ(parsedAs<bench::BenchOptions>({"bench", "--max-ms", "1e-3"}).max_ms, 1e-3);
 }
 
@@ -117,7 +117,7 @@ TEST(CommandLine, AMistypedWordIsFollowedByTheOneThatWasMeant) {
 TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
     const auto shown = [](std::vector<std::string> words) {
         words.insert(words.begin(), "render");
-        return parsedAs<PictureGroup>(words).shown;
+        return parsedAs<ImageGroup>(words).shown;
     };
     EXPECT_EQ(shown({}), Channel::lit);
     EXPECT_EQ(shown({"--debug", "depth"}), Channel::depth);
@@ -125,8 +125,8 @@ TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
     EXPECT_EQ(shown({"--heat=true"}), Channel::light_count);
     EXPECT_EQ(shown({"--heat", "on"}), Channel::light_count);
     EXPECT_EQ(shown({"--heat", "off"}), Channel::lit);
-    EXPECT_TRUE(parsedAs<PictureGroup>({"render", "--debug", "lit"}).debug_given);
-    EXPECT_FALSE(parsedAs<PictureGroup>({"render", "--heat"}).debug_given);
+    EXPECT_TRUE(parsedAs<ImageGroup>({"render", "--debug", "lit"}).debug_given);
+    EXPECT_FALSE(parsedAs<ImageGroup>({"render", "--heat"}).debug_given);
     EXPECT_TRUE(parsedAs<SettingsGroup>({"render", "--path", "deferred"}).path_given);
     EXPECT_FALSE(parsedAs<SettingsGroup>({"render", "--seed", "1"}).path_given);
 }
@@ -273,7 +273,7 @@ TEST(CommandLine, WhatDiffCompares) {
                                        "-o",
                                        "d",
                                        "--json"});
-    EXPECT_EQ(o.pictures, (std::vector<std::string>{"a.exr", "b.exr"}));
+    EXPECT_EQ(o.images, (std::vector<std::string>{"a.exr", "b.exr"}));
     EXPECT_EQ(o.diff.metric, "rmse");
     EXPECT_EQ(o.diff.tolerance, 0.1);
     EXPECT_EQ(o.diff.warn, 0.05);
@@ -436,7 +436,7 @@ TEST(CommandLine, WhatWasMeantIsSaid) {
 }
 
 TEST(CommandLine, OneWayToSayTheExposure) {
-    EXPECT_EQ(parsedAs<PictureGroup>({"compare", "--match-exposure", "a.exr"}).match_exposure, "a.exr");
+    EXPECT_EQ(parsedAs<ImageGroup>({"compare", "--match-exposure", "a.exr"}).match_exposure, "a.exr");
     EXPECT_NE(whatIsThrown({"compare", "--match-exposure", "a.exr", "--exposure", "2"}), "");
     EXPECT_NE(whatIsThrown({"compare", "--match-exposure", "a.exr", "--ev100", "2"}), "");
 }

@@ -4,7 +4,7 @@
 #include "compare/experiment/upsample.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/frames.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(ExperimentUpsample, BlendedSurfacesAreEnlargedTooBeforeAndAfter) {
     EXPECT_EQ(coverage(wide, wide).count, 4u);
 }
 
-TEST(ExperimentUpsample, TheSameSizeIsTheSamePicture) {
+TEST(ExperimentUpsample, TheSameSizeIsTheSameImage) {
     const Frame frame = frameOf(2, 2, {1, -1, 3, 0.1f});
     const Frame same = upsampled(frame, {2, 2});
     EXPECT_EQ(same.channels.at(Channel::lit).data, frame.channels.at(Channel::lit).data);

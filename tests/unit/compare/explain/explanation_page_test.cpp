@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images and page of a hand-made explanation.
-#include "compare/explain/pictures.h"
+#include "compare/explain/images.h"
 #include "compare/explain/write.h"
 #include "compare/output/writers.h"
 #include "tests/support/report_builder.h"
@@ -67,44 +67,44 @@ double leastDistance(const Matrix& eye, std::size_t colors) {
     return least;
 }
 
-TEST(ExplanationPictures, ColoursAreToldApartByMostEyes) {
+TEST(ExplanationImages, ColoursAreToldApartByMostEyes) {
     for (const Matrix& eye : {everyCone, withoutL, withoutM}) {
         EXPECT_GT(leastDistance(eye, ownColors + 1), 25);
         EXPECT_EQ(leastDistance(eye, ownColors + 2), 0) << "the rest share one";
     }
 }
 
-TEST(ExplanationPictures, TheMapShowsTheCauseElseTheDarkPicture) {
+TEST(ExplanationImages, TheMapShowsTheCauseElseTheDarkImage) {
     const Explanation e = made(2);
     Image8 shown{3, 2, 3, std::vector<std::uint8_t>(18, 200)};
-    const Image8 map = dominantPicture(e, shown);
+    const Image8 map = dominantImage(e, shown);
     for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_EQ(map.data[c], causeColor(0)[c]);
         EXPECT_LT(map.data[3 + c], 100);
         EXPECT_GT(map.data[3 + c], 0);
     }
     shown.width = 2;
-    EXPECT_THROW(dominantPicture(e, shown), std::logic_error);
+    EXPECT_THROW(dominantImage(e, shown), std::logic_error);
 }
 
-TEST(ExplanationPictures, SharesAreOnOneScaleAndNegativeOnesBlue) {
+TEST(ExplanationImages, SharesAreOnOneScaleAndNegativeOnesBlue) {
     const Explanation e = made(3);
     EXPECT_EQ(topOfMaps(e), 4);
     std::set<std::string> names;
-    for (const NamedPicture& map : explanationMaps(e)) {
+    for (const NamedImage& map : explanationMaps(e)) {
         EXPECT_TRUE(names.insert(map.name).second) << map.name;
-        EXPECT_EQ(map.picture.width, 3);
+        EXPECT_EQ(map.image.width, 3);
     }
     EXPECT_TRUE(names.contains("share-1.haze.png"));
     EXPECT_TRUE(names.contains("share-3.cause-2.png"));
-    const Image8 last = sharePicture(e.causes.back().map, 4);
+    const Image8 last = shareImage(e.causes.back().map, 4);
     EXPECT_GT(last.data[5], last.data[3] + 50);
     EXPECT_GT(last.data[5], last.data[4] + 20);
     EXPECT_EQ(last.data[0], 0);
 }
 
 TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
-    const ExplainedPictures of{
+    const ExplainedImages of{
         "a<b>.glb", "deferred", "forward_plus --haze on", {{"Again", "diptych explain a"}}, "a device"};
     for (const std::size_t count : {0u, 1u, 9u}) {
         Explanation e = count > 0 ? made(count) : Explanation();
@@ -122,7 +122,7 @@ TEST(ExplanationPage, IsWellFormedAndNamesEveryCause) {
 }
 
 TEST(ExplanationPage, TerminalAndPageSayTheSame) {
-    const ExplainedPictures of{"a.glb", "deferred", "forward_plus", {}, "a device"};
+    const ExplainedImages of{"a.glb", "deferred", "forward_plus", {}, "a device"};
     Explanation e = made(2);
     e.unexplained = 0.25;
     e.nonfinite = 3;

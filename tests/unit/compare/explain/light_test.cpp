@@ -111,7 +111,7 @@ TEST(LightsOfChange, PartsAddUpToOneOrNothing) {
     for (const float part : none[0]) EXPECT_EQ(part, 0);
 }
 
-TEST(ExposureBetween, IsTheFactorThatHalfOfThePictureHas) {
+TEST(ExposureBetween, IsTheFactorThatHalfOfTheImageHas) {
     const Image right = threeLights()[0];
     Image twice = times(right, [](int) { return 2.0; });
     EXPECT_NEAR(commonFactor(twice, right).value(), 2, 1e-6);

@@ -119,15 +119,15 @@ public:
     }
     const Scene& charts() const { return charts_; }
 
-    std::vector<Shown> pictures(const Fake& fake, unsigned seed) {
+    std::vector<Shown> images(const Fake& fake, unsigned seed) {
         random_.seed(seed);
         std::vector<Shown> all;
-        for (const Lamp lamp : lamps) all.push_back({lamp, truths_.at(lamp), picture(fake, lamp), {}});
+        for (const Lamp lamp : lamps) all.push_back({lamp, truths_.at(lamp), image(fake, lamp), {}});
         return all;
     }
 
 private:
-    Image picture(const Fake& fake, Lamp lamp) {
+    Image image(const Fake& fake, Lamp lamp) {
         const double model = std::uniform_real_distribution<double>(0.95, 1.05)(random_);
         const auto found = fake.factors.find(lamp);
         const double factor = (found == fake.factors.end() ? 1 : found->second) * model;
@@ -248,7 +248,7 @@ struct Tally {
 
 TEST(Calibration, NothingIsNamedOfARendererThatMeansWhatItIsTold) {
     for (unsigned seed = 0; seed < 5; ++seed)
-        EXPECT_EQ(namesOf(deviationsOf(studio().charts(), studio().pictures({}, seed))),
+        EXPECT_EQ(namesOf(deviationsOf(studio().charts(), studio().images({}, seed))),
                   std::set<std::string>());
 }
 
@@ -258,7 +258,7 @@ TEST(Calibration, OnePlantedDeviationIsNamed) {
     for (const Fault& fault : faults()) {
         Fake fake;
         fault.plant(fake);
-        tally.add(fault.name, deviationsOf(studio().charts(), studio().pictures(fake, seed++)));
+        tally.add(fault.name, deviationsOf(studio().charts(), studio().images(fake, seed++)));
     }
     EXPECT_EQ(tally.right, tally.all) << tally.wrong;
 }
@@ -276,7 +276,7 @@ TEST(Calibration, TwoAtOnceAreNamed) {
             all[i].plant(fake);
             all[k].plant(fake);
             tally.add(all[i].name + " " + all[k].name,
-                      deviationsOf(studio().charts(), studio().pictures(fake, seed)));
+                      deviationsOf(studio().charts(), studio().images(fake, seed)));
         }
     std::printf("two at once: %d of %d are named\n%s", tally.right, tally.all, tally.wrong.c_str());
     EXPECT_GE(tally.right, 0.95 * tally.all) << tally.wrong;
@@ -286,7 +286,7 @@ TEST(Calibration, TwoAtOnceAreNamed) {
 TEST(Calibration, GrantsAreTheWayBack) {
     const auto correctionOf = [&](const Fake& fake) {
         nlohmann::ordered_json corrections = nlohmann::ordered_json::object();
-        for (const Deviation& one : deviationsOf(studio().charts(), studio().pictures(fake, 7)))
+        for (const Deviation& one : deviationsOf(studio().charts(), studio().images(fake, 7)))
             corrections.update(one.correction);
         return corrections;
     };
@@ -308,7 +308,7 @@ TEST(Calibration, GrantsAreTheWayBack) {
 TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
     const Scene& charts = studio().charts();
     const Image ids = referenceUnder(charts, Lamp::environment).ids;
-    const Image lit = std::move(studio().pictures({}, 3).back().picture);
+    const Image lit = std::move(studio().images({}, 3).back().image);
     int faces = 0;
     for (const Mesh& mesh : charts.meshes) {
         const Primitive& primitive = mesh.primitives.front();

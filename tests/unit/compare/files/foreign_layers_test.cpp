@@ -11,8 +11,8 @@ namespace diptych {
 namespace {
 
 ChannelKind kindOfForeign(const std::vector<std::string>& channels, const std::string& sample = "float") {
-    PictureLayer layer{"foreign", channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
-    const std::vector<PictureChannel> found = channelsOf({2, 1, "OpenEXR", false, {std::move(layer)}}, {});
+    ImageLayer layer{"foreign", channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
+    const std::vector<ImageChannel> found = channelsOf({2, 1, "OpenEXR", false, {std::move(layer)}}, {});
     EXPECT_EQ(found.size(), 1u);
     return found.at(0).kind;
 }

@@ -40,17 +40,17 @@ TEST(HostileParts, AFileOfAnotherFolderIsRefusedByName) {
 
 TEST(HostileParts, ALinkInAShardIsRefusedByName) {
     const Shards shards;
-    const std::string picture = "box-1/lit.png";
-    ASSERT_TRUE(fs::exists(shards.shard / picture));
-    fs::remove(shards.shard / picture);
-    fs::create_symlink("../../secret.png", shards.shard / picture);
-    EXPECT_NE(shards.merged().find(picture + ": \"lit.png\" is a link; links are not followed"),
+    const std::string image = "box-1/lit.png";
+    ASSERT_TRUE(fs::exists(shards.shard / image));
+    fs::remove(shards.shard / image);
+    fs::create_symlink("../../secret.png", shards.shard / image);
+    EXPECT_NE(shards.merged().find(image + ": \"lit.png\" is a link; links are not followed"),
               std::string::npos);
-    EXPECT_FALSE(fs::exists(fs::symlink_status(shards.root / "out" / picture)));
+    EXPECT_FALSE(fs::exists(fs::symlink_status(shards.root / "out" / image)));
 
-    fs::remove(shards.shard / picture);
-    ASSERT_EQ(::mkfifo((shards.shard / picture).c_str(), 0600), 0);
-    EXPECT_NE(shards.merged().find(picture + ": is not a regular file"), std::string::npos);
+    fs::remove(shards.shard / image);
+    ASSERT_EQ(::mkfifo((shards.shard / image).c_str(), 0600), 0);
+    EXPECT_NE(shards.merged().find(image + ": is not a regular file"), std::string::npos);
 
     fs::rename(shards.shard / "box-1", shards.root / "private");
     fs::create_directory_symlink("../private", shards.shard / "box-1");
@@ -169,10 +169,10 @@ TEST(HostileParts, WhoWritesToAShardLaterDoesNotChangeTheReport) {
     const Shards shards;
     const fs::path root = shards.root, joined = root / "out/box-1/lit.png";
     ASSERT_EQ(shards.merged(), "");
-    const std::string picture = contentsOf(joined);
-    ASSERT_EQ(contentsOf(shards.shard / "box-1/lit.png"), picture);
+    const std::string image = contentsOf(joined);
+    ASSERT_EQ(contentsOf(shards.shard / "box-1/lit.png"), image);
     std::ofstream(shards.shard / "box-1/lit.png") << "in place";
-    EXPECT_EQ(contentsOf(joined), picture);
+    EXPECT_EQ(contentsOf(joined), image);
     for (const std::string& name : filesIn(root / "out"))
         EXPECT_EQ(fs::hard_link_count(root / "out" / name), 1u) << name;
     // The command's own parts are hard links in the output and need no second copy on disk.
@@ -359,7 +359,7 @@ TEST(HostileFolders, WhatStandsInPlaceOfOurFilesIsSaidAtOnce) {
     };
     EXPECT_FALSE(isOurManifest(root / "report.json"));
     EXPECT_FALSE(isOurManifest("/dev/zero"));
-    EXPECT_FALSE(isOurPicture(root / "report.json"));
+    EXPECT_FALSE(isOurImage(root / "report.json"));
     EXPECT_EQ(line([&] { shards::timingsOf(root); }),
               "--timings " + root.string() + ": is not a regular file");
     EXPECT_EQ(line([&] { scenesOf({"@" + (root / "list").string()}); }),

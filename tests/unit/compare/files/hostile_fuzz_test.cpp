@@ -102,7 +102,7 @@ tradeoff::MeasuredRow smallRow() {
     joinBlocks(measured.row.cameras[0]);
     measured.row.measured = measured.row.cameras[0].measured;
     measured.row.warnings = {"a warning"};
-    measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
+    measured.image = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
     return measured;
 }
 
@@ -123,7 +123,7 @@ TEST(HostileFuzz, Tradeoffs) {
     MeasuredRow measured = smallRow();
     SweepState state(root / "swept", {{"schema", 1}, {"software", softwareName}});
     state.keep(measured);
-    const fs::path row_file = state / (fs::path(measured.row.picture).stem().string() + ".json");
+    const fs::path row_file = state / (fs::path(measured.row.image).stem().string() + ".json");
     Tradeoff whole;
     whole.scene = "a";
     whole.cameras = {""};

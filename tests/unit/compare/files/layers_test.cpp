@@ -22,22 +22,22 @@ using namespace metrics;
 namespace {
 
 // A layer of a 2 x 1 image; component c of pixel i is 10 c + i.
-PictureLayer layer(const std::string& name, const std::vector<std::string>& channels,
-                   const std::string& sample = "float") {
-    PictureLayer l{name, channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
+ImageLayer layer(const std::string& name, const std::vector<std::string>& channels,
+                 const std::string& sample = "float") {
+    ImageLayer l{name, channels, sample, Image(2, 1, static_cast<int>(channels.size()))};
     for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t c = 0; c < channels.size(); ++c)
             l.image.pixel(i)[c] = static_cast<float>(10 * c + i);
     return l;
 }
 
-PictureFile file(std::vector<PictureLayer> layers) {
+ImageFile file(std::vector<ImageLayer> layers) {
     return {2, 1, "OpenEXR", false, std::move(layers)};
 }
 
-std::vector<std::string> namesOf(const std::vector<PictureChannel>& channels) {
+std::vector<std::string> namesOf(const std::vector<ImageChannel>& channels) {
     std::vector<std::string> names;
-    for (const PictureChannel& c : channels) names.push_back(c.name);
+    for (const ImageChannel& c : channels) names.push_back(c.name);
     return names;
 }
 
@@ -57,17 +57,17 @@ TEST(Layers, ChannelsWithoutALayerHaveOurNames) {
 
 // Integers are ids: by their type, also without a layer's name, or by values that light does not have.
 TEST(Layers, IntegersAreNoLight) {
-    const auto kindsOf = [](PictureLayer&& one) {
+    const auto kindsOf = [](ImageLayer&& one) {
         return matchChannels(channelsOf(file({one}), {}), channelsOf(file({one}), {}), {}).channels[0].kind;
     };
     EXPECT_EQ(kindsOf(layer("", {"R", "G", "B"}, "uint")), ChannelKind::id);
     EXPECT_EQ(kindsOf(layer("", {"Y"}, "uint")), ChannelKind::id);
-    PictureLayer ids = layer("", {"R", "G", "B"});
-    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::color) << "small integers may be light";
+    ImageLayer ids = layer("", {"R", "G", "B"});
+    EXPECT_EQ(kindsOf(ImageLayer(ids)), ChannelKind::color) << "small integers may be light";
     ids.image.data[0] = 100001;
-    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::id);
+    EXPECT_EQ(kindsOf(ImageLayer(ids)), ChannelKind::id);
     ids.image.data[1] = 0.5f;
-    EXPECT_EQ(kindsOf(PictureLayer(ids)), ChannelKind::color);
+    EXPECT_EQ(kindsOf(ImageLayer(ids)), ChannelKind::color);
 }
 
 // On either side, and also in named layers and 8-bit files.
@@ -94,7 +94,7 @@ TEST(Layers, AColourWithoutAlphaIsOpaque) {
         ASSERT_EQ(matched.one_sided.size(), 1u) << "an alpha of nothing";
     }
     const auto eight = [](const std::vector<std::string>& channels) {
-        PictureLayer l{"", channels, "8 bit", {}};
+        ImageLayer l{"", channels, "8 bit", {}};
         l.coded = {2, 1, static_cast<int>(channels.size()),
                    std::vector<std::uint8_t>(2 * channels.size(), 7)};
         return channelsOf(file({std::move(l)}), {});
@@ -161,7 +161,7 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
 // The reference's uncertainty layer is not an image channel. In another program's file a layer with that
 // name is an ordinary layer.
 TEST(Layers, OurUncertaintyIsNoChannel) {
-    PictureFile ours = file({layer("", {"R", "G", "B"}), layer("uncertainty", {"uncertainty.Y"})});
+    ImageFile ours = file({layer("", {"R", "G", "B"}), layer("uncertainty", {"uncertainty.Y"})});
     EXPECT_EQ(namesOf(channelsOf(ours, {})), (std::vector<std::string>{"lit", "uncertainty"}));
     ours.attributes["software"] = "diptych";
     EXPECT_EQ(namesOf(channelsOf(ours, {})), std::vector<std::string>{"lit"});
@@ -170,7 +170,7 @@ TEST(Layers, OurUncertaintyIsNoChannel) {
         matchChannels(channelsOf(ours, {}), channelsOf(file({layer("", {"R", "G", "B"})}), {}), {});
     EXPECT_TRUE(matched.notes.empty() && matched.one_sided.empty()) << "nor is it said to be missing";
 
-    PictureFile taken = ours;
+    ImageFile taken = ours;
     EXPECT_EQ(takeUncertainty(taken).data, (PixelData{0, 1}));
     EXPECT_TRUE(takeUncertainty(taken).empty());
     EXPECT_EQ(taken.layers.size(), 1u);
@@ -220,7 +220,7 @@ TEST(Layers, GreyIsAColour) {
 }
 
 TEST(Layers, NamesThatNeitherFileHasAreAnError) {
-    PictureFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
+    ImageFile a = file({layer("", {"R", "G", "B"})}), b = file({layer("d", {"d.Y"})});
     EXPECT_EQ(faultOf([&] { checkNames(a, b, {"albedo=R,G,B", "ao=d.Y"}); }), "");
     EXPECT_EQ(
         faultOf([&] { checkNames(a, b, {"albedo=R,G,X"}); }),
@@ -243,7 +243,7 @@ TEST(Layers, WhatIsNotInBothIsAnError) {
 
 TEST(Layers, WholeNumbersBeyondFloat32AreToldApart) {
     const auto ids = [](std::uint32_t value) {
-        PictureLayer l = layer("id", {"id.Y"}, "uint");
+        ImageLayer l = layer("id", {"id.Y"}, "uint");
         for (const std::size_t i : {0u, 1u}) l.image.pixel(i)[0] = 16777216.0f;
         l.exact = {{16777216u, value}};
         return channelsOf(file({std::move(l)}), {});
@@ -292,7 +292,7 @@ TEST(Selection, EdgesOfObjectsAreLeftOut) {
 }
 
 // Another renderer's file may have neither ids nor depth. Then the other image's are used.
-TEST(Selection, EdgesAreThoseOfTheOnePictureThatTellsThem) {
+TEST(Selection, EdgesAreThoseOfTheOneImageThatTellsThem) {
     Image ids(6, 1, 1, 4.0f), depth(6, 1, 1, 10.0f);
     ids.at(5, 0) = 7.0f;
     depth.at(0, 0) = 20.0f;

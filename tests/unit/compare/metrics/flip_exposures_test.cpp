@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The exposures that HDR-FLIP chooses, and their effect.
 #include "compare/metrics/flip.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 

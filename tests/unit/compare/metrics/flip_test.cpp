@@ -3,10 +3,10 @@
 #include "compare/metrics/flip.h"
 
 #include "compare/metrics/fast_math.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/image/png.h"
 #include "tests/support/errors.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -35,7 +35,7 @@ std::string errorOf(const Image& reference, const Image& test, const HdrFlipOpti
 // digits, which changes black against white by 4e-6.
 constexpr double digits = 1e-5;
 
-TEST(Flip, FlatPicturesAreAsTheAuthorsProgramHasThem) {
+TEST(Flip, FlatImagesAreAsTheAuthorsProgramHasThem) {
     EXPECT_NEAR(ldrFlip(grey(0), grey(1)).mean, 0.967388, digits);
     EXPECT_NEAR(ldrFlip(flat(40, 30, 0, 1, 0), flat(40, 30, 0, 0, 1)).mean, 1.0, digits);
     const std::pair<int, double> steps[] = {
@@ -76,8 +76,8 @@ TEST(Flip, TreeIsAsTheAuthorsProgramHasIt) {
 TEST(Flip, CityIsAsTheAuthorsProgramHasIt) {
     if (!fs::exists(published))
         GTEST_SKIP() << "NO PICTURES at " << published << ": the authors' figures are not tried";
-    const Image reference = readPicture(published / "city-ref.exr").layers.at(0).image,
-                test = readPicture(published / "city-test.exr").layers.at(0).image;
+    const Image reference = readImage(published / "city-ref.exr").layers.at(0).image,
+                test = readImage(published / "city-test.exr").layers.at(0).image;
     const HdrFlipResult r = hdrFlip(reference, test);
     EXPECT_NEAR(r.start_exposure, -12.8397, 5e-5) << "of four digits";
     EXPECT_NEAR(r.stop_exposure, 2.0798, 5e-5);
@@ -90,7 +90,7 @@ TEST(Flip, CityIsAsTheAuthorsProgramHasIt) {
     EXPECT_GT(std::abs(hdrFlip(reference, test, other).mean - 0.109993), 10 * digits);
 }
 
-TEST(Flip, ThePictureItselfIsExactlyZero) {
+TEST(Flip, TheImageItselfIsExactlyZero) {
     const Image display = noise(300, 140, 1), linear = noise(300, 140, 2, 0, 1000);
     EXPECT_EQ(ldrFlip(display, display).max, 0);
     EXPECT_EQ(hdrFlip(linear, linear).max, 0);
@@ -106,7 +106,7 @@ TEST(Flip, ThePictureItselfIsExactlyZero) {
 }
 
 // No pixel of a row is treated otherwise, up to the order of sums.
-TEST(Flip, MirroredPicturesHaveMirroredErrorsUnderEveryToneMapper) {
+TEST(Flip, MirroredImagesHaveMirroredErrorsUnderEveryToneMapper) {
     constexpr int width = 40, height = 8;
     const auto mirrored = [](const Image& image) {
         Image result(width, height, 3);

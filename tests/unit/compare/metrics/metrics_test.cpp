@@ -3,7 +3,7 @@
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/nonfinite.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 

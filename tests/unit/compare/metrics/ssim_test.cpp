@@ -3,7 +3,7 @@
 #include "compare/metrics/ssim.h"
 
 #include "compare/metrics/standard.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST(Ssim, CountsWindowsWhoseMiddleIsCovered) {
     EXPECT_FALSE(ssim(a, b, covered).has_value());
 }
 
-TEST(Ssim, FlatPicturesDifferByTheirMeansAlone) {
+TEST(Ssim, FlatImagesDifferByTheirMeansAlone) {
     const Image a(20, 20, 1, 0.5f), b(20, 20, 1, 0.25f);
     EXPECT_NEAR(ssim(a, b, everywhere(a)).value(), (2 * 0.125 + c1) / (0.25 + 0.0625 + c1), floats);
 }
@@ -113,7 +113,7 @@ TEST(Ssim, WindowsWithANanAreLeftOut) {
     EXPECT_NEAR(ssim(a, b, everywhere(a)).value(), sum / count, floats);
 }
 
-TEST(Ssim, SmallPicturesHaveNoWindow) {
+TEST(Ssim, SmallImagesHaveNoWindow) {
     EXPECT_FALSE(ssim(Image(10, 40, 1), Image(10, 40, 1), std::vector<std::uint8_t>(400, 1)).has_value());
     EXPECT_FALSE(ssim(Image(40, 10, 1), Image(40, 10, 1), std::vector<std::uint8_t>(400, 1)).has_value());
     EXPECT_TRUE(ssim(Image(11, 11, 1), Image(11, 11, 1), std::vector<std::uint8_t>(121, 1)).has_value());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Metrics of two images, compared with values computed by hand.
 #include "compare/metrics/standard.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -54,7 +54,7 @@ TEST(StandardMetrics, PercentilesAreTheNearestRank) {
     EXPECT_EQ(scalars({0, 0}, {0, 1}).relative_max, endless) << "of nothing";
 }
 
-TEST(StandardMetrics, ThePictureItselfHasNoError) {
+TEST(StandardMetrics, TheImageItselfHasNoError) {
     const Image image = noise(50, 40, 1, 0, 100);
     for (const Range range : {Range::display, Range::linear}) {
         const StandardMetrics m = colors(image, image, range);
@@ -182,7 +182,7 @@ TEST(StandardMetrics, ThreadsDoNotChangeABit) {
     EXPECT_EQ(many.ssim, single.ssim);
 }
 
-TEST(StandardMetrics, OnlyAlikePicturesAreCompared) {
+TEST(StandardMetrics, OnlyAlikeImagesAreCompared) {
     EXPECT_THROW(colors(grey(1), noise(40, 31, 1)), std::runtime_error);
     EXPECT_THROW(standardMetrics(grey(1), grey(1), ChannelKind::color, Range::linear, everyPixel(3)),
                  std::runtime_error);

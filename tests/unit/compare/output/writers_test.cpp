@@ -103,11 +103,11 @@ TEST(OutputHtml, AnIndexThatIsNotYetKnownStaysInIdsAndAddresses) {
     EXPECT_EQ(inHtml(Text{"a\x01"}), "a\xef\xbf\xbd") << "but not in texts";
 }
 
-TEST(OutputHtml, RowsHaveDataAndPicturesACaption) {
+TEST(OutputHtml, RowsHaveDataAndImagesACaption) {
     Table table{.columns = {{"a"}}, .rows = {{{"b"}}}};
     table.rows[0].data = {{"scene", "<\"x"}};
     EXPECT_NE(inHtml(table).find("<tr data-scene=\"&lt;&quot;x\"><td>b</td>"), std::string::npos);
-    EXPECT_EQ(inHtml(Picture{"a\".png", "<", {"seen ", Span("y", Span::title)}}),
+    EXPECT_EQ(inHtml(ImageBlock{"a\".png", "<", {"seen ", Span("y", Span::title)}}),
               "<figure><img loading=\"lazy\" src=\"a&quot;.png\" alt=\"&lt;\"><figcaption>seen <h3>y</h3>"
               "</figcaption></figure>\n");
 }

@@ -89,7 +89,7 @@ TEST(ReferenceCheckpoint, EveryBitCounts) {
 
 // ---- other images ------------------------------------------------------------------------------------
 
-TEST(ReferenceCheckpoint, AnotherPictureHasAnotherFile) {
+TEST(ReferenceCheckpoint, AnotherImageHasAnotherFile) {
     const Path stem = twoRecords();
     EXPECT_TRUE(numbersAt(stem, other_key).empty());
     EXPECT_EQ(namesIn(stem.parent_path()), (Names{keptName, other_name}));

@@ -78,7 +78,7 @@ TEST(ReferenceClearcoat, ItHasANormalOfItsOwn) {
     EXPECT_EQ(shading.reflected.diffuse.g, 0);
 }
 
-// ---- pictures and reading ----------------------------------------------------------------------------
+// ---- images and reading ----------------------------------------------------------------------------
 
 // A floor with a coat, with texture 0 of one pixel.
 Scene lacquered(const std::vector<std::uint8_t>& rgb) {

@@ -156,7 +156,7 @@ TEST(ReferenceDiffuseTransmission, SheensAndCoatsDimIt) {
     EXPECT_NEAR(shadedBy(std::span(&sun, 1), s).reflected.transmitted.g, 0.96 * kept * bare, 1e-12);
 }
 
-// ---- pictures ----------------------------------------------------------------------------------------
+// ---- images ----------------------------------------------------------------------------------------
 
 // A floor that lets light pass, seen from above, lit from below.
 Scene litFromBelow(float weight) {
@@ -205,7 +205,7 @@ TEST(ReferenceDiffuseTransmission, CapturedLeavesAreShadedAgain) {
     const View view = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
     for (const bool shadows : {false, true}) {
         const Drawn traced = drawn(scene, view, shadows);
-        const Picture again = shadedAgain(scene, view, traced, traced.picture.channels, shadows);
+        const ReferenceImage again = shadedAgain(scene, view, traced, traced.image.channels, shadows);
         for (const Channel mode : {Channel::lit, Channel::lit_transmission}) {
             const double expected = double{traced[mode].at(0, 0, 0)};
             EXPECT_GT(expected, 0);

@@ -58,9 +58,9 @@ TEST(ReferenceDraw, EveryKindInEveryChannel) {
         scene.lights[0].intensity = 3;
         const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
         for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(d.picture.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
+            ASSERT_EQ(d.image.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
             if (!isMadeByReference(mode)) continue;
-            const Image& image = d.picture.channels.at(mode.channel);
+            const Image& image = d.image.channels.at(mode.channel);
             EXPECT_EQ(image.components, mode.width) << mode.name;
             for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
         }
@@ -104,7 +104,7 @@ TEST(ReferenceDraw, Channels) {
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
         if (!isMadeByReference(mode)) continue;
-        EXPECT_EQ(empty.picture.channels.at(mode.channel).data[0], mode.name == "material_id" ? -1 : 0)
+        EXPECT_EQ(empty.image.channels.at(mode.channel).data[0], mode.name == "material_id" ? -1 : 0)
             << mode.name;
     }
 }
@@ -206,10 +206,10 @@ TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptWhereItCounts) {
     for (const float range : {20.0f, 2.0001f}) {
         scene.lights[0].range = range;
         const Drawn d = drawn(scene, view);
-        ASSERT_EQ(d.picture.rounding.empty(), range == 20);
+        ASSERT_EQ(d.image.rounding.empty(), range == 20);
         if (range == 20) continue;
         const double share =
-            double{d.picture.rounding.at(0, 0, 0)} / double{d[Channel::lit_diffuse].at(0, 0, 0)};
+            double{d.image.rounding.at(0, 0, 0)} / double{d[Channel::lit_diffuse].at(0, 0, 0)};
         EXPECT_GT(share, 0.001);
         EXPECT_LT(share, 0.02);
     }
@@ -288,7 +288,7 @@ Scene sampledScene(float sky = 0) {
 }
 const View sampledView = viewFrom({2, 1, 1.5}, {0, 0, 0}, 40, 36);
 
-void expectSame(const Picture& a, const Picture& b) {
+void expectSame(const ReferenceImage& a, const ReferenceImage& b) {
     ASSERT_EQ(a.channels.size(), b.channels.size());
     for (const auto& [mode, image] : a.channels)
         EXPECT_EQ(image.data, b.channels.at(mode).data) << debugMode(mode).name;
@@ -296,12 +296,12 @@ void expectSame(const Picture& a, const Picture& b) {
     EXPECT_FALSE(a.uncertainty.empty());
 }
 
-TEST(ReferenceDraw, TheSamePictureWhateverTheNumberOfThreads) {
+TEST(ReferenceDraw, TheSameImageWhateverTheNumberOfThreads) {
     const Scene scene = sampledScene(0.2f);
     const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 33, 2);
     const Drawn many = drawn(scene, view, true);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    expectSame(many.picture, drawn(scene, view, true).picture);
+    expectSame(many.image, drawn(scene, view, true).image);
 }
 
 TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
@@ -317,17 +317,17 @@ TEST(ReferenceDraw, StoppedItGoesOnFromWhatIsKept) {
     EXPECT_EQ(namesIn(keep.parent_path()).size(), 1u);
     std::atomic<int> rest{0};
     const Drawn again = drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; });
-    expectSame(whole.picture, again.picture);
+    expectSame(whole.image, again.image);
     EXPECT_GE(rest, 1);
     EXPECT_LE(rest, 9 - 4) << "of nine tiles four are done";
     // The finished file stays until the caller removes it.
     rest = 0;
-    expectSame(whole.picture, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).picture);
+    expectSame(whole.image, drawn(scene, sampledView, true, 1, keep, [&](double) { ++rest; }).image);
     EXPECT_EQ(rest, 0);
 }
 
 // Everything that affects a pixel also decides whether a file belongs to the same image.
-TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
+TEST(ReferenceDraw, AnotherImageIsBegunAnew) {
     Scene scene = sampledScene();
     scene.lights[0].kind = LightKind::point;
     const std::vector<std::pair<const char*, void (*)(Scene&, View&)>> changes{
@@ -367,7 +367,7 @@ TEST(ReferenceDraw, AnotherPictureIsBegunAnew) {
 }
 
 // The run-time estimate uses pixels from the whole image and is available early.
-TEST(ReferencePace, ComesFromPixelsOfTheWholePicture) {
+TEST(ReferencePace, ComesFromPixelsOfTheWholeImage) {
     std::array<std::array<std::atomic<int>, 4>, 4> drawn{};
     const auto slow = [&](int x, int y) {
         ++drawn[static_cast<std::size_t>(y / 50)][static_cast<std::size_t>(x / 50)];

@@ -172,21 +172,21 @@ TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
 double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
     const Pose pose = poseAt(scene, 0);
     const View view = viewFrom({0.05, 0.01, 2}, {0.05, 0, 0}, 12, 12, glm::radians(1.0));
-    const Picture picture = draw({.scene = scene,
-                                  .pose = pose,
-                                  .view = view,
-                                  .lights = pose.lights,
-                                  .ambient = ambient,
-                                  .surroundings = true,
-                                  .mode = ReferenceMode::scene,
-                                  .surfaces = nullptr});
+    const ReferenceImage image = draw({.scene = scene,
+                                       .pose = pose,
+                                       .view = view,
+                                       .lights = pose.lights,
+                                       .ambient = ambient,
+                                       .surroundings = true,
+                                       .mode = ReferenceMode::scene,
+                                       .surfaces = nullptr});
     double all = 0, hidden = 0;
-    for (std::size_t i = 0; i < picture.surroundings.pixels(); ++i) {
-        all += double{picture.surroundings.pixel(i)[0]};
-        hidden += double{picture.surroundings.pixel(i)[1]};
-        EXPECT_NEAR(double{picture.channels.at(Channel::lit).pixel(i)[0]}, 1, 0.02) << "lit has all of it";
+    for (std::size_t i = 0; i < image.surroundings.pixels(); ++i) {
+        all += double{image.surroundings.pixel(i)[0]};
+        hidden += double{image.surroundings.pixel(i)[1]};
+        EXPECT_NEAR(double{image.channels.at(Channel::lit).pixel(i)[0]}, 1, 0.02) << "lit has all of it";
     }
-    EXPECT_NEAR(all / static_cast<double>(picture.surroundings.pixels()), 1, 0.03) << "radiance 1, white";
+    EXPECT_NEAR(all / static_cast<double>(image.surroundings.pixels()), 1, 0.03) << "radiance 1, white";
     return hidden / all;
 }
 

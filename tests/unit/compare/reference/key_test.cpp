@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The key of a reference image: a checkpoint of one image is never used for another.
-#include "compare/reference/picture_key.h"
+#include "compare/reference/image_key.h"
 
 #include "tests/support/reference_scene.h"
 
@@ -103,7 +103,7 @@ TEST(ReferenceKey, TheSameRequestHasTheSameKey) {
     EXPECT_EQ(Asked().key(), Asked().key());
 }
 
-TEST(ReferenceKey, IsOfThePictureAndItsLight) {
+TEST(ReferenceKey, IsOfTheImageAndItsLight) {
     const Change changes[] = {
         {"width", [](Asked& a) { a.view.width = 4; }},
         {"height", [](Asked& a) { a.view.height = 8; }},

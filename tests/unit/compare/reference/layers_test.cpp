@@ -76,7 +76,7 @@ protected:
         }
     }
 
-    // ---- pictures ------------------------------------------------------------------------------------
+    // ---- images ------------------------------------------------------------------------------------
 
     static constexpr glm::dvec4 texel{0.2, 0.4, 0.8, 0.6};
     // A floor of the material, with texture 0 of one texel, above a white one.
@@ -153,7 +153,7 @@ TEST_P(ReferenceLayer, AFactorOfZeroIsTheBaseToTheBit) {
     };
     static const Drawn without = lit(base());
     const Drawn with = lit(GetParam().off(base(), 0));
-    for (const auto& [mode, image] : without.picture.channels)
+    for (const auto& [mode, image] : without.image.channels)
         EXPECT_EQ(with[mode].data, image.data) << debugMode(mode).name;
 
     static const Shading a = underAllLights(lacquer(0.7));
@@ -185,15 +185,15 @@ TEST_P(OpaqueReferenceLayer, CapturedSurfacesAreShadedAgain) {
     Scene scene = floorOf(GetParam().typical(base()));
     scene.lights = {lightOf(LightKind::point, {0.5, 0.2, 2})};
     const Drawn traced = drawn(scene, above());
-    const Picture again = shadedAgain(scene, above(), traced, traced.picture.channels);
+    const ReferenceImage again = shadedAgain(scene, above(), traced, traced.image.channels);
     for (const Channel mode : {Channel::lit, Channel::lit_clearcoat, Channel::lit_sheen}) {
         const glm::dvec3 expected = pixelOf(traced[mode]);
         expectColor(pixelOf(again.channels.at(mode)), expected, 1e-4 * expected.g);
     }
     // A capture of a scene without layers lacks their channels.
-    std::map<Channel, Image> plain = traced.picture.channels;
+    std::map<Channel, Image> plain = traced.image.channels;
     std::erase_if(plain, [](const auto& channel) { return layerOf(channel.first) != 0; });
-    const Picture without = shadedAgain(scene, above(), traced, plain);
+    const ReferenceImage without = shadedAgain(scene, above(), traced, plain);
     const glm::dvec3 lit = pixelOf(traced[Channel::lit]);
     EXPECT_GT(glm::length(pixelOf(without.channels.at(Channel::lit)) - lit), 1e-3 * lit.g);
     for (const Channel mode : GetParam().channels())

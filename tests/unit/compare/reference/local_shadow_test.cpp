@@ -9,7 +9,7 @@ namespace {
 // A floor at z = 0 under a point light 2 m above the origin and a spot light 2 m to the left of it. A
 // screen 1 m above the floor covers x > 0; its edge casts the point light's shadow from x = 0 on. The
 // image's only pixel is at x.
-Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
+ReferenceImage seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
     Scene scene = floorScene();
     add(scene, quad({0, -4, 1}, {4, 0, 0}, {0, 8, 0}));
     scene.lights = {lightOf(LightKind::point, {0, 0, 2}), lightOf(LightKind::spot, {-2, 0, 2}, {1, 0, -1}),
@@ -27,8 +27,8 @@ Picture seenAt(double x, std::vector<std::size_t> casters, bool edges = true) {
                  .progress = {}});
 }
 
-double visibility(const Picture& picture) {
-    return double{picture.channels.at(Channel::local_visibility).at(0, 0)};
+double visibility(const ReferenceImage& image) {
+    return double{image.channels.at(Channel::local_visibility).at(0, 0)};
 }
 
 TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
@@ -50,15 +50,15 @@ TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
 // are searched.
 TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
     for (const double x : {-0.4, -0.05, 0.05, 0.4}) {
-        const Picture picture = seenAt(x, {0});
+        const ReferenceImage image = seenAt(x, {0});
         const double distance = std::hypot(x, 2.0), across = std::abs(x) * 2 / distance;
-        const double found = double{picture.local_shadow_edge.at(0, 0, 0)};
+        const double found = double{image.local_shadow_edge.at(0, 0, 0)};
         EXPECT_LE(found, across / distance * 1.15) << x << ": lines that leave the light are not parallel";
         EXPECT_GE(found, 0.8 * across / distance) << x;
-        EXPECT_NEAR(double{picture.local_shadow_edge.at(0, 0, 1)}, 2 / distance / (distance * distance) / pi,
+        EXPECT_NEAR(double{image.local_shadow_edge.at(0, 0, 1)}, 2 / distance / (distance * distance) / pi,
                     1e-5)
             << "what it would reflect unshadowed";
-        EXPECT_TRUE(picture.shadow_edge.empty()) << "no sun casts";
+        EXPECT_TRUE(image.shadow_edge.empty()) << "no sun casts";
     }
     EXPECT_TRUE(seenAt(0.2, {}).local_shadow_edge.empty());
 }
@@ -66,7 +66,7 @@ TEST(ReferenceLocalShadow, EdgesAreFoundWhereTheyAre) {
 // Without edges and visibility the light is the same, and the image has neither channel.
 TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
     for (const double x : {-0.2, 0.2}) {
-        const Picture with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
+        const ReferenceImage with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
         EXPECT_EQ(without.channels.at(Channel::lit).data, with.channels.at(Channel::lit).data);
         EXPECT_TRUE(without.local_shadow_edge.empty());
         for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility}) {

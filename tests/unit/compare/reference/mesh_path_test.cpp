@@ -62,7 +62,7 @@ double throughBall(double beside, double index, double absorbed) {
 void expectThrough(const Drawn& d, const glm::dvec3& expected, double beside) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(double{d[Channel::lit].at(0, 0, c)}, expected[c],
-                    2 * double{d.picture.uncertainty.data.empty() ? 0.0f : d.picture.uncertainty.at(0, 0)} +
+                    2 * double{d.image.uncertainty.data.empty() ? 0.0f : d.image.uncertainty.at(0, 0)} +
                         5e-3 * expected[c])
             << beside << " " << c;
 }

@@ -11,8 +11,9 @@
 namespace diptych::reference {
 namespace {
 
-Picture drawnAt(const Scene& scene, double seconds, const View& view, const std::filesystem::path& keep = {},
-                const std::function<void(double)>& progress = {}) {
+ReferenceImage drawnAt(const Scene& scene, double seconds, const View& view,
+                       const std::filesystem::path& keep = {},
+                       const std::function<void(double)>& progress = {}) {
     const Pose pose = poseAt(scene, seconds);
     std::optional<Checkpoint> checkpoint;
     return draw({.scene = scene,
@@ -28,14 +29,14 @@ Picture drawnAt(const Scene& scene, double seconds, const View& view, const std:
                  .progress = progress});
 }
 
-glm::vec3 at(const Picture& picture, Channel mode, int x, int y) {
-    const Image& image = picture.channels.at(mode);
+glm::vec3 at(const ReferenceImage& drawn, Channel mode, int x, int y) {
+    const Image& image = drawn.channels.at(mode);
     glm::vec3 result(0);
     for (int c = 0; c < image.components; ++c) result[c] = image.at(x, y, c);
     return result;
 }
-bool isSurface(const Picture& picture, int x, int y) {
-    return at(picture, Channel::material_id, x, y).x >= 0;
+bool isSurface(const ReferenceImage& drawn, int x, int y) {
+    return at(drawn, Channel::material_id, x, y).x >= 0;
 }
 
 // A patch of 1 m at x = -1, animated from 0 s to 1 s, without other objects. Seen from +Z with one pixel
@@ -95,7 +96,7 @@ const Mover movers[] = {{"node", byItsNode}, {"joint", byAJoint}, {"target", byA
 TEST(ReferenceMotion, WhatMovesIsDrawnWhereItIs) {
     for (const Mover& mover : movers) {
         const Scene scene = mover.scene();
-        const Picture start = drawnAt(scene, 0, fromAbove), end = drawnAt(scene, 1, fromAbove);
+        const ReferenceImage start = drawnAt(scene, 0, fromAbove), end = drawnAt(scene, 1, fromAbove);
         EXPECT_TRUE(isSurface(start, left, row)) << mover.name;
         EXPECT_FALSE(isSurface(start, right, row)) << mover.name;
         EXPECT_FALSE(isSurface(end, left, row)) << mover.name;
@@ -120,14 +121,14 @@ TEST(ReferenceMotion, NormalsOfSkinsGoByEachJointOrByTheirMean) {
     const Pose pose = poseAt(scene, 0);
     for (const auto& [normals, expected] : {std::pair{SkinNormals::joints, glm::vec3(1.5f, 0, 1)},
                                             {SkinNormals::blended, glm::vec3(4, 0, 3)}}) {
-        const Picture picture = draw({.scene = scene,
-                                      .pose = pose,
-                                      .view = fromAbove,
-                                      .lights = pose.lights,
-                                      .skin_normals = normals,
-                                      .mode = ReferenceMode::scene});
-        ASSERT_TRUE(isSurface(picture, left, row));
-        const glm::vec3 off = at(picture, Channel::normals, left, row) - glm::normalize(expected);
+        const ReferenceImage drawn = draw({.scene = scene,
+                                           .pose = pose,
+                                           .view = fromAbove,
+                                           .lights = pose.lights,
+                                           .skin_normals = normals,
+                                           .mode = ReferenceMode::scene});
+        ASSERT_TRUE(isSurface(drawn, left, row));
+        const glm::vec3 off = at(drawn, Channel::normals, left, row) - glm::normalize(expected);
         EXPECT_LT(glm::length(off), 1e-6) << nameOf(normals);
     }
 }
@@ -153,7 +154,7 @@ TEST(ReferenceMotion, NormalsArePosedToo) {
     scene.animations.clear();
     const double angle = 0.3;
     scene.nodes[1].parent_from_node = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
-    const Picture turned = drawnAt(scene, 0, fromAbove);
+    const ReferenceImage turned = drawnAt(scene, 0, fromAbove);
     const glm::vec3 expected(std::sin(angle), 0, std::cos(angle));
     for (const Channel mode : {Channel::normals, Channel::geometric_normal})
         for (int c = 0; c < 3; ++c)
@@ -191,7 +192,7 @@ TEST(ReferenceMotion, ColorsAndTexcoordsAreMorphed) {
     p.targets = {target};
     scene.meshes[0].weights = {0};
     animate(scene, 0, AnimatedPart::weights, {0, 1}, 1);
-    const Picture start = drawnAt(scene, 0, fromAbove), half = drawnAt(scene, 0.5, fromAbove);
+    const ReferenceImage start = drawnAt(scene, 0, fromAbove), half = drawnAt(scene, 0.5, fromAbove);
     const glm::vec3 expected(0.5f, 0.75f, 1);
     for (int c = 0; c < 3; ++c) {
         EXPECT_EQ(at(start, Channel::albedo, left, row)[c], 1);
@@ -241,13 +242,14 @@ TEST(ReferenceMotion, WhatIsMovedOutOfReachIsNotThere) {
     scene.meshes[0].primitives[0].targets[0].positions = {{0, 0, 0}, {1e18f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     scene.animations.clear();
     scene.meshes[0].weights = {100};
-    const Picture picture = drawnAt(scene, 0, viewFrom({-1, 0, 10}, {-1, 0, 0}, 9, 9, 2 * std::atan(0.05)));
-    EXPECT_FALSE(isSurface(picture, 7, 6)) << "below the diagonal, of the corner that is gone";
-    EXPECT_TRUE(isSurface(picture, 1, 2)) << "above it";
+    const ReferenceImage drawn =
+        drawnAt(scene, 0, viewFrom({-1, 0, 10}, {-1, 0, 0}, 9, 9, 2 * std::atan(0.05)));
+    EXPECT_FALSE(isSurface(drawn, 7, 6)) << "below the diagonal, of the corner that is gone";
+    EXPECT_TRUE(isSurface(drawn, 1, 2)) << "above it";
 }
 
 // A checkpoint of the same image at another time is not used, whatever moves.
-TEST(ReferenceMotion, APictureOfAnotherTimeIsBegunAnew) {
+TEST(ReferenceMotion, AnImageOfAnotherTimeIsBegunAnew) {
     View view = fromAbove;
     view.width = view.height = 40;  // nine tiles
     for (const Mover& mover : movers)

@@ -13,14 +13,14 @@ namespace {
 Drawn resolved(const Scene& scene, const View& view, int samples, Resolve resolve,
                const std::map<Channel, Image>* surfaces = nullptr) {
     Drawn result{poseAt(scene, 0), {}};
-    result.picture = draw({.scene = scene,
-                           .pose = result.pose,
-                           .view = view,
-                           .lights = result.pose.lights,
-                           .mode = surfaces ? ReferenceMode::surface : ReferenceMode::scene,
-                           .samples = samples,
-                           .resolve = resolve,
-                           .surfaces = surfaces});
+    result.image = draw({.scene = scene,
+                         .pose = result.pose,
+                         .view = view,
+                         .lights = result.pose.lights,
+                         .mode = surfaces ? ReferenceMode::surface : ReferenceMode::scene,
+                         .samples = samples,
+                         .resolve = resolve,
+                         .surfaces = surfaces});
     return result;
 }
 
@@ -85,7 +85,7 @@ TEST(ReferenceResolve, WhatBlendsIsWeightedAsItIsSeen) {
     const Drawn bare = resolved(behind, onePixelView, 64, Resolve::tonemapped),
                 covered = resolved(scene, onePixelView, 64, Resolve::tonemapped);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(radianceOf(covered.picture.unblended)[c], radianceOf(bare[Channel::lit])[c], 1e-6) << c;
+        EXPECT_NEAR(radianceOf(covered.image.unblended)[c], radianceOf(bare[Channel::lit])[c], 1e-6) << c;
     EXPECT_GT(radianceOf(covered[Channel::lit]).x, 1) << "the layer is there";
 }
 
@@ -100,12 +100,11 @@ TEST(ReferenceResolve, OfOneRadianceIsThatRadiance) {
     scene.lights = {lightOf(LightKind::point, {0.3, 0, 2})};
     const View view = viewFrom({2, 1, 1.5}, {0, 0, 0}, 9, 7);
     const Drawn one = resolved(scene, view, 1, Resolve::linear);
-    EXPECT_EQ(one.picture.channels.at(Channel::lit).data,
-              resolved(scene, view, 1, Resolve::tonemapped).picture.channels.at(Channel::lit).data);
-    const std::map<Channel, Image>& surfaces = one.picture.channels;
-    EXPECT_EQ(
-        resolved(scene, view, 1, Resolve::linear, &surfaces).picture.channels.at(Channel::lit).data,
-        resolved(scene, view, 1, Resolve::tonemapped, &surfaces).picture.channels.at(Channel::lit).data);
+    EXPECT_EQ(one.image.channels.at(Channel::lit).data,
+              resolved(scene, view, 1, Resolve::tonemapped).image.channels.at(Channel::lit).data);
+    const std::map<Channel, Image>& surfaces = one.image.channels;
+    EXPECT_EQ(resolved(scene, view, 1, Resolve::linear, &surfaces).image.channels.at(Channel::lit).data,
+              resolved(scene, view, 1, Resolve::tonemapped, &surfaces).image.channels.at(Channel::lit).data);
 }
 
 // The light's components get the weights of the total, so they still add up to it.

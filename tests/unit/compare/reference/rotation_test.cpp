@@ -29,12 +29,12 @@ TEST(ReferenceRotation, OfAnyLengthDrawsTheSamePlane) {
             } else {
                 f.json["nodes"][0]["rotation"] = q;
             }
-            const Drawn picture = drawn(f.load(), view);
+            const Drawn image = drawn(f.load(), view);
             for (const auto& [x, y] : {std::pair{0, 0}, {5, 2}, {7, 7}}) {
                 const double unit = std::tan(glm::radians(10.0)), v = (1 - (y + 0.5) / 4) * unit;
                 const double t = 5 / (1 + v * slope);
-                EXPECT_NEAR(double{picture[Channel::depth].at(x, y)}, t, 1e-5) << length << animated;
-                const Image& normals = picture[Channel::normals];
+                EXPECT_NEAR(double{image[Channel::depth].at(x, y)}, t, 1e-5) << length << animated;
+                const Image& normals = image[Channel::normals];
                 EXPECT_NEAR(double{normals.at(x, y, 0)}, 0, 1e-6) << length << animated;
                 EXPECT_NEAR(double{normals.at(x, y, 1)}, -std::sin(angle), 1e-6) << length << animated;
                 EXPECT_NEAR(double{normals.at(x, y, 2)}, std::cos(angle), 1e-6) << length << animated;

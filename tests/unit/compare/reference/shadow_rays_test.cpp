@@ -36,17 +36,17 @@ double litShare(const Scene& scene, double camera, From from) {
     const double whole = toLight.z / pi;
     if (from == From::scene) return double{first[Channel::lit].at(0, 0, 0)} / whole;
     // Shades a path's capture. With the scene's depth, the ray's start is found again exactly.
-    if (from == From::rounded_capture) first.picture.channels.at(Channel::depth).data[0] *= 1.001f;
-    const Picture shaded = draw({.scene = scene,
-                                 .pose = first.pose,
-                                 .view = view,
-                                 .lights = first.pose.lights,
-                                 .casters = everyLight(first.pose.lights),
-                                 .shadowed_environment = true,
-                                 .mode = ReferenceMode::surface,
-                                 .surfaces = &first.picture.channels,
-                                 .keep = {},
-                                 .progress = {}});
+    if (from == From::rounded_capture) first.image.channels.at(Channel::depth).data[0] *= 1.001f;
+    const ReferenceImage shaded = draw({.scene = scene,
+                                        .pose = first.pose,
+                                        .view = view,
+                                        .lights = first.pose.lights,
+                                        .casters = everyLight(first.pose.lights),
+                                        .shadowed_environment = true,
+                                        .mode = ReferenceMode::surface,
+                                        .surfaces = &first.image.channels,
+                                        .keep = {},
+                                        .progress = {}});
     return double{shaded.channels.at(Channel::lit).at(0, 0, 0)} / whole;
 }
 

@@ -141,7 +141,7 @@ TEST(ReferenceSheen, LightFromOneSideCostsTheDifference) {
     EXPECT_EQ(costs.lobe, 0);
 }
 
-// ---- pictures ----------------------------------------------------------------------------------------
+// ---- images ----------------------------------------------------------------------------------------
 
 TEST(ReferenceSheen, EmissionIsNotDimmed) {
     Scene scene = floorScene();

@@ -163,7 +163,7 @@ TEST(ReferenceTransmissionLimits, ASlabOfIndexOneMovesNothingAndABlackComponentP
     add(scene, quad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, 1));
     const View view = slanted(0.6, 0);
     const Drawn traced = drawn(scene, view);
-    const Image lit = shadedAgain(scene, view, traced, traced.picture.channels).channels.at(Channel::lit);
+    const Image lit = shadedAgain(scene, view, traced, traced.image.channels).channels.at(Channel::lit);
     const double straight = litFloorAt(3 * std::tan(0.6));
     EXPECT_NEAR(double{lit.at(0, 0, 0)}, straight, 1e-5 * straight);
     EXPECT_EQ(lit.at(0, 0, 1), 0);
@@ -182,7 +182,7 @@ TEST(ReferenceTransmissionLimits, ABoxIsASlabByItsOwnWays) {
         glass.material = 1;
         add(scene, glass);
         const Drawn d = drawn(scene, slanted(angle, 0.5));
-        const Image& interval = d.picture.uncertainty;
+        const Image& interval = d.image.uncertainty;
         const double uncertain = interval.data.empty() ? 0 : double{interval.at(0, 0)};
         const double inside = std::asin(std::sin(angle) / 1.5), once = 1 / std::cos(inside),
                      reflected = reflectedInside(std::cos(inside), 1.5);

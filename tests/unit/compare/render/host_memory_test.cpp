@@ -85,11 +85,11 @@ TEST(HostMemory, IsAboutWhatCommandsTake) {
     }
 }
 
-TEST(HostMemory, OfAGpuItIsPicturesAlone) {
+TEST(HostMemory, OfAGpuItIsImagesAlone) {
     const std::vector<Settings> one{settingsOf(Path::deferred, {1920, 1080}, 4)};
-    const std::uint64_t pictures = hostMemory(one, channels(false), false, true, 1);
-    EXPECT_EQ(pictures, std::uint64_t{60} * 1920 * 1080);
-    EXPECT_LT(pictures, hostMemory(one, channels(false), true, true, 1));
+    const std::uint64_t images = hostMemory(one, channels(false), false, true, 1);
+    EXPECT_EQ(images, std::uint64_t{60} * 1920 * 1080);
+    EXPECT_LT(images, hostMemory(one, channels(false), true, true, 1));
     // Timed frames are in memory together; frames drawn once are not.
     RenderOptions timed = channels(false);
     const std::vector<Settings> many(20, one.front());

@@ -95,7 +95,7 @@ TEST(ReportChecks, WithoutLitAnotherChannelIsShown) {
     EXPECT_TRUE(linkOf(page, "sign").starts_with("#c0-normals@1,2")) << linkOf(page, "sign");
 }
 
-TEST(ReportChecks, NoPictureIsEncodedOrNamedTwice) {
+TEST(ReportChecks, NoImageIsEncodedOrNamedTwice) {
     const fs::path out = folder() / "report";
     writeReport(reportOf(bothFrames(), {someChecks()}), out / "with", {});
     writeReport(reportOf(bothFrames()), out / "without", {});
@@ -103,7 +103,7 @@ TEST(ReportChecks, NoPictureIsEncodedOrNamedTwice) {
     EXPECT_EQ(contentsOf(out / "without" / "index.html").find("To check by eye"), std::string::npos);
 }
 
-TEST(ReportChecks, WithoutPicturesPlacesAreNamed) {
+TEST(ReportChecks, WithoutImagesPlacesAreNamed) {
     ReportOptions options;
     options.keep = Keep::none;
     const std::string page = pageOf(reportOf(bothFrames(), {someChecks()}), options);

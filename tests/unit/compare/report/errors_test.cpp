@@ -158,7 +158,7 @@ TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
 }
 
 // One ranking: by the error that the image shows, listed beside each pixel.
-TEST(ReportErrors, TheWorstPixelsAreOfThePictureThatIsDrawn) {
+TEST(ReportErrors, TheWorstPixelsAreOfTheImageThatIsDrawn) {
     Image flip(4, 3, 1, 0.0f);
     flip.at(1, 2) = 0.125f;
     const std::string card = judgedCard({.figure = "flip", .measured = 0.25, .limit = 0.002}, &flip);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Every report prints each metric under its own name, and the worst pixel at its position.
+#include "compare/report/image_diff_json.h"
+#include "compare/report/image_diff_report.h"
 #include "compare/report/json.h"
-#include "compare/report/picture_diff_json.h"
-#include "compare/report/picture_diff_report.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
-#include "compare/verdict/picture_diff.h"
+#include "compare/verdict/image_diff.h"
 #include "shared/image/exr.h"
 #include "tests/support/error_spread.h"
 #include "tests/support/files.h"
@@ -197,11 +197,11 @@ TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
         std::copy_n(s.reference.pixel(spreadPixel(i)), 3, kept.pixel(spreadPixel(i)));
     writeExr(here / "a.exr", {{{"R", "G", "B"}, &s.reference}});
     writeExr(here / "b.exr", {{{"R", "G", "B"}, &kept}});
-    PictureDiffOptions options;
+    ImageDiffOptions options;
     options.metric = "p999";
     options.metric_given = true;
-    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
-    const auto json = nlohmann::json::parse(pictureDiffJson(diff))["channels"][0];
+    const ImageDiff diff = diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
+    const auto json = nlohmann::json::parse(imageDiffJson(diff))["channels"][0];
     std::vector<double> pixels = errorsOf(s).absolute, components = errorsOf(s).components;
     pixels.resize(everywhere);
     components.resize(3 * everywhere);

@@ -36,7 +36,7 @@ TEST(FrameFiles, OneFrameAsFileOrFolder) {
                  std::runtime_error);
 }
 
-TEST(FrameFiles, APictureOfEachChannelAskedFor) {
+TEST(FrameFiles, AnImageOfEachChannelAskedFor) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
     const ShownChannels two{&debugMode(Channel::lit), &debugMode(Channel::normals)};

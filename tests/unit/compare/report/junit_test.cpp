@@ -209,11 +209,11 @@ TEST(ReportJunit, EveryJudgedChannelSaysWhatWasMeasured) {
 }
 
 // If a difference is too small for 8 bits, both sides share an image.
-TEST(ReportJunit, ASharedPictureIsAttachedOnce) {
+TEST(ReportJunit, ASharedImageIsAttachedOnce) {
     const Report report = failingOfTwo();
     ReportLayout layout = layoutOf(report, {});
-    for (std::vector<ChannelPictures>& pictures : layout.pictures)
-        for (ChannelPictures& of : pictures) of.baseline = of.test = "same.png";
+    for (std::vector<ChannelImages>& images : layout.images)
+        for (ChannelImages& of : images) of.baseline = of.test = "same.png";
     const std::string junit = reportJunit(report, layout, "out");
     const std::size_t first = junit.find("out/same.png");
     ASSERT_NE(first, std::string::npos);
@@ -221,7 +221,7 @@ TEST(ReportJunit, ASharedPictureIsAttachedOnce) {
 }
 
 // Paths are relative, like the folder given: servers resolve them from the job's working directory.
-TEST(ReportJunit, FailingChannelsAttachTheirPictures) {
+TEST(ReportJunit, FailingChannelsAttachTheirImages) {
     const fs::path here = folder(), before = fs::current_path();
     fs::current_path(here);
     writeReport(failingOfTwo(), "out/report", {});

@@ -3,7 +3,7 @@
 // page links to it.
 #include "compare/files/our_files.h"
 #include "compare/report/folders.h"
-#include "compare/report/picture_diff_report.h"
+#include "compare/report/image_diff_report.h"
 #include "shared/image/exr.h"
 #include "tests/support/files.h"
 #include "tests/support/report_builder.h"
@@ -56,18 +56,18 @@ TEST(ReportNames, LayersOfAnyNameHaveTheirFilesAndPlaces) {
     }
     writeExr(here / "a.exr", left);
     writeExr(here / "b.exr", right);
-    PictureDiffOptions options;
+    ImageDiffOptions options;
     options.metric = "max";
-    PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    ImageDiff diff = diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
     ASSERT_EQ(diff.channels.size(), strangeNames.size());
     writeDiffs({&diff, 1}, out, {}, {});
 
-    std::size_t pictures = 0;
+    std::size_t images = 0;
     for (const auto& entry : fs::recursive_directory_iterator(out)) {
         EXPECT_FALSE(entry.is_directory()) << entry.path();
-        pictures += entry.path().native().ends_with(".difference.png");
+        images += entry.path().native().ends_with(".difference.png");
     }
-    EXPECT_EQ(pictures, strangeNames.size()) << "none over another";
+    EXPECT_EQ(images, strangeNames.size()) << "none over another";
     EXPECT_EQ(namesIn(here), (std::vector<std::string>{"a.exr", "b.exr", "report"})) << "and none outside";
     const std::string page = contentsOf(out / "index.html");
     EXPECT_EQ(markupFault(page, {"meta", "img", "input", "br", "wbr"}), "");

@@ -50,7 +50,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
 }
 
 // Every failing channel and lit; lit is first or second.
-TEST(ReportOverview, PicturesOfFailuresAndOfLitLead) {
+TEST(ReportOverview, ImagesOfFailuresAndOfLitLead) {
     Report report = reportOf(bothFrames());
     Comparison& comparison = report.comparisons[0];
     const auto names = [&] {
@@ -134,7 +134,7 @@ TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
 
 // A failure without a comparison fails the whole report, and page, JSON and JUnit name it. Without it all
 // pass.
-TEST(ReportOverview, APictureThatOneFolderLacksFailsTheReport) {
+TEST(ReportOverview, AnImageThatOneFolderLacksFailsTheReport) {
     Report report = reportOf(bothFrames());
     ASSERT_TRUE(report.passed());
     for (const bool lacking : {false, true}) {

@@ -57,9 +57,9 @@ TEST(Report, LeavesWhatTheContractNames) {
     EXPECT_EQ(namesIn(out.parent_path()), std::vector<std::string>{"report"}) << "nothing temporary stays";
     EXPECT_EQ(namesIn(out), Json::parse(json)["files"].get<std::vector<std::string>>());
 
-    const std::vector<PictureLayer> layers = readExr(out / "forward_plus.exr").layers;
+    const std::vector<ImageLayer> layers = readExr(out / "forward_plus.exr").layers;
     std::set<std::string> channels;
-    for (const PictureLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
+    for (const ImageLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
     for (const DebugMode& mode : debugModes())
         for (const std::string& name : exrChannels(mode))
             EXPECT_EQ(channels.contains(name), mode.maker != MadeBy::deferred_only) << name;
@@ -168,7 +168,7 @@ TEST(Report, ThePageCountsThePixelsThatASecondRunChanged) {
     EXPECT_NE(page.find("a second run changed</td><td class=\"n\">0</td><td class=\"n\">2</td>"), page.npos);
 }
 
-TEST(Report, ASinglePageHoldsItsPictures) {
+TEST(Report, ASinglePageHoldsItsImages) {
     const fs::path out = folder() / "report";
     ReportOptions options;
     options.single_file = true;
@@ -184,7 +184,7 @@ TEST(Report, ASinglePageHoldsItsPictures) {
 }
 
 // If both sides show a channel alike, the page has its image once, otherwise twice.
-TEST(Report, ASinglePageHoldsASharedPictureOnce) {
+TEST(Report, ASinglePageHoldsASharedImageOnce) {
     const fs::path out = folder() / "report";
     ReportOptions options;
     options.single_file = true;
@@ -389,7 +389,7 @@ TEST(Report, HelpersAreNeitherComparedNorWritten) {
     EXPECT_EQ(report.comparisons[0].channels[0].mode->name, "normals");
     EXPECT_EQ(report.comparisons[0].coverage.count, 1u)
         << "the helper material_id still tells the background";
-    const std::vector<PictureLayer> layers = readExr(out / "deferred.exr").layers;
+    const std::vector<ImageLayer> layers = readExr(out / "deferred.exr").layers;
     ASSERT_EQ(layers.size(), 1u);
     EXPECT_EQ(layers[0].name, "normals");
 }

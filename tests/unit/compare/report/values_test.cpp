@@ -107,7 +107,7 @@ Decoded through(const Image& a, const Image& b, const Image& errors) {
     return decoded(scriptOf({&a, &b, &errors}));
 }
 
-TEST(ReportValues, SmallPicturesAreExact) {
+TEST(ReportValues, SmallImagesAreExact) {
     Image a = noiseUpTo(31, 17, 3, 3e38, 1);
     const Image b = noiseUpTo(31, 17, 3, 1e-38, 2), errors = noiseUpTo(31, 17, 1, 2, 3);
     a.data[5] = -0.0f;
@@ -146,7 +146,7 @@ TEST(ReportValues, WhatElevenBitsHoldIsExactInSixteen) {
 }
 
 // Half a step of 11 bits, down to 2^-29 of the largest value, at any scale.
-TEST(ReportValues, LargePicturesKeepElevenBits) {
+TEST(ReportValues, LargeImagesKeepElevenBits) {
     for (const double largest : {1.0, 1e30, 3e-30}) {
         const Image a = noiseUpTo(300, 200, 3, largest, 4), b = noiseUpTo(300, 200, 3, largest, 5);
         Image errors = noiseUpTo(300, 200, 1, 1e-4, 6);
@@ -177,7 +177,7 @@ TEST(ReportValues, OneFrameAloneHasItsOwn) {
 }
 
 // A report without images: the layout only needs the size.
-TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
+TEST(ReportValues, ImagesBeyondTheLimitHaveNoneAndThePageSaysSo) {
     for (const int width : {4096, 4097}) {
         Report report;
         report.frames.resize(2);
@@ -187,7 +187,7 @@ TEST(ReportValues, PicturesBeyondTheLimitHaveNoneAndThePageSaysSo) {
         one.channels.emplace_back().mode = &debugMode(Channel::roughness);
         one.channels.back().verdict = Verdict::forward_only;
         const ReportLayout layout = layoutOf(report, {});
-        EXPECT_EQ(layout.pictures[0][0].values, width == 4096 ? "roughness.values.js" : "");
+        EXPECT_EQ(layout.images[0][0].values, width == 4096 ? "roughness.values.js" : "");
         const std::string page = reportHtml(report, layout, textsOf(report, layout));
         EXPECT_EQ(page.find("have values only in the EXR files") != std::string::npos, width == 4097);
     }

@@ -144,7 +144,7 @@ TEST(VerdictLine, CountsWhatFailedAndNamesIt) {
     EXPECT_EQ(json["errors"], (nlohmann::json{{{"scene", "d.glb"}, {"message", "d.glb: is cut short"}}}));
 }
 
-TEST(VerdictLine, SaysThatPicturesShowNothing) {
+TEST(VerdictLine, SaysThatImagesShowNothing) {
     CompareOptions options;
     std::vector<Frame> empty = bothFrames();
     for (Frame& frame : empty) std::ranges::fill(frame.channels.at(Channel::material_id).data, -1.0f);

@@ -32,7 +32,7 @@ TradeoffRow row(const char* path, const char* option, const char* value, double 
     made.cameras = {camera};
     made.measured.set(Measure::flip, errors);
     joinCameras(made);
-    made.picture = made.errors_map = "x.png";
+    made.image = made.errors_map = "x.png";
     return made;
 }
 

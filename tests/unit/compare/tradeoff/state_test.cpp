@@ -27,9 +27,9 @@ std::string kept(SweepState& state, const Settings& settings) {
     measured.row.cameras.resize(1);
     measured.row.cameras[0].blocks = {{2, 1, 3, 5}};
     measured.row.drawing_ms = 8;
-    measured.picture = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
+    measured.image = measured.errors = Image8{1, 1, 3, {1, 2, 3}};
     state.keep(measured);
-    return fs::path(measured.row.picture).stem();
+    return fs::path(measured.row.image).stem();
 }
 
 TEST(TradeoffState, ARowIsFoundByItsSettings) {
@@ -45,7 +45,7 @@ TEST(TradeoffState, ARowIsFoundByItsSettings) {
     ASSERT_TRUE(row);
     EXPECT_EQ(row->settings, settingsOf(1));
     EXPECT_EQ(row->drawing_ms, 8);
-    EXPECT_TRUE(fs::exists(state / row->picture));
+    EXPECT_TRUE(fs::exists(state / row->image));
     EXPECT_FALSE(state.find(settingsOf(2), 1, 2));
 }
 

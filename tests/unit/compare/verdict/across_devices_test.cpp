@@ -117,7 +117,7 @@ protected:
     Requirements needs_;
 };
 
-TEST_F(AcrossDevicesPair, TheSamePicturesPassAndUseNothing) {
+TEST_F(AcrossDevicesPair, TheSameImagesPassAndUseNothing) {
     for (Frame& frame : report_.frames) frame.requested.clear();
     EXPECT_EQ(faults(), "");
     for (const ChannelDiff& channel : compared().channels) {
@@ -372,7 +372,7 @@ TEST_F(AcrossDevicesPair, ShadowsMayDifferBesideTheirEdgesAlone) {
     EXPECT_NE(faults().find(" not beside a shadow boundary"), std::string::npos);
 }
 
-// The other device's position is lit by one percent of the sun in this device's shadow map. Neither picture
+// The other device's position is lit by one percent of the sun in this device's shadow map. Neither image
 // shows that shadow boundary.
 TEST_F(AcrossDevicesPair, AShadowMayEndBetweenBothPositionsOfAPixel) {
     Image& lit = across_.relit[Channel::lit];

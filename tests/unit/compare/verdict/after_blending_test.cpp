@@ -54,7 +54,7 @@ bool isNamed(const std::vector<std::string>& lines) {
     });
 }
 
-TEST(AfterBlending, EqualPicturesPassAndAreCounted) {
+TEST(AfterBlending, EqualImagesPassAndAreCounted) {
     const Report report = blendReport(blendFrame(Path::deferred), blendFrame(Path::forward_plus));
     const std::optional<AfterBlending>& found = only(report).after_blending;
     ASSERT_TRUE(found);

@@ -42,7 +42,7 @@ struct Glass {
     }
 };
 
-TEST(BlendedPixels, RoughOrRefractingGlassMayShowWhatThePictureHolds) {
+TEST(BlendedPixels, RoughOrRefractingGlassMayShowWhatTheImageHolds) {
     const Glass g;
     EXPECT_EQ(g.allowed(Channel::lit, glassPixel), 4) << "half of the brightest pixel";
     EXPECT_EQ(g.allowed(Channel::lit_transmission, glassPixel), 4);

@@ -51,7 +51,7 @@ TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
 }
 
 // Bitwise identical if this very CPU drew both. Another device or driver, or a GPU, may differ by 16 ULP.
-TEST(ChannelDiff, PicturesOfAnotherDeviceMayBeRoundedOtherwise) {
+TEST(ChannelDiff, ImagesOfAnotherDeviceMayBeRoundedOtherwise) {
     std::vector<Frame> frames = framesOf(Channel::depth);
     float& depth = frames[0].channels.at(Channel::depth).at(1, 2);
     depth = std::nextafter(depth, 1.0f);

@@ -99,14 +99,14 @@ TEST(CloserPath, WhatIsExactIsInfinitelyCloser) {
     EXPECT_EQ(litOf(broken).closer, 1);
 }
 
-TEST(CloserPath, ThePictureHasEachPathsColour) {
+TEST(CloserPath, TheImageHasEachPathsColour) {
     Image apart(3, 1, 1);
     apart.data = {-1, 0, 0.25f};
-    const Image8 picture = closerPathPicture(apart, 1);
-    EXPECT_EQ(std::vector<std::uint8_t>(picture.data.begin(), picture.data.begin() + 3),
+    const Image8 image = closerPathImage(apart, 1);
+    EXPECT_EQ(std::vector<std::uint8_t>(image.data.begin(), image.data.begin() + 3),
               (std::vector<std::uint8_t>{111, 155, 232}));
-    EXPECT_EQ(picture.data[4], 0);
-    EXPECT_EQ(picture.data[6], 112) << "the root of a quarter: half of 224";
+    EXPECT_EQ(image.data[4], 0);
+    EXPECT_EQ(image.data[6], 112) << "the root of a quarter: half of 224";
 }
 
 // An error within the reference's own uncertainty is not counted against a path; a larger one is.

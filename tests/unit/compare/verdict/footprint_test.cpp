@@ -347,7 +347,7 @@ TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
     }
 }
 
-// As pictures, indices above 1 must not all be white.
+// As images, indices above 1 must not all be white.
 TEST(Footprint, DetailOfLargeIndicesIsJudged) {
     std::vector<Frame> frames = evenFrames();
     addDetail(channelIn(frames[0], Channel::iridescence_ior), 1.2f, 1.6f);

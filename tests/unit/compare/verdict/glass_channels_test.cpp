@@ -12,7 +12,7 @@ namespace {
 
 constexpr int glassSide = 8;
 
-// A pane 2 m thick on the right half of the reference's picture, from column 4 on.
+// A pane 2 m thick on the right half of the reference's image, from column 4 on.
 struct GlassPair {
     static constexpr Channel thickness = Channel::transmission_thickness;
     Frame reference, path;

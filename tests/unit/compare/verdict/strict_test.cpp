@@ -3,11 +3,11 @@
 #include "compare/cli/command_compare.h"
 #include "compare/cli/command_diff.h"
 #include "compare/files/frame_exr.h"
+#include "compare/report/image_diff_json.h"
+#include "compare/report/image_diff_report.h"
 #include "compare/report/json.h"
-#include "compare/report/picture_diff_json.h"
-#include "compare/report/picture_diff_report.h"
 #include "compare/report/report.h"
-#include "compare/verdict/picture_diff.h"
+#include "compare/verdict/image_diff.h"
 #include "shared/image/exr.h"
 #include "tests/support/command_lines.h"
 #include "tests/support/files.h"
@@ -162,8 +162,8 @@ TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
 
 // ---- Two files ----
 
-PictureDiff diffOf(const std::vector<std::string>& left, const std::vector<std::string>& right, bool strict,
-                   const std::vector<std::string>& channels = {}) {
+ImageDiff diffOf(const std::vector<std::string>& left, const std::vector<std::string>& right, bool strict,
+                 const std::vector<std::string>& channels = {}) {
     const std::filesystem::path here = folder();
     const Image grey(4, 3, 1, 0.5f);
     for (const auto& [file, names] : {std::pair{"a.exr", left}, {"b.exr", right}}) {
@@ -171,15 +171,15 @@ PictureDiff diffOf(const std::vector<std::string>& left, const std::vector<std::
         for (const std::string& name : names) layers.push_back({{name + ".Y"}, &grey});
         writeExr(here / file, layers);
     }
-    PictureDiffOptions options;
+    ImageDiffOptions options;
     options.strict = strict;
     options.channels = channels;
-    return diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    return diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
 }
 
 TEST(Strict, DiffSaysWhichFileLacksWhat) {
     for (const bool strict : {false, true}) {
-        const PictureDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
+        const ImageDiff diff = diffOf({"metallic", "one"}, {"metallic", "other"}, strict);
         const std::string ending =
             strict ? ", but --strict requires the same channels on both sides" : ": not compared";
         const Lines said{"one is in the reference only" + ending, "other is in the test only" + ending};
@@ -191,7 +191,7 @@ TEST(Strict, DiffSaysWhichFileLacksWhat) {
             EXPECT_NE(table.find((strict ? "  FAIL a.exr: " : "\nnote: ") + line + "\n"), std::string::npos)
                 << table;
         EXPECT_EQ(table.ends_with("FAIL: " + said[0] + " and 1 more\n"), strict) << table;
-        const auto json = nlohmann::json::parse(pictureDiffJson(diff));
+        const auto json = nlohmann::json::parse(imageDiffJson(diff));
         EXPECT_EQ(json["verdict"], strict ? "fail" : "pass");
         EXPECT_EQ(json["failures"].size(), strict ? 2u : 0u);
     }
@@ -243,22 +243,22 @@ TEST(Strict, DiffDemandsWhatARuleNames) {
     const Image grey(4, 3, 1, 0.5f);
     writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
     writeExr(here / "b.exr", {{{"one.Y"}, &grey}});
-    PictureDiffOptions options;
+    ImageDiffOptions options;
     options.rules = rulesFromJson(R"({"rules": [{"channel": "two", "max": 1, "because": "any"}]})", "t.json");
-    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "b.exr").string(), options);
+    const ImageDiff diff = diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
     EXPECT_EQ(diff.failures, Lines{"two is in the reference only, but t.json, rule 1 needs both sides"});
 }
 
 // Empty images pass with a note, and fail with --strict.
-TEST(Strict, FailsADiffOfBlackPictures) {
+TEST(Strict, FailsADiffOfBlackImages) {
     const std::filesystem::path here = folder();
     const Image none(4, 3, 3);
     writeExr(here / "a.exr", {{{"R", "G", "B"}, &none}});
     const auto diff = [&](bool strict, bool allowed) {
-        PictureDiffOptions options;
+        ImageDiffOptions options;
         options.strict = strict;
         options.allow_empty = allowed;
-        return diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+        return diffImages((here / "a.exr").string(), (here / "a.exr").string(), options);
     };
     const std::string line = "both images are black: every compared value is 0";
     EXPECT_TRUE(diff(false, false).passed());
@@ -277,9 +277,9 @@ TEST(Strict, FailsADiffOfPixelsOfTwoShapes) {
         std::ofstream(here / name, std::ios::binary)
             << ("#?RADIANCE\n" + std::string(variables) + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + pixel);
     const auto diff = [&](const char* a, const char* b, bool strict) {
-        PictureDiffOptions options;
+        ImageDiffOptions options;
         options.strict = strict;
-        return diffPictures((here / a).string(), (here / b).string(), options);
+        return diffImages((here / a).string(), (here / b).string(), options);
     };
     const std::string line =
         (here / "b.hdr").string() + ": its pixels are not square (aspect 2) but are shown square";
@@ -310,13 +310,13 @@ TEST(Strict, ARuleForAChannelOfNeitherFileFails) {
     const std::filesystem::path here = folder();
     const Image grey(4, 3, 1, 0.5f);
     writeExr(here / "a.exr", {{{"one.Y"}, &grey}, {{"two.Y"}, &grey}});
-    PictureDiffOptions options;
+    ImageDiffOptions options;
     options.channels = {"one"};
     options.rules = rulesFromJson(R"({"rules": [{"channel": "tow", "max": 1, "because": "any"},
                                                 {"channel": "three*", "max": 1, "because": "any"},
                                                 {"channel": "two", "max": 1, "because": "any"}]})",
                                   "t.json");
-    const PictureDiff diff = diffPictures((here / "a.exr").string(), (here / "a.exr").string(), options);
+    const ImageDiff diff = diffImages((here / "a.exr").string(), (here / "a.exr").string(), options);
     EXPECT_EQ(diff.failures, Lines{"t.json, rule 1: no channel here is called tow; did you mean two?"});
     EXPECT_EQ(diff.notes.back(), "t.json, rule 2: no channel here is called three*");
 }

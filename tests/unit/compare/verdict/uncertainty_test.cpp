@@ -201,10 +201,10 @@ TEST(Uncertainty, IsWrittenBesideLitAlone) {
 TEST(Uncertainty, OfAFileThatWasChangedIsRefusedInOneLine) {
     const std::filesystem::path file = folder() / "reference.exr";
     writeFrameExr(file, sampled(), device);
-    const PictureFile whole = readExr(file);
+    const ImageFile whole = readExr(file);
     for (const char* wrong : {"", "much", "0.1 or so"}) {
         std::vector<ExrLayerView> layers;
-        for (const PictureLayer& layer : whole.layers) layers.push_back({layer.channels, &layer.image});
+        for (const ImageLayer& layer : whole.layers) layers.push_back({layer.channels, &layer.image});
         std::vector<ExrAttribute> attributes;
         for (const auto& [name, value] : whole.attributes)
             attributes.push_back({name, name == "relative_uncertainty" ? wrong : value});

@@ -9,12 +9,12 @@ namespace diptych::viewer {
 namespace {
 
 Image8 colored(int width, int height, std::uint8_t base) {
-    Image8 picture{width, height, 3, {}};
+    Image8 image{width, height, 3, {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < 3; ++c)
-                picture.data.push_back(static_cast<std::uint8_t>(base + 7 * x + 3 * y + c));
-    return picture;
+                image.data.push_back(static_cast<std::uint8_t>(base + 7 * x + 3 * y + c));
+    return image;
 }
 
 Shown shownOf(int width, int height) {
@@ -22,8 +22,8 @@ Shown shownOf(int width, int height) {
     shown.order.subject.settings.size.width = width;
     shown.order.subject.settings.size.height = height;
     shown.size = shown.order.subject.settings.size;
-    shown.panels[0].picture = colored(width, height, 0);
-    shown.panels[1].picture = colored(width, height, 100);
+    shown.panels[0].image = colored(width, height, 0);
+    shown.panels[1].image = colored(width, height, 100);
     return shown;
 }
 
@@ -35,12 +35,12 @@ Rgb8Pixel inCanvas(const std::vector<std::uint8_t>& pixels, int width, int x, in
     const std::uint8_t* const p = pixels.data() + 4 * (y * width + x);
     return {p[0], p[1], p[2]};
 }
-Rgb8Pixel inPicture(const Image8& picture, int x, int y) {
-    const std::uint8_t* const p = picture.data.data() + 3 * (y * picture.width + x);
+Rgb8Pixel inImage(const Image8& image, int x, int y) {
+    const std::uint8_t* const p = image.data.data() + 3 * (y * image.width + x);
     return {p[0], p[1], p[2]};
 }
 
-TEST(ViewerCanvas, TheWipesHalvesAreThePicturesPixels) {
+TEST(ViewerCanvas, TheWipesHalvesAreTheImagesPixels) {
     const Shown shown = shownOf(12, 8);
     const CanvasRect canvas{0, 30, 12, 8};
     CanvasView view;
@@ -49,13 +49,13 @@ TEST(ViewerCanvas, TheWipesHalvesAreThePicturesPixels) {
     const auto pixels = composed(shown, canvas, places, false);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 12; ++x) {
-            EXPECT_EQ(inCanvas(pixels, 12, x, y), inPicture(shown.panels[x < 5 ? 0 : 1].picture, x, y))
+            EXPECT_EQ(inCanvas(pixels, 12, x, y), inImage(shown.panels[x < 5 ? 0 : 1].image, x, y))
                 << x << "," << y;
         }
     view.other = true;  // flicker
     const auto swapped = composed(shown, canvas, placesOf(canvas, shown.size, view, false), false);
-    EXPECT_EQ(inCanvas(swapped, 12, 0, 0), inPicture(shown.panels[1].picture, 0, 0));
-    EXPECT_EQ(inCanvas(swapped, 12, 11, 0), inPicture(shown.panels[0].picture, 11, 0));
+    EXPECT_EQ(inCanvas(swapped, 12, 0, 0), inImage(shown.panels[1].image, 0, 0));
+    EXPECT_EQ(inCanvas(swapped, 12, 11, 0), inImage(shown.panels[0].image, 11, 0));
 }
 
 TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
@@ -64,12 +64,12 @@ TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
     CanvasView view;
     view.layout = Layout::single;
     const auto pixels = composed(shown, canvas, placesOf(canvas, shown.size, view, false), true);
-    const Rgb8Pixel bgr = inCanvas(pixels, 2, 1, 1), rgb = inPicture(shown.panels[1].picture, 1, 1);
+    const Rgb8Pixel bgr = inCanvas(pixels, 2, 1, 1), rgb = inImage(shown.panels[1].image, 1, 1);
     EXPECT_EQ(bgr, (Rgb8Pixel{rgb.b, rgb.g, rgb.r}));
 }
 
 // As wide or as high as its panel, whichever comes first, with the canvas's grey beside it.
-TEST(ViewerCanvas, APictureFillsItsPanel) {
+TEST(ViewerCanvas, AnImageFillsItsPanel) {
     const Shown shown = shownOf(10, 5);
     const CanvasRect canvas{0, 0, 37, 20};
     CanvasView view;
@@ -82,10 +82,10 @@ TEST(ViewerCanvas, APictureFillsItsPanel) {
               top = static_cast<int>(places[0].placement.top);
     EXPECT_EQ(left, 0);
     EXPECT_EQ(top, 1);
-    EXPECT_EQ(inCanvas(pixels, 37, 0, 1), inPicture(shown.panels[1].picture, 0, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, 3, 4), inPicture(shown.panels[1].picture, 0, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, 4, 1), inPicture(shown.panels[1].picture, 1, 0));
-    EXPECT_EQ(inCanvas(pixels, 37, 36, 18), inPicture(shown.panels[1].picture, 9, 4));
+    EXPECT_EQ(inCanvas(pixels, 37, 0, 1), inImage(shown.panels[1].image, 0, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 3, 4), inImage(shown.panels[1].image, 0, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 4, 1), inImage(shown.panels[1].image, 1, 0));
+    EXPECT_EQ(inCanvas(pixels, 37, 36, 18), inImage(shown.panels[1].image, 9, 4));
     EXPECT_EQ(inCanvas(pixels, 37, 0, 0), (Rgb8Pixel{26, 26, 28}));
     const auto under = pixelUnder(places, shown.size, 4.5, 1.5);
     ASSERT_TRUE(under);
@@ -126,9 +126,9 @@ TEST(ViewerBar, ANarrowOneHasMoreRows) {
     EXPECT_EQ(barRows(1280, 1).back(), 0);
 }
 
-TEST(ViewerCanvas, ASmallerPictureFillsTheSamePlace) {
+TEST(ViewerCanvas, ASmallerImageFillsTheSamePlace) {
     Shown shown = shownOf(8, 8);
-    shown.panels[1].picture = colored(4, 4, 100);
+    shown.panels[1].image = colored(4, 4, 100);
     shown.size.width = shown.size.height = 4;
     const CanvasRect canvas{0, 0, 8, 8};
     CanvasView view;
@@ -137,7 +137,7 @@ TEST(ViewerCanvas, ASmallerPictureFillsTheSamePlace) {
         composed(shown, canvas, placesOf(canvas, shown.order.subject.settings.size, view, false), false);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
-            EXPECT_EQ(inCanvas(pixels, 8, x, y), inPicture(shown.panels[1].picture, x / 2, y / 2));
+            EXPECT_EQ(inCanvas(pixels, 8, x, y), inImage(shown.panels[1].image, x / 2, y / 2));
         }
 }
 
@@ -149,9 +149,9 @@ TEST(ViewerCanvas, LargePixelsHaveALineBetweenThem) {
     view.zoom = 10;
     view.centre_x = view.centre_y = 2;
     const auto pixels = composed(shown, canvas, placesOf(canvas, shown.size, view, false), false);
-    EXPECT_EQ(inCanvas(pixels, 40, 5, 5), inPicture(shown.panels[1].picture, 0, 0));
+    EXPECT_EQ(inCanvas(pixels, 40, 5, 5), inImage(shown.panels[1].image, 0, 0));
     EXPECT_EQ(inCanvas(pixels, 40, 10, 5), (Rgb8Pixel{70, 70, 70}));
-    EXPECT_EQ(inCanvas(pixels, 40, 11, 5), inPicture(shown.panels[1].picture, 1, 0));
+    EXPECT_EQ(inCanvas(pixels, 40, 11, 5), inImage(shown.panels[1].image, 1, 0));
 }
 
 TEST(ViewerCanvas, NoSizeIsTooSmall) {
@@ -169,7 +169,7 @@ TEST(ViewerCanvas, NoSizeIsTooSmall) {
 }
 
 // Without side panels the times have their own column; without both the images have all the width.
-TEST(ViewerCanvas, TimesStandBesideThePictures) {
+TEST(ViewerCanvas, TimesStandBesideTheImages) {
     InterfaceState state;
     EXPECT_EQ(canvasOf(state, 1280, 760, 1).width, 1280 - static_cast<int>(sideWidth));
     state.panels = false;

@@ -72,7 +72,7 @@ TEST(ViewerCamera, MovesAlongItsRightTheWorldsUpAndItsView) {
     EXPECT_LT(camera.forward().y, 1.0) << "but not straight, where right has no meaning";
 }
 
-TEST(ViewerCamera, WhatItOrbitsStaysWhereItIsInThePicture) {
+TEST(ViewerCamera, WhatItOrbitsStaysWhereItIsInTheImage) {
     FlyCamera camera;
     camera.take(cameraAt({0, 1, 5}, {0, 1, 0}));
     const glm::dvec3 pivot(0.5, 0.25, 1);

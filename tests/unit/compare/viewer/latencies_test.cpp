@@ -15,20 +15,20 @@ Shown shownAs(std::uint64_t request, int side) {
     return shown;
 }
 
-TEST(Latencies, APictureOfEachKindAndAKeyAreSaidOnce) {
+TEST(Latencies, AnImageOfEachKindAndAKeyAreSaidOnce) {
     std::vector<std::string> said;
     Latencies latencies([&](const std::string& line) { said.push_back(line.substr(0, line.find(" after"))); },
                         Latencies::Clock::now());
     latencies.seen(shownAs(1, 4), 1);
     latencies.pressed("F", 1);
-    latencies.seen(shownAs(1, 4), 2);  // the key has asked for a picture: this is an earlier one
+    latencies.seen(shownAs(1, 4), 2);  // the key has asked for an image: this is an earlier one
     latencies.asked(2);
     latencies.seen(shownAs(1, 4), 2);
     for (int frame = 0; frame < 2; ++frame) latencies.seen(shownAs(2, 8), 2);
     EXPECT_EQ(said, (std::vector<std::string>{"first picture", "first whole picture", "key F: seen"}));
 }
 
-TEST(Latencies, AKeyThatAsksForNoPictureIsSeenAtOnce) {
+TEST(Latencies, AKeyThatAsksForNoImageIsSeenAtOnce) {
     std::vector<std::string> said;
     Latencies latencies([&](const std::string& line) { said.push_back(line); }, Latencies::Clock::now());
     latencies.pressed("H", 5);

@@ -29,7 +29,7 @@ private:
 };
 
 // The cursor may jump before the button goes down (touchpads): the jump drags nothing.
-TEST(Mouse, APictureIsDraggedFromWhereTheButtonWentDown) {
+TEST(Mouse, AnImageIsDraggedFromWhereTheButtonWentDown) {
     Hand hand;
     hand.state.look.difference = Difference::absolute;
     hand.state.canvas.zoom = 2;

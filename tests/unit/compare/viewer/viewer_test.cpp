@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Parts of the viewer, without a window: keys, differences, sizes, settings, watched files.
-#include "compare/picture/picture.h"
+#include "compare/image/channel_image.h"
 #include "compare/viewer/drawing_thread.h"
+#include "compare/viewer/image_cost.h"
+#include "compare/viewer/images.h"
 #include "compare/viewer/interface.h"
 #include "compare/viewer/keys.h"
-#include "compare/viewer/picture_cost.h"
-#include "compare/viewer/pictures.h"
 #include "compare/viewer/scene_watch.h"
 #include "shared/frame/debug_modes.h"
 #include "tests/support/files.h"
@@ -78,7 +78,7 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
     EXPECT_EQ(panel.values.at(1, 0), -0.5f);
     EXPECT_TRUE(panel.is_signed);
     // Blue where right is darker, orange where it is brighter.
-    const std::uint8_t* const p = panel.picture.data.data();
+    const std::uint8_t* const p = panel.image.data.data();
     EXPECT_GT(p[0], p[2]);
     EXPECT_LT(p[3], p[5]);
 }
@@ -119,7 +119,7 @@ TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
 }
 
 // The panels equal the output of `render`.
-TEST(ViewerPictures, ArePicturesOfTheChannel) {
+TEST(ViewerImages, AreImagesOfTheChannel) {
     Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
     left.channels[Channel::material_id].at(2, 1) = -1;
     Look look;
@@ -127,17 +127,16 @@ TEST(ViewerPictures, ArePicturesOfTheChannel) {
     Shown shown;
     const Exposure exposure = exposureOf(left, right, look);
     EXPECT_EQ(exposure.factor, 2);
-    makePictures(left, right, look, exposure, shown);
+    makeImages(left, right, look, exposure, shown);
     const Frame* frames[] = {&left};
-    EXPECT_EQ(
-        shown.panels[0].picture.data,
-        channelPicture(debugMode(Channel::lit), left, scaleFor(debugMode(Channel::lit), exposure, frames))
-            .data);
+    EXPECT_EQ(shown.panels[0].image.data,
+              channelImage(debugMode(Channel::lit), left, scaleFor(debugMode(Channel::lit), exposure, frames))
+                  .data);
     EXPECT_FALSE(shown.difference);
     look.mode = Channel::normals;
-    makePictures(left, right, look, exposure, shown);
+    makeImages(left, right, look, exposure, shown);
     EXPECT_FALSE(shown.panels[0].missing.empty());
-    EXPECT_TRUE(shown.panels[0].picture.data.empty());
+    EXPECT_TRUE(shown.panels[0].image.data.empty());
 }
 
 // ---- sizes while moving ----------------------------------------------------------------------------------
@@ -149,15 +148,15 @@ Size sizeOf(int width, int height) {
     return size;
 }
 
-TEST(ViewerSize, APictureThatIsQuickKeepsItsSize) {
-    PictureCost cost;
+TEST(ViewerSize, AnImageThatIsQuickKeepsItsSize) {
+    ImageCost cost;
     EXPECT_FALSE(cost.known());
     cost.add(640 * 360, 40);
     EXPECT_EQ(movingSize(sizeOf(640, 360), 60, cost), sizeOf(640, 360));
 }
 
 TEST(ViewerSize, ASlowOneShrinksUntilItsPixelsFit) {
-    PictureCost cost;
+    ImageCost cost;
     cost.add(640 * 360, 240);
     EXPECT_EQ(movingSize(sizeOf(640, 360), 60, cost), sizeOf(320, 180));
     cost = {};
@@ -168,7 +167,7 @@ TEST(ViewerSize, ASlowOneShrinksUntilItsPixelsFit) {
 
 // A smaller image does not reduce the cost of shadow maps and triangles.
 TEST(ViewerSize, WhatDoesNotShrinkIsToldApart) {
-    PictureCost cost;
+    ImageCost cost;
     cost.add(640 * 360, 100 + 64);
     cost.add(320 * 180, 100 + 16);
     EXPECT_NEAR(cost.fixed(), 100, 1e-9);
@@ -177,7 +176,7 @@ TEST(ViewerSize, WhatDoesNotShrinkIsToldApart) {
 }
 
 TEST(ViewerSize, ABusyMomentIsForgotten) {
-    PictureCost cost;
+    ImageCost cost;
     for (int i = 0; i < 3; ++i) cost.add(1000, 10);
     cost.add(1000, 1000);
     EXPECT_LT(cost.of(1000), 12);

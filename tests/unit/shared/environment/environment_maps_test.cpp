@@ -201,7 +201,7 @@ TEST(EnvironmentMaps, AConstantSkyStaysConstant) {
 }
 
 // The largest common image, in closed form: radiance 2 + d.y. Maps stay within their limit.
-TEST(EnvironmentMaps, ALargePictureIsReadWhole) {
+TEST(EnvironmentMaps, ALargeImageIsReadWhole) {
     constexpr int width = 8192, height = 4096;
     Environment sky{"sky", Image(width, height, 3)};
     for (int y = 0; y < height; ++y) {
@@ -293,7 +293,7 @@ TEST(EnvironmentMaps, ASunKeepsItsLightWhereverItStands) {
 }
 
 // For images of any size, all maps have the image's mean and finite values, even with one sample.
-TEST(EnvironmentMaps, PicturesOfAnyShapeKeepTheirLight) {
+TEST(EnvironmentMaps, ImagesOfAnyShapeKeepTheirLight) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {3, 2}, {8, 8}, {1, 40}, {200, 3}, {7, 5}})
         for (const int samples : {1, 2, 3, 64}) {
             const EnvironmentMaps maps = makeEnvironmentMaps(skyOf(size.x, size.y, 6), {{samples, 0}, true});

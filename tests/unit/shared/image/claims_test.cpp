@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/image/claims.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/exr_builder.h"
 
@@ -40,20 +40,20 @@ TEST(Claims, ShareOneBudgetAsLongAsTheyAreHeld) {
 }
 
 // Nothing is allocated for the display window.
-TEST(Claims, APictureIsRefusedByName) {
+TEST(Claims, AnImageIsRefusedByName) {
     MadePart part{"a", {{"R", Imf::FLOAT}, {"G", Imf::FLOAT}, {"B", Imf::FLOAT}, {"A", Imf::FLOAT}}};
     part.data = box(0, 0, 1, 1);
     part.display = box(0, 0, 2047, 2047);
     const std::string exr = exrOf({part});
-    const auto read = [&] { return readPicture(std::as_bytes(std::span(exr)), "a.exr"); };
+    const auto read = [&] { return readImage(std::as_bytes(std::span(exr)), "a.exr"); };
     Claim before = claimMemory(2 * oneGib, 0, "before");
     EXPECT_EQ(faultOf(read),
               fmt::format("a.exr: an image of 2048 x 2048 pixels: takes 64 MiB, claimed by {} "
                           "bytes, beside 2048 MiB claimed before; the limit of such claims is 2048 MiB",
                           exr.size()));
     before = {};
-    const PictureFile picture = read();
-    EXPECT_NE(picture.claim, nullptr);
+    const ImageFile image = read();
+    EXPECT_NE(image.claim, nullptr);
     EXPECT_NE(faultOf([] { claimMemory(2 * oneGib - (oneGib >> 5), 0, "beside"); }), "")
         << "as long as it lives";
 }

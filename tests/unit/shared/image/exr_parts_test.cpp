@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Multi-part EXR files: names of layers, positions of pixels, and refused files with the reason.
 #include "shared/image/exr.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/exr_builder.h"
 
@@ -20,8 +20,8 @@ namespace {
 using namespace std::string_literals;
 using Names = std::vector<std::string>;
 
-PictureFile partsOf(const std::string& file, std::string_view part = {},
-                    std::uint64_t most = limits::imageBytes()) {
+ImageFile partsOf(const std::string& file, std::string_view part = {},
+                  std::uint64_t most = limits::imageBytes()) {
     return readExr(std::as_bytes(std::span(file)), "a.exr", most, part);
 }
 std::string partFault(const std::string& file, std::string_view part = {},
@@ -29,14 +29,14 @@ std::string partFault(const std::string& file, std::string_view part = {},
     return faultOf([&] { partsOf(file, part, most); });
 }
 
-Names layerNames(const PictureFile& file) {
+Names layerNames(const ImageFile& file) {
     Names names;
-    for (const PictureLayer& layer : file.layers) names.push_back(layer.name);
+    for (const ImageLayer& layer : file.layers) names.push_back(layer.name);
     return names;
 }
 
 // Component i of the layer must equal the part's channel `made[i]`, and 0 outside its data window.
-void expectMade(const PictureLayer& layer, int part, const std::vector<int>& made, const Imath::Box2i& data,
+void expectMade(const ImageLayer& layer, int part, const std::vector<int>& made, const Imath::Box2i& data,
                 const Imath::Box2i& display) {
     SCOPED_TRACE(layer.name);
     ASSERT_EQ(layer.image.width, display.size().x + 1);
@@ -68,7 +68,7 @@ const MadePart idsPart{"ids", {{"material", Imf::UINT}, {"object", Imf::UINT}}};
 TEST(ExrParts, EveryPartIsReadAndItsLayersAreNamedByBoth) {
     MadePart tiled = normalsPart;
     tiled.tile = 4;
-    const PictureFile file = partsOf(exrOf({colorPart, tiled, idsPart}));
+    const ImageFile file = partsOf(exrOf({colorPart, tiled, idsPart}));
     EXPECT_EQ(file.format, "OpenEXR");
     EXPECT_EQ(file.width, 9);
     EXPECT_EQ(file.height, 6);
@@ -102,7 +102,7 @@ TEST(ExrParts, EveryCompressionInLinesAndTilesOfSeveralParts) {
             first.compression = second.compression = compression;
             first.tile = tile;
             first.data = second.data = first.display = second.display = box(0, 0, 20, 40);
-            const PictureFile file = partsOf(exrOf({first, second}));
+            const ImageFile file = partsOf(exrOf({first, second}));
             ASSERT_EQ(file.layers.size(), 3u);
             expectMade(file.layers[0], 0, {3, 2, 1, 0}, first.data, first.data);
             expectMade(file.layers[2], 1, {0, 1}, first.data, first.data);
@@ -114,7 +114,7 @@ TEST(ExrParts, LevelZeroOfMipAndRipMaps) {
         MadePart tiled = normalsPart;
         tiled.tile = 4;
         tiled.levels = levels;
-        const PictureFile file = partsOf(exrOf({colorPart, tiled}));
+        const ImageFile file = partsOf(exrOf({colorPart, tiled}));
         expectMade(file.layers[2], 1, {0, 1, 2}, tiled.data, tiled.data);
         EXPECT_EQ(file.notes.in_part,
                   Names{levels == Imf::MIPMAP_LEVELS
@@ -135,7 +135,7 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
         first.display = second.display = display;
         first.data = data;
         second.data = box(0, 0, 1, 1);
-        const PictureFile file = partsOf(exrOf({first, second}));
+        const ImageFile file = partsOf(exrOf({first, second}));
         ASSERT_EQ(file.layers.size(), 3u);
         expectMade(file.layers[0], 0, {3, 2, 1, 0}, data, display);
         expectMade(file.layers[2], 1, {0, 1}, second.data, display);
@@ -148,7 +148,7 @@ TEST(ExrParts, OneAskedForIsAsTheOnlyOne) {
     deep.compression = Imf::ZIPS_COMPRESSION;
     const std::string file = exrOf({colorPart, normalsPart, deep});
     EXPECT_EQ(partFault(file), "a.exr: part \"ids\": holds deep samples, which are not supported");
-    const PictureFile asked = partsOf(file, "beauty");
+    const ImageFile asked = partsOf(file, "beauty");
     EXPECT_EQ(layerNames(asked), (Names{"", "albedo"}));
     EXPECT_EQ(asked.layers[0].channels, (Names{"R", "G", "B", "A"}));
     expectMade(asked.layers[0], 0, {3, 2, 1, 0}, colorPart.data, colorPart.data);
@@ -168,13 +168,13 @@ TEST(ExrParts, APartIsNamedBehindTheFile) {
     const std::string file = withLastDisplay(exrOf({colorPart, normalsPart}), 11);
     const std::filesystem::path path = testFolder() / "a.exr";
     std::ofstream(path, std::ios::binary) << file;
-    EXPECT_EQ(readPicture(path.string() + "?part=beauty").width, 9);
-    EXPECT_EQ(readPicture(path.string() + "?part=1").width, 12);
-    EXPECT_EQ(faultOf([&] { readPicture(path.string() + "?part=fog"); }),
+    EXPECT_EQ(readImage(path.string() + "?part=beauty").width, 9);
+    EXPECT_EQ(readImage(path.string() + "?part=1").width, 12);
+    EXPECT_EQ(faultOf([&] { readImage(path.string() + "?part=fog"); }),
               path.string() + "?part=fog: has no part \"fog\"");
     // A file with this exact name is read as a whole.
     std::ofstream(path.string() + "?part=x", std::ios::binary) << file;
-    EXPECT_EQ(pictureName(path.string() + "?part=x").part, "");
+    EXPECT_EQ(imageName(path.string() + "?part=x").part, "");
 }
 
 TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
@@ -184,13 +184,13 @@ TEST(ExrParts, DifferentDisplayWindowsOneAtATime) {
               "before it; read one part, for example FILE.exr?part=1");
     EXPECT_EQ(partsOf(file, "1").width, 12);
     EXPECT_EQ(partsOf(file, "beauty").width, 9);
-    const PictureFile wide = partsOf(file, "normals");
+    const ImageFile wide = partsOf(file, "normals");
     EXPECT_EQ(wide.width, 12);
     expectMade(wide.layers[0], 1, {0, 1, 2}, normalsPart.data, box(0, 0, 11, 5));
 }
 
 TEST(ExrParts, StringsAreKeptTheFirstPartsFirst) {
-    const PictureFile file = partsOf(exrOf({colorPart, normalsPart}, [](std::vector<Imf::Header>& heads) {
+    const ImageFile file = partsOf(exrOf({colorPart, normalsPart}, [](std::vector<Imf::Header>& heads) {
         heads[0].insert("software", Imf::StringAttribute("one"));
         heads[1].insert("software", Imf::StringAttribute("two"));
         heads[1].insert("view", Imf::StringAttribute("left\neye"));

@@ -98,7 +98,7 @@ TEST(ExrOfOthers, EveryCompressorInLinesAndTiles) {
                     Imf::TileDescription(64, 32 + static_cast<unsigned>(tile), Imf::MIPMAP_LEVELS));
             SCOPED_TRACE(testing::Message() << "compression " << compression << ", tiles of " << tile);
             const std::string file = written(head);
-            const std::vector<PictureLayer> layers = readExr(bytesIn(file), "a.exr").layers;
+            const std::vector<ImageLayer> layers = readExr(bytesIn(file), "a.exr").layers;
             ASSERT_EQ(layers.size(), 1u);
             expectFull(layers[0].image, 70, 300);
         }
@@ -117,7 +117,7 @@ TEST(ExrOfOthers, ACropStandsWhereItBelongs) {
 
     const Imath::Box2i aside(Imath::V2i(500000, -7), Imath::V2i(500001, -6));
     const std::string far = written(header(display, aside, Imf::ZIP_COMPRESSION));
-    const std::vector<PictureLayer> unseen = readExr(bytesIn(far), "a.exr").layers;
+    const std::vector<ImageLayer> unseen = readExr(bytesIn(far), "a.exr").layers;
     for (const float value : unseen[0].image.data) EXPECT_EQ(value, 0);
 }
 
@@ -140,7 +140,7 @@ TEST(ExrOfOthers, NumbersThatFloat32WouldRoundAreKept) {
         }
         return readExr(path).layers.at(0);
     };
-    const PictureLayer small = fileOf({0, 16777216, 0x80000000}), large = fileOf({7, 16777217, 4294967295});
+    const ImageLayer small = fileOf({0, 16777216, 0x80000000}), large = fileOf({7, 16777217, 4294967295});
     ASSERT_EQ(large.channels, (std::vector<std::string>{"Z", "id"}));
     EXPECT_EQ(large.sample, "mixed");
     EXPECT_TRUE(small.exact.empty()) << "nothing is rounded";
@@ -171,7 +171,7 @@ TEST(ExrOfOthers, ComponentsStandInTheirOrderHoweverTheyAreSpelled) {
         out.writePixels(1);
     }
     std::vector<std::string> names;
-    for (const PictureLayer& layer : readExr(path).layers) {
+    for (const ImageLayer& layer : readExr(path).layers) {
         names.push_back(layer.name + ":");
         names.insert(names.end(), layer.channels.begin(), layer.channels.end());
     }
@@ -256,7 +256,7 @@ TEST(ExrOfOthers, FaultsAreNamed) {
     EXPECT_EQ(exrFault(sampled), "a.exr: channel ?: has a line break in its name");
 }
 
-TEST(ExrOfOthers, TilesBeyondThePictureAreRefused) {
+TEST(ExrOfOthers, TilesBeyondTheImageAreRefused) {
     Imf::Header head = header(wholeWindow, wholeWindow, Imf::ZIP_COMPRESSION);
     head.setTileDescription(Imf::TileDescription(64, 64));
     const std::string file = written(head);

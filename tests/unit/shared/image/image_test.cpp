@@ -2,7 +2,7 @@
 // Image files: written values are read back, and no incomplete file ever has the final name.
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "shared/image/png.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
@@ -48,7 +48,7 @@ TEST(Exr, EveryBitComesBackByLayerAndName) {
              {{{"R", "G", "B"}, &lit}, {{"Z"}, &depth}, {{"normals.X", "normals.Y", "normals.Z"}, &normals}},
              {{"scene", "builtin:none"}});
 
-    const std::vector<PictureLayer> layers = readExr(file).layers;
+    const std::vector<ImageLayer> layers = readExr(file).layers;
     ASSERT_EQ(layers.size(), 2u);
     EXPECT_EQ(layers[0].name, "");
     EXPECT_EQ(layers[0].channels, (std::vector<std::string>{"R", "G", "B", "Z"}));
@@ -146,7 +146,7 @@ TEST(Png, FewColoursAreAPalette) {
         const Image8 back = readPng(file);
         for (std::size_t i = 0; i < 100 * 60; ++i)
             for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(back.data[4 * i + c], image.data[3 * i + c]) << i;
-        EXPECT_EQ(readPicture(file).layers[0].image.components, 3) << "read as any other picture of colours";
+        EXPECT_EQ(readImage(file).layers[0].image.components, 3) << "read as any other picture of colours";
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Exif orientation in JPEG and PNG files, rotated as viewers show them.
 #include "shared/image/orientation.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/png_builder.h"
 
 #include <gtest/gtest.h>
@@ -73,11 +73,11 @@ TEST(Orientation, APngIsTurned) {
     const std::string png = pngOf(made);
     EXPECT_EQ(orientationOfPng(bytesOf(png)), 6);
     for (const EightBits eight : {EightBits::decoded, EightBits::kept}) {
-        const PictureFile shown = readPicture(bytesOf(png), "b.png", {}, limits::imageBytes(), eight);
+        const ImageFile shown = readImage(bytesOf(png), "b.png", {}, limits::imageBytes(), eight);
         EXPECT_EQ(shown.width, 1);
         EXPECT_EQ(shown.height, 2);
-        EXPECT_EQ(pictureSize(bytesOf(png), "b.png", {}, eight).height, 2);
-        const PictureLayer& layer = shown.layers.front();
+        EXPECT_EQ(imageSize(bytesOf(png), "b.png", {}, eight).height, 2);
+        const ImageLayer& layer = shown.layers.front();
         if (eight == EightBits::kept)
             EXPECT_EQ(layer.coded.data, (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}));
         else

@@ -30,7 +30,7 @@ std::string big(const Values& values) {
     return bytes;
 }
 
-PfmPicture pfmOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
+PfmImage pfmOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
     return readPfm(std::as_bytes(std::span(file)), "a.pfm", most);
 }
 std::string pfmFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
@@ -65,9 +65,9 @@ TEST(Pfm, OneBlankEndsTheHeader) {
 
 TEST(Pfm, ALineMayEndInCrLf) {
     const float value = std::bit_cast<float>(0x3f80000au);
-    const PfmPicture picture = pfmOf("Pf\r\n1 1\r\n-1\r\n" + little({value}));
-    EXPECT_EQ(picture.image.data, Values{value});
-    EXPECT_EQ(picture.behind, 0u);
+    const PfmImage image = pfmOf("Pf\r\n1 1\r\n-1\r\n" + little({value}));
+    EXPECT_EQ(image.image.data, Values{value});
+    EXPECT_EQ(image.behind, 0u);
     EXPECT_EQ(pfmOf("Pf\r\n1 1\r\n-1\r" + little({value})).image.data, Values{value});
 }
 
@@ -88,7 +88,7 @@ TEST(Pfm, EveryBitComesBack) {
         writePfm(file, image);
         const std::string bytes = contentsOf(file);
         EXPECT_TRUE(bytes.starts_with(components == 1 ? "Pf\n3 2\n-1.0\n" : "PF\n3 2\n-1.0\n"));
-        const PfmPicture back = pfmOf(bytes);
+        const PfmImage back = pfmOf(bytes);
         EXPECT_EQ(back.behind, 0u);
         ASSERT_EQ(back.image.data.size(), image.data.size());
         for (std::size_t i = 0; i < image.data.size(); ++i)

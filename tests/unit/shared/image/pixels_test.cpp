@@ -2,7 +2,7 @@
 // Images spilled to files: the same values at the same address, and no memory after release.
 #include "shared/image/image.h"
 #include "tests/support/files.h"
-#include "tests/support/test_pictures.h"
+#include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>

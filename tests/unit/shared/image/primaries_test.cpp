@@ -2,7 +2,7 @@
 // Colour and pixel metadata of files: converted if a matrix suffices, otherwise reported, in every format.
 #include "shared/image/primaries.h"
 #include "compare/files/layers.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/exr_builder.h"
 #include "tests/support/files.h"
@@ -24,8 +24,8 @@ constexpr Primaries rec709{0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290},
     display_p3{0.680, 0.320, 0.265, 0.690, 0.150, 0.060, 0.3127, 0.3290};
 const std::string converted = "its colours were converted from the primaries x, y ";
 
-PictureFile decodedFrom(const std::string& file) {
-    return readPicture(std::as_bytes(std::span(file)), "a");
+ImageFile decodedFrom(const std::string& file) {
+    return readImage(std::as_bytes(std::span(file)), "a");
 }
 
 std::string bigEndianOf(std::initializer_list<std::uint32_t> numbers) {
@@ -87,12 +87,12 @@ TEST(Primaries, OfAnExr) {
             heads[0].pixelAspectRatio() = aspect;
         }));
     };
-    const auto channel = [](const PictureFile& file, const char* name) {
-        for (PictureChannel& found : channelsOf(file, {}))
+    const auto channel = [](const ImageFile& file, const char* name) {
+        for (ImageChannel& found : channelsOf(file, {}))
             if (found.name == name) return std::move(found.image);
         return Image();
     };
-    const PictureFile plain = with(rec709, 1, 0), other = with(aces, 2, 100);
+    const ImageFile plain = with(rec709, 1, 0), other = with(aces, 2, 100);
     EXPECT_TRUE(plain.notes.lines.empty() && plain.notes.not_applied.empty());
     ASSERT_EQ(other.notes.lines.size(), 1u);
     EXPECT_EQ(other.notes.not_applied, (Names{"its pixels are not square (aspect 2) but are shown square",
@@ -108,13 +108,13 @@ TEST(Primaries, OfAnExr) {
     }
 }
 
-TEST(Primaries, OfARadiancePicture) {
+TEST(Primaries, OfARadianceImage) {
     const auto with = [](const std::string& variables) {
         return decodedFrom("#?RADIANCE\n" + variables +
                            "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s);
     };
     // Grey stays grey with any white point.
-    const PictureFile grey =
+    const ImageFile grey =
         with("PRIMARIES= .64 .33 .29 .60 .15 .06 .3333 .3333\nPIXASPECT=0.5\nEXPOSURE=2\n");
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(grey.layers[0].image.data[static_cast<std::size_t>(c)], 1.00390625f / 2, 1e-6);
@@ -136,10 +136,10 @@ TEST(Primaries, OfAPng) {
     };
     for (const EightBits eight : {EightBits::decoded, EightBits::kept}) {
         const std::string bytes = pngOf(made);
-        const PictureFile file =
-            readPicture(std::as_bytes(std::span(bytes)), "a", {}, limits::imageBytes(), eight);
+        const ImageFile file =
+            readImage(std::as_bytes(std::span(bytes)), "a", {}, limits::imageBytes(), eight);
         ASSERT_EQ(file.layers[0].image.data.size(), 3u) << "converted, so kept as floats";
-        EXPECT_EQ(pictureSize(std::as_bytes(std::span(bytes)), "a", {}, eight).bytes_per_pixel, 12);
+        EXPECT_EQ(imageSize(std::as_bytes(std::span(bytes)), "a", {}, eight).bytes_per_pixel, 12);
         const double expected[3] = {encoded(-0.224940), encoded(1.042057), encoded(-0.078636)};
         for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(file.layers[0].image.data[c], expected[c], 2e-4) << c;
         EXPECT_TRUE(file.notes.lines.at(0).starts_with(converted));

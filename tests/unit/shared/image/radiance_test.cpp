@@ -2,7 +2,7 @@
 // Radiance images made by hand: every orientation, both run-length codes, and files with wrong headers.
 #include "shared/image/radiance.h"
 #include "shared/image/atomic_file.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
 
@@ -138,7 +138,7 @@ TEST(Radiance, FaultsAreNamed) {
         << "walked through before 3.7 GiB are taken";
 }
 
-TEST(Radiance, WrittenPicturesComeBackWithinAStep) {
+TEST(Radiance, WrittenImagesComeBackWithinAStep) {
     const std::filesystem::path file = folder() / "a.hdr";
     // Widths below and within the run-length code's range, runs of every length, single pixels, large and
     // small numbers.
@@ -150,7 +150,7 @@ TEST(Radiance, WrittenPicturesComeBackWithinAStep) {
             rgb[1] = i % 40 < 20 ? 0.25f : 3.0f * static_cast<float>(i);
         }
         EXPECT_EQ(writeHdr(file, image), 0u);
-        const Image back = readPicture(file).layers[0].image;
+        const Image back = readImage(file).layers[0].image;
         ASSERT_EQ(back.width, width);
         ASSERT_EQ(back.height, 3);
         for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -175,14 +175,14 @@ TEST(Radiance, WhatRgbeCannotHoldIsCounted) {
     image.at(2, 0, 2) = std::numeric_limits<float>::infinity();
     for (int c = 0; c < 3; ++c) image.at(3, 0, c) = 1e-40f;
     EXPECT_EQ(writeHdr(file, image), 4u);
-    const Image back = readPicture(file).layers[0].image;
+    const Image back = readImage(file).layers[0].image;
     EXPECT_NEAR(back.at(0, 0, 0), 0, 1.0 / 128);
     EXPECT_NEAR(back.at(1, 0, 1), 0, 1.0 / 128);
     EXPECT_EQ(back.at(2, 0, 2), std::ldexp(255.5f, 119)) << "the largest number of RGBE";
     EXPECT_EQ(back.at(3, 0, 0), 0);
     EXPECT_EQ(back.at(4, 0, 0), 128.5f / 128);
     EXPECT_THROW(writeHdr(file, Image(2, 2, 4)), std::runtime_error);
-    EXPECT_THROW(readPicture(file.parent_path() / "none.hdr"), std::runtime_error);
+    EXPECT_THROW(readImage(file.parent_path() / "none.hdr"), std::runtime_error);
 }
 
 }  // namespace

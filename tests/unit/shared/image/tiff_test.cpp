@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TIFFs made byte by byte, independent of the library that reads them.
 #include "shared/image/tiff.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ std::string stored(const std::vector<T>& values) {
     return out;
 }
 
-TiffPicture read(const MadeTiff& file, std::uint64_t most = 1 << 20) {
+TiffImage read(const MadeTiff& file, std::uint64_t most = 1 << 20) {
     const std::string bytes = file.bytes();
     return readTiff(std::as_bytes(std::span(bytes)), "a.tif", most);
 }
@@ -76,22 +76,22 @@ std::string tiffFault(const std::string& bytes, std::uint64_t most = 1 << 20) {
 }
 
 TEST(Tiff, EverySampleIsReadAsItIs) {
-    const TiffPicture octets = read(made(2, 2, 1, 8, 1, stored<std::uint8_t>({0, 51, 102, 255})));
+    const TiffImage octets = read(made(2, 2, 1, 8, 1, stored<std::uint8_t>({0, 51, 102, 255})));
     EXPECT_EQ(octets.image.data, (PixelData{0, 51 / 255.0f, 102 / 255.0f, 1}));
     EXPECT_EQ(octets.sample, "8 bit");
     EXPECT_FALSE(octets.linear);
-    const TiffPicture words = read(made(2, 1, 1, 16, 1, stored<std::uint16_t>({1, 65535})));
+    const TiffImage words = read(made(2, 1, 1, 16, 1, stored<std::uint16_t>({1, 65535})));
     EXPECT_EQ(words.image.data, (PixelData{1 / 65535.0f, 1}));
     EXPECT_EQ(words.sample, "16 bit");
-    const TiffPicture longs = read(made(2, 1, 1, 32, 1, stored<std::uint32_t>({0x80000000u, 0xffffffffu})));
+    const TiffImage longs = read(made(2, 1, 1, 32, 1, stored<std::uint32_t>({0x80000000u, 0xffffffffu})));
     EXPECT_FLOAT_EQ(longs.image.data[0], 0.5f);
     EXPECT_EQ(longs.image.data[1], 1);
-    const TiffPicture reals = read(made(1, 2, 3, 32, 3, stored<float>({0.1f, -2, 1e30f, 4, 5, 6})));
+    const TiffImage reals = read(made(1, 2, 3, 32, 3, stored<float>({0.1f, -2, 1e30f, 4, 5, 6})));
     EXPECT_EQ(reals.image.components, 3);
     EXPECT_EQ(reals.image.data, (PixelData{0.1f, -2, 1e30f, 4, 5, 6}));
     EXPECT_EQ(reals.sample, "float");
     EXPECT_TRUE(reals.linear);
-    const TiffPicture halves = read(made(2, 1, 1, 16, 3, stored<std::uint16_t>({0x3c00, 0xc000})));
+    const TiffImage halves = read(made(2, 1, 1, 16, 3, stored<std::uint16_t>({0x3c00, 0xc000})));
     EXPECT_EQ(halves.image.data, (PixelData{1, -2}));
     EXPECT_EQ(halves.sample, "half");
 }
@@ -125,9 +125,9 @@ TEST(Tiff, WhiteMayBeZero) {
     EXPECT_EQ(read(seen).image.data, (PixelData{1, 51 / 255.0f, 0, 1})) << "alpha is not turned over";
 }
 
-TEST(Tiff, IsAPictureFileLikeOthers) {
+TEST(Tiff, IsAnImageFileLikeOthers) {
     const std::string bytes = made(1, 1, 3, 8, 1, stored<std::uint8_t>({255, 0, 51})).bytes();
-    const PictureFile file = readPicture(std::as_bytes(std::span(bytes)), "whatever.png");
+    const ImageFile file = readImage(std::as_bytes(std::span(bytes)), "whatever.png");
     EXPECT_EQ(file.format, "TIFF");
     EXPECT_TRUE(file.display_referred);
     ASSERT_EQ(file.layers.size(), 1u);

@@ -67,7 +67,7 @@ TEST(LightGrid, HasTheSizeThatCostsLeastOnTheDevice) {
     EXPECT_GT(with(pixels).lists, with(cpu).lists);
 }
 
-TEST(LightGrid, CoversAnyPictureWithWholeTiles) {
+TEST(LightGrid, CoversAnyImageWithWholeTiles) {
     for (const auto& [width, height] : {std::pair{1, 1}, {15, 17}, {16, 16}, {1279, 719}, {16384, 3}})
         for (const gpu::uint lists : {gpu::LISTS_CLUSTERED, gpu::LISTS_TILED}) {
             const gpu::LightGrid grid = gridOf(lists, viewOf(width, height), pointsAhead(300, 3));

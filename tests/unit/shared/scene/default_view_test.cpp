@@ -198,7 +198,7 @@ TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
 }
 
 // Surfaces facing other ways are other parts of the image, in one primitive or several.
-TEST(DefaultView, SidesOfOnePrimitiveArePartsOfThePicture) {
+TEST(DefaultView, SidesOfOnePrimitiveArePartsOfTheImage) {
     Scene scene;
     addBox(scene, {-1, -1, -1}, {1, 1, 1}, false);
     const double apart = chooseDefaultView(scene).entropy;

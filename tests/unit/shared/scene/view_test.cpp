@@ -265,7 +265,7 @@ TEST(MakeView, SceneCamerasByDefaultIndexAndName) {
 // By hand: for a camera frame of F:1, the frame's corners at depth d are (+-F h, +-h), where h is ymag or
 // d tan(yfov / 2). They are inside an image of any shape, at its left and right or top and bottom edges.
 // An image that is not narrower keeps the camera's height exactly.
-TEST(MakeView, AllThatACameraFramesIsInThePicture) {
+TEST(MakeView, AllThatACameraFramesIsInTheImage) {
     constexpr double yfov = 0.7, ymag = 1.5;
     for (const bool orthographic : {false, true})
         for (const double frame : {0.0, 0.25, 1.0, 16.0 / 9, 3.0})
@@ -280,15 +280,14 @@ TEST(MakeView, AllThatACameraFramesIsInThePicture) {
                 const View view = viewOf(scene, "", width, height);
                 const std::string what = fmt::format(
                     "{} {}:1 in {}x{}", orthographic ? "parallels" : "perspective", frame, width, height);
-                const double picture = static_cast<double>(width) / height;
-                const bool wider = frame > picture;
+                const double image = static_cast<double>(width) / height;
+                const bool wider = frame > image;
                 EXPECT_EQ(view.wider_frame, wider ? frame : 0) << what;
                 EXPECT_EQ(view.camera.yfov == yfov && view.camera.ymag == ymag, !wider) << what;
                 for (const double depth : {1.0, 40.0}) {
                     const double half = orthographic ? ymag : depth * std::tan(yfov / 2);
-                    const glm::dvec4 corner =
-                        view.clipFromWorld() *
-                        glm::dvec4((frame > 0 ? frame : picture) * half, half, -depth, 1);
+                    const glm::dvec4 corner = view.clipFromWorld() *
+                                              glm::dvec4((frame > 0 ? frame : image) * half, half, -depth, 1);
                     const double x = corner.x / corner.w, y = -corner.y / corner.w;
                     EXPECT_NEAR(std::max(x, y), 1, 1e-12) << what;
                     EXPECT_GT(std::min(x, y), 0) << what;

@@ -94,7 +94,7 @@ TEST(LocalAtlas, TilesShareNoTexel) {
 }
 
 // A light that covers less of the image gets smaller tiles.
-TEST(LocalAtlas, TilesFollowTheLightsPartOfThePicture) {
+TEST(LocalAtlas, TilesFollowTheLightsPartOfTheImage) {
     const View view = lookingFrom({0, 1.5, 30}, {0, 1.5, 0});
     const LocalAtlas atlas = atlasOf({spotAt({0, 2, 0}, {0, -1, 0}, 40), pointAt({2, 1, 0}, 1.0f)}, view);
     ASSERT_FALSE(atlas.tiles.empty());

@@ -220,9 +220,9 @@ TEST(Builtin, AWallIsCoveredToTheTile) {
     EXPECT_NE(builtinFault("covered?woven=101").find("it takes 0 to 100"), std::string::npos);
 }
 
-// Every tile and what stands behind glass covers a rectangle of 1/20 of the picture's sides, and none
+// Every tile and what stands behind glass covers a rectangle of 1/20 of the image's sides, and none
 // overlaps another.
-TEST(Builtin, ACoveredWallFillsThePictureOnce) {
+TEST(Builtin, ACoveredWallFillsTheImageOnce) {
     const Scene scene = makeBuiltin("covered?glass=25&coated=25");
     const Pose pose = poseAt(scene, 0);
     const View view = makeView(scene, pose, "", 1600, 900);
@@ -359,8 +359,8 @@ TEST(Builtin, LayersHoldEveryLayerAndTexture) {
         EXPECT_TRUE(slots.contains(slot)) << slot;
 }
 
-// Whatever the picture's shape, no ball is cut off.
-TEST(Builtin, LayersAreWhollyInThePicture) {
+// Whatever the image's shape, no ball is cut off.
+TEST(Builtin, LayersAreWhollyInTheImage) {
     const Scene scene = makeBuiltin("layers");
     const Pose pose = poseAt(scene, 0);
     for (const auto& [width, height] : {std::pair{1600, 900}, {900, 900}, {2100, 900}, {450, 900}}) {

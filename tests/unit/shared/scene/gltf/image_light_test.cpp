@@ -123,9 +123,9 @@ TEST(CubeMap, EveryDirectionIsWhereItIsSeenFromWithin) {
 }
 
 TEST(GltfImageLight, AnAlphaOf0IsNothingAndSixteenBitsAreKept) {
-    TextureImage picture{"", 2, 1, {}};
-    picture.rgba16 = {65535, 32768, 0, 65535, 65535, 65535, 65535, 0};
-    const Image image = decodedRgbd(picture);
+    TextureImage rgbd{"", 2, 1, {}};
+    rgbd.rgba16 = {65535, 32768, 0, 65535, 65535, 65535, 65535, 0};
+    const Image image = decodedRgbd(rgbd);
     EXPECT_EQ(image.at(0, 0, 0), 1);
     EXPECT_NEAR(image.at(0, 0, 1), 0.21405, 1e-5);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(1, 0, c), 0);

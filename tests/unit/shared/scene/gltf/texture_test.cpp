@@ -175,7 +175,7 @@ TEST(GltfTexture, EverySlotHasItsUvSetAndTransform) {
     }
 }
 
-TEST(GltfTexture, TransformsBeyondAnyPictureAreNoted) {
+TEST(GltfTexture, TransformsBeyondAnyImageAreNoted) {
     const Scene scene =
         withMaterial(slotCases[2].material(transformed({{"offset", {1e30, 0}}, {"scale", {1, -1e38}}})))
             .load();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images of every type that glTF may use, written by libpng and libjpeg, decode to the stored numbers.
 #include "shared/scene/image/decode.h"
-#include "shared/image/picture_file.h"
+#include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
@@ -390,7 +390,7 @@ TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
         file.at(15) = static_cast<unsigned char>(x & 255);
         file.at(16) = static_cast<unsigned char>(y >> 8);
         file.at(17) = static_cast<unsigned char>(y & 255);
-        return readPicture(std::as_bytes(std::span(file)), "a.jpg").notes.not_applied;
+        return readImage(std::as_bytes(std::span(file)), "a.jpg").notes.not_applied;
     };
     using Notes = std::vector<std::string>;
     for (const unsigned units : {0u, 1u, 2u}) {
@@ -404,16 +404,16 @@ TEST(ImageDecode, DensitiesOfAJpegAreThePixelsAspect) {
 }
 
 // One decoder: diff compares the same bytes that a texture has.
-TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
+TEST(ImageDecode, AJpegIsAnImageOfTheSameBytes) {
     for (const bool grey : {false, true}) {
         const Bytes file =
             grey ? jpeg(JCS_GRAYSCALE, JCS_GRAYSCALE, {77}) : jpeg(JCS_RGB, JCS_YCbCr, {200, 30, 90});
         const TextureImage texture = decodeImage(file);
-        const PictureFile picture = readPicture(std::as_bytes(std::span(file)), "a.png");
-        EXPECT_EQ(picture.format, "JPEG");
-        EXPECT_TRUE(picture.display_referred);
-        ASSERT_EQ(picture.layers.size(), 1u);
-        const Image& image = picture.layers[0].image;
+        const ImageFile stored = readImage(std::as_bytes(std::span(file)), "a.png");
+        EXPECT_EQ(stored.format, "JPEG");
+        EXPECT_TRUE(stored.display_referred);
+        ASSERT_EQ(stored.layers.size(), 1u);
+        const Image& image = stored.layers[0].image;
         ASSERT_EQ(image.components, grey ? 1 : 3);
         ASSERT_EQ(image.pixels(), 256u);
         for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -430,14 +430,13 @@ TEST(ImageDecode, AJpegIsAPictureOfTheSameBytes) {
                               std::string("\xff\xe2\x00\x12ICC_PROFILE\0\2\2bc", 20);
     told.insert(told.begin() + 20, parts.begin(), parts.end());
     const std::vector<std::string> notes =
-        readPicture(std::as_bytes(std::span(told)), "a.jpg").notes.not_applied;
+        readImage(std::as_bytes(std::span(told)), "a.jpg").notes.not_applied;
     ASSERT_EQ(notes.size(), 2u);
     EXPECT_EQ(notes[0], "its pixels are not square (aspect 0.5) but are shown square");
     EXPECT_TRUE(notes[1].starts_with("its colour profile (3 bytes, ")) << notes[1];
-    const auto pictureFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
-        return faultOf([&] { readPicture(std::as_bytes(bytes), "a.jpg", {}, most); });
+    const auto imageFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
+        return faultOf([&] { readImage(std::as_bytes(bytes), "a.jpg", {}, most); });
     };
-    EXPECT_TRUE(pictureFault(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: "))
-        << "cut";
-    EXPECT_TRUE(pictureFault(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
+    EXPECT_TRUE(imageFault(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
+    EXPECT_TRUE(imageFault(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
 }

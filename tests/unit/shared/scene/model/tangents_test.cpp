@@ -75,21 +75,21 @@ Primitive ball() {
 
 // glTF's v grows downwards: v = 0 is the image's top. Right is +X, top is +Y. With normal +Z, the
 // bitangent cross(n, t) * w = +Y requires w = +1.
-TEST(Tangents, UprightPictureHasTangentToTheRightAndPositiveSign) {
+TEST(Tangents, UprightImageHasTangentToTheRightAndPositiveSign) {
     Primitive p = quad({{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
     makeTangents(p, {.texcoord = 0});
     ASSERT_EQ(p.positions.size(), 4u);
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, 1);
 }
 
-TEST(Tangents, PictureUpsideDownHasNegativeSign) {
+TEST(Tangents, ImageUpsideDownHasNegativeSign) {
     Primitive p = quad({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
     makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {1, 0, 0}, -1);
 }
 
 // The image rotated by 90 degrees: its right is world +Y, its top world -X.
-TEST(Tangents, RotatedPictureRotatesTangent) {
+TEST(Tangents, RotatedImageRotatesTangent) {
     Primitive p = quad({{{0, 0}, {0, 1}, {1, 1}, {1, 0}}});
     makeTangents(p, {.texcoord = 0});
     for (const glm::vec4& t : p.tangents) expectTangent(t, {0, 1, 0}, 1);
@@ -147,7 +147,7 @@ TEST(Tangents, SecondUvSetIsReadWhenAskedFor) {
 
 // Two quads share the edge x = 0 and mirror their image there: u = |x|. The edge's two vertices have one
 // position, normal and UV, but two orientations: each becomes two vertices.
-TEST(Tangents, MirroredPictureSplitsTheSharedEdge) {
+TEST(Tangents, MirroredImageSplitsTheSharedEdge) {
     Primitive p;
     for (const float x : {-1.0f, 0.0f, 1.0f})
         for (const float y : {-1.0f, 1.0f}) {

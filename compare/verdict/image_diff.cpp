@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: MIT
+#include "compare/verdict/image_diff.h"
+
+#include "compare/metrics/pixel.h"
+#include "compare/metrics/prefilter.h"
+#include "compare/run/still_working.h"
+#include "shared/image/file_bytes.h"
+#include "shared/image/free_memory.h"
+#include "shared/image/image_file.h"
+#include "shared/text/counted.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <ranges>
+#include <stdexcept>
+
+namespace diptych {
+namespace {
+
+// IEC 61966-2-1.
+float linearFromSrgb(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+void decode(ImageLayer& layer) {
+    if (layer.image.empty())
+        layer.image =
+            StoredImage{{}, std::move(layer.coded), static_cast<int>(layer.channels.size())}.takeImage();
+}
+
+// Index of a layer's alpha, after its colours; empty without alpha or without colours.
+std::optional<std::size_t> alphaOf(const ImageLayer& layer) {
+    const auto found = std::ranges::find(layer.channels, "A");
+    if (found == layer.channels.end() || layer.channels.size() == 1) return {};
+    return static_cast<std::size_t>(found - layer.channels.begin());
+}
+
+bool hasAlpha(const ImageFile& file) {
+    return std::ranges::any_of(file.layers,
+                               [](const ImageLayer& layer) { return alphaOf(layer).has_value(); });
+}
+
+// Multiplies straight colours by their alpha.
+void associate(ImageFile& file) {
+    for (ImageLayer& layer : file.layers) {
+        const std::optional<std::size_t> alpha = alphaOf(layer);
+        if (!alpha) continue;
+        decode(layer);
+        for (std::size_t i = 0; i < layer.image.pixels(); ++i) {
+            float* const pixel = layer.image.pixel(i);
+            for (std::size_t c = 0; c < layer.channels.size(); ++c)
+                if (c != *alpha) pixel[c] *= pixel[*alpha];
+        }
+    }
+    file.straight_alpha = false;
+}
+
+void makeLinear(ImageFile& file) {
+    for (ImageLayer& layer : file.layers) {
+        decode(layer);
+        for (std::size_t i = 0; i < layer.image.data.size(); ++i) {
+            const std::string& channel = layer.channels[i % static_cast<std::size_t>(layer.image.components)];
+            if (!channel.ends_with('A')) layer.image.data[i] = linearFromSrgb(layer.image.data[i]);
+        }
+    }
+    file.display_referred = false;
+}
+
+// ---- reading ----
+
+// Peak memory of comparing, bytes per pixel, without the encoded files.
+double bytesPerPixel(const ImageSize (&sizes)[2], EightBits eight, const ImageDiffOptions& options) {
+    const bool kept = eight == EightBits::kept;
+    constexpr double color = 3 * sizeof(float), coverage = 1, error = sizeof(float);
+    double images = 0, largest = 0;
+    for (const ImageSize& size : sizes) {
+        const auto decoded = static_cast<double>(size.bytes_per_pixel);
+        images += kept ? decoded : std::max(decoded, color);  // grey becomes a colour
+        largest = std::max(largest, decoded);
+    }
+    // Splitting a layer into channels copies it. FLIP's errors are kept for each colour.
+    constexpr double alpha = sizeof(float);  // for an image without alpha
+    const double split = alpha + (kept ? largest : std::max(largest, color));
+    const double flip = error * (kept ? 1 : std::ceil(largest / color));
+    const double holes = options.selection.any() ? 2 * color : 0;
+    const double filters = (options.blur > 0 ? 4 * color : 0) + (options.shift > 0 ? color : 0);
+    return images + std::max({split, coverage + flip + holes + options.output_bytes, coverage + filters});
+}
+
+struct ImagePair {
+    ImageFile reference, test;
+    bool same_bytes = false;
+    Claim compared;  // of what comparing needs beside the decoded images
+};
+
+// Throws before decoding if this process has too little memory.
+ImagePair readPair(const std::string& reference, const std::string& test, const ImageDiffOptions& options) {
+    const std::string* const names[2] = {&reference, &test};
+    std::vector<unsigned char> files[2];
+    std::string parts[2];
+    std::span<const std::byte> bytes[2];
+    ImageSize kept[2], decoded[2];
+    for (const int i : {0, 1}) {
+        const ImageName name = imageName(*names[i]);
+        parts[i] = name.part;
+        files[i] = bytesOf(name.file);
+        bytes[i] = std::as_bytes(std::span<const unsigned char>(files[i]));
+        kept[i] = imageSize(bytes[i], *names[i], parts[i], EightBits::kept);
+        decoded[i] = imageSize(bytes[i], *names[i], parts[i], EightBits::decoded);
+    }
+    const bool same_bytes = files[0] == files[1];
+    const auto isEight = [&](int i) { return kept[i].bytes_per_pixel < decoded[i].bytes_per_pixel; };
+    const EightBits eight =
+        isEight(0) && isEight(1) && options.names.empty() && options.blur == 0 && options.shift == 0
+            ? EightBits::kept
+            : EightBits::decoded;
+    const auto& sizes = eight == EightBits::kept ? kept : decoded;
+    const ImageSize& larger = std::max(sizes[0], sizes[1], [](const ImageSize& a, const ImageSize& b) {
+        return a.width * a.height < b.width * b.height;
+    });
+    const auto pixels = static_cast<double>(larger.width * larger.height);
+    // SSIM has 252 rows of floats per thread, everything else some 20.
+    const double rows = 1100.0 * static_cast<double>(larger.width) * tbb::this_task_arena::max_concurrency();
+    const double needed = pixels * bytesPerPixel(sizes, eight, options);
+    const std::string what =
+        fmt::format("diff of {} and {}, {}x{}", reference, test, larger.width, larger.height);
+    checkMemory(what, static_cast<std::uint64_t>(needed + rows), "compare smaller images, or parts of them");
+    double beside = needed;  // readImage() claims the images themselves
+    for (const ImageSize& size : sizes)
+        beside -= static_cast<double>(size.width * size.height * size.bytes_per_pixel);
+    Claim compared = claimMemory(static_cast<std::uint64_t>(std::max(beside, 0.0)),
+                                 files[0].size() + files[1].size(), what);
+    // If neither file can be read, the error names the reference, whichever thread was faster.
+    ImageFile images[2];
+    std::exception_ptr failures[2];
+    const auto read = [&](int i) {
+        try {
+            images[i] = readImage(bytes[i], *names[i], parts[i], limits::imageBytes(), eight);
+        } catch (...) {
+            failures[i] = std::current_exception();
+        }
+        files[i] = {};
+    };
+    tbb::parallel_invoke([&] { read(0); }, [&] { read(1); });
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    // A part that was chosen is read whole.
+    for (const int i : {0, 1})
+        if (!parts[i].empty()) images[i].notes.in_part.clear();
+    return {std::move(images[0]), std::move(images[1]), same_bytes, std::move(compared)};
+}
+
+// `same_bytes`: the files are equal, read or not.
+void bringTogether(ImageFile& a, ImageFile& b, bool same_bytes, bool strict, ImageDiff& diff) {
+    if (a.width != b.width || a.height != b.height)
+        throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
+                                             diff.reference, a.width, a.height, diff.test, b.width,
+                                             b.height));
+    if (a.display_referred != b.display_referred) {
+        diff.notes.push_back(fmt::format("{} is {}; it was decoded from sRGB to linear to match the other",
+                                         a.display_referred ? diff.reference : diff.test,
+                                         a.display_referred ? a.format : b.format));
+        makeLinear(a.display_referred ? a : b);
+    }
+    if (a.straight_alpha != b.straight_alpha && hasAlpha(a) && hasAlpha(b)) {
+        diff.notes.push_back(fmt::format("{}: colours were multiplied by alpha to match the other",
+                                         a.straight_alpha ? diff.reference : diff.test));
+        associate(a.straight_alpha ? a : b);
+    }
+    for (const ImageFile* file : {&a, &b}) {
+        const std::string& name = file == &a ? diff.reference : diff.test;
+        const auto& others = (file == &a ? b : a).notes.not_applied;
+        const auto say = [&](const std::string& line, bool fails) {
+            (fails ? diff.failures : diff.notes).push_back(fmt::format("{}: {}", name, line));
+        };
+        for (const std::string& line : file->notes.lines) say(line, false);
+        // A line that both files have makes no difference between them.
+        for (const std::string& line : file->notes.not_applied)
+            say(line, strict && std::ranges::count(others, line) == 0);
+        if (file == &a || diff.reference != diff.test)
+            for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
+    }
+    diff.width = a.width;
+    diff.height = a.height;
+    diff.display = a.display_referred;
+}
+
+// nullptr: no channel of this name with one component.
+const Image* planeOf(const std::vector<ImageChannel>& channels, const char* name) {
+    const auto found = std::ranges::find(channels, name, &ImageChannel::name);
+    return found == channels.end() || found->image.components != 1 ? nullptr : &found->image;
+}
+
+constexpr const char* commandLine = "command line";
+constexpr const char* byDefault = "default of diff";
+
+// Whether only equal values pass: without a tolerance, or where its metric is undefined.
+bool needsEquality(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
+    return !options.failing &&
+           (!options.tolerance_given || !(*channel.measurement)({options.metric, 0}).has_value());
+}
+
+// The command line's rule for a channel that no rule names.
+Rule ruleOf(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
+    Rule rule;
+    rule.channel = channel.pair.name;
+    rule.origin =
+        options.metric_given || options.tolerance_given || options.failing ? commandLine : byDefault;
+    Quantity quantity{options.metric, 0};
+    const std::optional<double> value = (*channel.measurement)(quantity);
+    const bool defined = options.failing || value;
+    if (!defined) {
+        rule.because = fmt::format("{} is not defined for this channel", quantity.figure);
+        quantity.figure = "max";
+    }
+    const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
+    const double equal = !isBetterIfMore(quantity.figure) ? 0
+                         : quantity.figure == "ssim"      ? 1
+                                                          : metrics::infinity;
+    rule.fail = bound(needsEquality(options, channel) ? equal : options.tolerance);
+    if (options.failing)
+        rule.fail = {Condition::Kind::bound, {FAILING, options.tolerance}, *options.failing, {}};
+    if (options.warn && defined) rule.warn = bound(*options.warn);
+    return rule;
+}
+
+// Decides by the values themselves, because metrics round, and some leave pixels out.
+void judgeEquality(ImageChannelDiff& channel, const ImageDiffOptions& options) {
+    const std::uint64_t different = channel.measurement->plain().different;
+    Decision& decision = channel.decision;
+    if (different == 0) {
+        decision.level = Level::pass;
+        decision.reason.clear();
+    } else if (decision.level != Level::fail) {
+        decision.level = Level::fail;
+        decision.reason =
+            fmt::format("{} of {} {}", different, counted(channel.measurement->plain().pixels, "pixel"),
+                        different == 1 ? "differs" : "differ");
+    }
+    if (different > 0 && options.tolerance_given)
+        decision.reason +=
+            "; judge it by a rule, by a --metric defined for it, or leave it out with --channels";
+}
+
+void judge(ImageChannelDiff& channel, const ImageDiffOptions& options) {
+    const Rule* rule = ruleFor(options.rules, channel.pair.name);
+    channel.rule = rule ? *rule : ruleOf(options, channel);
+    channel.decision = decide(channel.rule, *channel.measurement);
+    if (!rule && needsEquality(options, channel)) judgeEquality(channel, options);
+}
+
+// Handles a colour that only fails at pixels with an alpha of 0 in both images.
+void sayHidden(const ImageDiff& diff, ImageChannelDiff& color) {
+    if (color.pair.kind != ChannelKind::color || color.decision.level == Level::pass) return;
+    const std::string name = color.pair.name == "lit" ? "A" : color.pair.name + ".A";
+    const auto found = std::ranges::find(diff.channels, name, [](const auto& c) { return c->pair.name; });
+    if (found == diff.channels.end()) return;
+    const ImageRows colors[2] = {color.pair.reference.rows(), color.pair.test.rows()},
+                    alphas[2] = {(*found)->pair.reference.rows(), (*found)->pair.test.rows()};
+    std::vector<float> buffers[4];
+    for (int y = 0; y < diff.height; ++y) {
+        const float *a = colors[0].row(y, buffers[0]), *b = colors[1].row(y, buffers[1]),
+                    *alpha_a = alphas[0].row(y, buffers[2]), *alpha_b = alphas[1].row(y, buffers[3]);
+        for (int x = 0; x < diff.width; ++x)
+            if ((alpha_a[x] != 0 || alpha_b[x] != 0) && !std::equal(a + 3 * x, a + 3 * x + 3, b + 3 * x))
+                return;
+    }
+    color.decision.reason +=
+        fmt::format("; {} is 0 in both wherever they differ, so the difference is invisible", name);
+}
+
+void findWorst(const ImageDiff& diff, ImageChannelDiff& channel) {
+    if (channel.measurement->stats().different == 0) return;
+    const DecidingErrors deciding = decidingErrors(diff, channel);
+    const Image& errors = *deciding.image;
+    const auto most = std::max_element(errors.data.begin(), errors.data.end());
+    if (!(*most > 0)) return;
+    const auto at = static_cast<int>(most - errors.data.begin());
+    channel.worst_x = at % errors.width;
+    channel.worst_y = at / errors.width;
+}
+
+// Notes on what no metric shows: a NaN in both images, what FLIP cannot see, an undefined metric.
+void addNotes(ImageDiff& diff, const ImageDiffOptions& options) {
+    std::vector<std::string> without;
+    for (const auto& channel : diff.channels) {
+        const ChannelStats& s = channel->measurement->stats();
+        if (s.nonfinite_baseline + s.nonfinite_test > 0)
+            diff.notes.push_back(fmt::format("{}: {} of the reference and {} of the test are NaN or infinite",
+                                             channel->pair.name, counted(s.nonfinite_baseline, "pixel"),
+                                             s.nonfinite_test));
+        const bool by_flip =
+            std::ranges::any_of(std::array{"flip", "flip_median", "flip_max"},
+                                [&](const char* figure) { return boundsFigure(channel->rule.fail, figure); });
+        if (const std::uint64_t unseen = by_flip ? channel->measurement->unseenDifferent() : 0; unseen > 0)
+            diff.notes.push_back(fmt::format(
+                "{}: FLIP cannot see {} that {} (negative, or beyond its exposures): error 1 each",
+                channel->pair.name, counted(unseen, "pixel"), unseen == 1 ? "differs" : "differ"));
+        if (!channel->rule.because.empty() && isOwnRule(channel->rule)) without.push_back(channel->pair.name);
+    }
+    if (!without.empty())
+        diff.notes.push_back(fmt::format("{} is not defined for {}: only equal values pass", options.metric,
+                                         fmt::join(without, ", ")));
+}
+
+// The channel with its measurement, after --blur and --shift.
+std::unique_ptr<ImageChannelDiff> diffOf(MatchedChannel pair, const ImageDiff& diff,
+                                         const ImageDiffOptions& options) {
+    auto channel = std::make_unique<ImageChannelDiff>();
+    channel->pair = std::move(pair);
+    MatchedChannel& p = channel->pair;
+    if (p.kind != ChannelKind::id) {
+        if (options.blur > 0) {
+            p.reference.image = metrics::blurred(p.reference.image, options.blur);
+            p.test.image = metrics::blurred(p.test.image, options.blur);
+        }
+        if (options.shift > 0)
+            p.test.image = metrics::shifted(p.reference.image, p.test.image, options.shift);
+    }
+    channel->display = diff.display && p.kind == ChannelKind::color;
+    channel->measurement =
+        std::make_unique<Measurement>(ChannelPair{p.metric, p.kind, channel->display, p.reference.rows(),
+                                                  p.test.rows(), diff.coverage.get(), nullptr, options.flip});
+    return channel;
+}
+
+void judgeChannels(ImageDiff& diff, const ImageDiffOptions& options) {
+    constexpr double reading = 0.3;
+    const auto all = static_cast<double>(diff.channels.size());
+    double done = 0;
+    for (auto& channel : diff.channels) {
+        options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
+        judge(*channel, options);
+        findWorst(diff, *channel);
+    }
+    if (options.metric_given && options.rules.empty() &&
+        std::ranges::none_of(diff.channels, [&](const auto& channel) {
+            return (*channel->measurement)({options.metric, 0}).has_value();
+        })) {
+        std::vector<std::string> names;
+        for (const auto& channel : diff.channels) names.push_back(channel->pair.name);
+        throw std::runtime_error(fmt::format("--metric {}: not defined for any channel of these images: {}",
+                                             options.metric, fmt::join(names, ", ")));
+    }
+    for (auto& channel : diff.channels) sayHidden(diff, *channel);
+}
+
+void checkBlackness(ImageDiff& diff, const ImageDiffOptions& options) {
+    const bool black = std::ranges::all_of(diff.channels, [&](const auto& channel) {
+        return isBlack(channel->pair.reference.rows(), *diff.coverage) &&
+               isBlack(channel->pair.test.rows(), *diff.coverage);
+    });
+    if (!black || options.allow_empty) return;
+    constexpr const char* blackness = "both images are black: every compared value is 0";
+    if (options.strict)
+        diff.failures.push_back(fmt::format("{}; --allow-empty accepts that", blackness));
+    else
+        diff.emptiness = blackness;
+}
+
+}  // namespace
+
+std::string figureOfMetric(const std::string& name) {
+    static const std::map<std::string, std::string> others{{"relative", "relative_max"},
+                                                           {"angular", "angle_max"},
+                                                           {"angle", "angle_max"},
+                                                           {"ulp", "ulp_max"},
+                                                           {"relmse", "relative_mse"}};
+    if (const auto other = others.find(name); other != others.end()) return other->second;
+    if (findFigure(name)) return name;
+    throw std::runtime_error(fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp, {}",
+                                         name,
+                                         fmt::join(figures() | std::views::transform(&Figure::name), ", ")));
+}
+
+DecidingErrors decidingErrors(const ImageDiff& diff, const ImageChannelDiff& channel) {
+    const MatchedChannel& pair = channel.pair;
+    const auto decides = [&](const char* figure) {
+        return std::ranges::any_of(figures(), [&](const Figure& f) {
+            return f.name.starts_with(figure) && boundsFigure(channel.rule.fail, f.name);
+        });
+    };
+    if (decides("flip"))
+        if (auto errors = channel.measurement->flipErrors()) return {std::move(errors), "FLIP", 1};
+    const bool relative = decides("relative") && pair.metric == Metric::absolute;
+    const Metric metric = relative ? Metric::relative : pair.metric;
+    auto errors = std::make_shared<Image>(
+        errorImage(metric, pair.kind, pair.reference.rows(), pair.test.rows(), *diff.coverage));
+    if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
+    const double top = channel.measurement->plain().relative_max;
+    return {std::move(errors), "relative", top};
+}
+
+bool isOwnRule(const Rule& rule) {
+    return rule.origin == commandLine || rule.origin == byDefault;
+}
+
+bool ImageDiff::passed() const {
+    return failures.empty() &&
+           std::ranges::none_of(channels, [](const auto& c) { return c->decision.level == Level::fail; });
+}
+
+ImageDiff diffImages(const std::string& reference, const std::string& test, const ImageDiffOptions& options) {
+    ImageDiff diff;
+    diff.reference = reference;
+    diff.test = test;
+    std::optional<StillWorking> working(std::in_place, options.progress, "read");
+    auto [a, b, same_bytes, compared] = readPair(reference, test, options);
+    working.reset();
+    const Claim claims[] = {a.claim, b.claim};  // of images that are moved below
+    diff.reference_format = a.format;
+    diff.test_format = b.format;
+    bringTogether(a, b, same_bytes, options.strict, diff);
+
+    checkNames(a, b, options.names);
+    std::vector<ImageChannel> left = channelsOf(std::move(a), options.names),
+                              right = channelsOf(std::move(b), options.names);
+    diff.coverage = std::make_unique<Coverage>(
+        everyPixel(static_cast<std::size_t>(diff.width) * static_cast<std::size_t>(diff.height)));
+    applySelection(*diff.coverage, diff.width, diff.height, options.selection,
+                   {{planeOf(left, "material_id"), planeOf(right, "material_id")},
+                    {planeOf(left, "depth"), planeOf(right, "depth")}},
+                   diff.notes);
+    std::vector<std::string> names;
+    for (const auto* side : {&left, &right})
+        for (const ImageChannel& channel : *side) names.push_back(channel.name);
+    MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
+    diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
+    for (const OneSidedChannel& channel : matched.one_sided)
+        judgeOneSided(channel.name, channel.owner, {options.rules, options.channels, options.strict},
+                      diff.failures, diff.notes);
+    for (MatchedChannel& pair : matched.channels)
+        diff.channels.push_back(diffOf(std::move(pair), diff, options));
+    judgeChannels(diff, options);
+    addNotes(diff, options);
+    // A rule that names no channel by its whole name fails, because its author expects a match; a pattern
+    // may match nothing.
+    for (const Rule* rule : idleRules(options.rules, names))
+        (isPattern(*rule) ? diff.notes : diff.failures).push_back(idleText(*rule, names));
+    checkBlackness(diff, options);
+    return diff;
+}
+
+}  // namespace diptych
