@@ -36,7 +36,8 @@ void multiply(Image& image, double factor) {
 
 ChannelStats statsOf(Channel mode, const Frame& truth, const Frame& test, const Coverage& where) {
     const DebugMode& channel = debugMode(mode);
-    return channelStats(channel.metric, channel.kind, truth.channels.at(mode), test.channels.at(mode), where);
+    return channelStats(channel.error_kind, channel.kind, truth.channels.at(mode), test.channels.at(mode),
+                        where);
 }
 
 // 99th percentile over pixels of the largest component difference between images of lit, as a fraction of

@@ -60,8 +60,8 @@ std::map<Channel, double> packedBounds(const Settings& settings) {
     std::map<Channel, double> bounds;
     for (const Channel mode : relatedChannels())
         if (const auto field = storedField(mode, settings.gbuffer, needs))
-            bounds[mode] =
-                isAngle(debugMode(mode).metric) ? glm::radians(field->largestBound()) : field->largestBound();
+            bounds[mode] = isAngle(debugMode(mode).error_kind) ? glm::radians(field->largestBound())
+                                                               : field->largestBound();
     return bounds;
 }
 

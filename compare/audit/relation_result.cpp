@@ -193,7 +193,7 @@ private:
             std::numeric_limits<float>::min();
         if (mode == Channel::geometric_normal) allowed += tolerance_.facet;
         if (tolerance_.step > 0) allowed += tolerance_.step * variation(mode, pixel);
-        allowed += packed(mode) * (debugMode(mode).metric == Metric::relative ? value : 1);
+        allowed += packed(mode) * (debugMode(mode).error_kind == ErrorKind::relative ? value : 1);
         if (mode == Channel::lit) allowed += value * lightByNormals(pixel);
         if (mode == Channel::lit && tolerance_.packed_light)
             allowed += double{tolerance_.packed_light->data[pixel]};
@@ -323,7 +323,7 @@ private:
     const RelationTolerance& tolerance_;
     const Coverage where_;
     const double light_floor_ =
-        PixelError(Metric::relative, ChannelKind::color, given(Channel::lit), where_).floor();
+        PixelError(ErrorKind::relative, ChannelKind::color, given(Channel::lit), where_).floor();
     std::vector<bool> aside_, filtered_;
 };
 

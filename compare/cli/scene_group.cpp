@@ -279,11 +279,11 @@ int listChannels(bool json) {
     for (const DebugMode& mode : debugModes()) {
         list.push_back({{"number", channelNumber(mode.channel)},
                         {"name", mode.name},
-                        {"metric", nameOf(mode.metric)},
+                        {"metric", nameOf(mode.error_kind)},
                         {"shows", mode.shows}});
         if (!json)
-            printOut("{:>3}  {:<20} {:<9} {}\n", channelNumber(mode.channel), mode.name, nameOf(mode.metric),
-                     mode.shows);
+            printOut("{:>3}  {:<20} {:<9} {}\n", channelNumber(mode.channel), mode.name,
+                     nameOf(mode.error_kind), mode.shows);
     }
     if (json) printOut("{}\n", jsonText(list));
     return 0;

@@ -45,7 +45,7 @@ ErrorsAgainst::ErrorsAgainst(const Frame& reference)
     : coverage_(coverage(reference, reference)),  // the same pixels for all rows
       reference_(reference.channels.at(Channel::lit)),
       covered_(covered(reference_)),
-      relative_(debugMode(Channel::lit).metric, debugMode(Channel::lit).kind, reference_, coverage_) {}
+      relative_(debugMode(Channel::lit).error_kind, debugMode(Channel::lit).kind, reference_, coverage_) {}
 
 const HdrFlipAgainst& ErrorsAgainst::flip() const {
     if (!flip_) flip_.emplace(covered_, flipOver(coverage_));

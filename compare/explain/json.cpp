@@ -44,7 +44,7 @@ Json stepsJson(const PixelBreakdown& breakdown) {
     Json steps = Json::array();
     for (const PixelStep& step : breakdown.steps) {
         Json one{{"number", channelNumber(step.mode->channel)}, {"name", step.mode->name},
-                 {"metric", nameOf(step.mode->metric)},         {"baseline", numbersJson(step.values[0])},
+                 {"metric", nameOf(step.mode->error_kind)},     {"baseline", numbersJson(step.values[0])},
                  {"test", numbersJson(step.values[1])},         {"reference", numbersJson(step.values[2])}};
         if (step.isCompared()) {
             one["difference"] = finiteOrNull(step.difference);

@@ -70,7 +70,8 @@ public:
         query.progress.at(0.6, "reference: the pixel");
         reference_ = renderer.referencePixel(query.reference, query.x, query.y);
         const DebugMode& lit = debugMode(Channel::lit);
-        lit_floor_ = PixelError(lit.metric, lit.kind, frames_[0].channels.at(lit.channel), covered_).floor();
+        lit_floor_ =
+            PixelError(lit.error_kind, lit.kind, frames_[0].channels.at(lit.channel), covered_).floor();
     }
 
     PixelBreakdown build() {
@@ -141,7 +142,7 @@ private:
         if (const auto found = reference_.channels.find(mode.channel); found != reference_.channels.end())
             for (int c = 0; c < mode.width; ++c) step.values[2].push_back(found->second[c]);
         if (step.isCompared()) {
-            const PixelError error(mode.metric, mode.kind, *images[0], covered_);
+            const PixelError error(mode.error_kind, mode.kind, *images[0], covered_);
             step.difference = error(images[1]->pixel(pixel_), images[0]->pixel(pixel_));
             step.differs = unequalPixels(onePixel(*images[0], pixel_), onePixel(*images[1], pixel_),
                                          pair_.cpu ? 0 : gpuUlps) > 0;

@@ -46,7 +46,7 @@ using PixelValue = std::vector<double>;
 struct PixelStep {
     const DebugMode* mode = nullptr;
     std::array<PixelValue, 3> values;  // baseline, test, reference
-    double difference = 0;             // of the two paths, in the channel's metric
+    double difference = 0;             // of the two paths, in the channel's error kind
     bool differs = false;              // beyond rounding: any bit on a CPU device, over 16 ULP on a GPU
     Tolerance tolerance;               // at this pixel; infinite if a rule does not bound single pixels
     bool beyond = false;               // out of tolerance, or not explained by the encoding
@@ -75,7 +75,7 @@ struct PixelTerm {
     std::array<glm::dvec3, 3> values{};  // baseline, test, reference
     bool has_reference = true;
     double uncertainty = 0;  // of the reference: half the 95 % confidence interval, largest component
-    double difference = 0;   // of the two paths, in the metric of lit
+    double difference = 0;   // of the two paths, in lit's error kind
     bool differs = false;    // as PixelStep::differs; always false for sum and residual
 };
 

@@ -245,7 +245,7 @@ std::string firstDifference(const PixelBreakdown& breakdown) {
             "the first step that differs by more than rounding: {} ({}, {:.3g} in its metric, {}, "
             "tolerance {}: {})",
             step->mode->name, against(step->values[0], step->values[1]), step->difference,
-            nameOf(step->mode->metric), toleranceText(*step), step->tolerance.because);
+            nameOf(step->mode->error_kind), toleranceText(*step), step->tolerance.because);
     if (term)
         return fmt::format(
             "the first step that differs by more than rounding: {} ({} W/(sr m^2), relative difference "

@@ -98,10 +98,10 @@ bool isDebugMode(const std::string& name, std::size_t width) {
     return modeOf(name, width) != nullptr;
 }
 
-Metric metricOf(const std::string& name, std::size_t width, ChannelKind kind) {
+ErrorKind errorKindOf(const std::string& name, std::size_t width, ChannelKind kind) {
     const DebugMode* mode = modeOf(name, width);
-    if (mode && (isAngle(mode->metric) || mode->metric == Metric::exact)) return mode->metric;
-    return kind == ChannelKind::id ? Metric::exact : Metric::absolute;
+    if (mode && (isAngle(mode->error_kind) || mode->error_kind == ErrorKind::exact)) return mode->error_kind;
+    return kind == ChannelKind::id ? ErrorKind::exact : ErrorKind::absolute;
 }
 
 }  // namespace diptych

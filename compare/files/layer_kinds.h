@@ -27,6 +27,6 @@ bool isWhole(const Image& image);
 // Whether the layer has the name and width of a debug mode.
 bool isDebugMode(const std::string& name, std::size_t width);
 
-Metric metricOf(const std::string& name, std::size_t width, ChannelKind kind);
+ErrorKind errorKindOf(const std::string& name, std::size_t width, ChannelKind kind);
 
 }  // namespace diptych

@@ -397,12 +397,12 @@ MatchedChannels matchChannels(std::vector<ImageChannel> reference, std::vector<I
                 fmt::format("{}: {} in the reference, {} in the test", a.name, a.type, b->type));
         keepDistinct(a, *b);
         if (std::string note = setKind(a, *b); !note.empty()) matched.notes.push_back(std::move(note));
-        const Metric metric = metricOf(a.name, a.channels.size(), a.kind);
+        const ErrorKind errorKind = errorKindOf(a.name, a.channels.size(), a.kind);
         const auto stored = [](ImageChannel& c) {
             return StoredImage{std::move(c.image), std::move(c.coded), c.components()};
         };
         matched.channels.push_back(
-            {a.name, a.kind, metric, a.type, b->type, a.channels, stored(a), stored(*b)});
+            {a.name, a.kind, errorKind, a.type, b->type, a.channels, stored(a), stored(*b)});
     }
     for (const ImageChannel& b : test)
         if (isWanted(b.name) && std::ranges::find(reference, b.name, &ImageChannel::name) == reference.end())

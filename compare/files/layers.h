@@ -49,7 +49,7 @@ Image takeUncertainty(ImageFile& file);
 struct MatchedChannel {
     std::string name;
     ChannelKind kind = ChannelKind::scalar;
-    Metric metric = Metric::absolute;  // from the debug mode if an angle or exact
+    ErrorKind error_kind = ErrorKind::absolute;  // from the debug mode if an angle or exact
     std::string reference_type, test_type;
     std::vector<std::string> channels;  // names in the reference
     StoredImage reference, test;

@@ -38,7 +38,7 @@ std::uint8_t srgbByte(float linear) {
 
 bool isRadiance(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric) return mode.shown == Shown::radiance;
-    return mode.kind == ChannelKind::color && mode.metric == Metric::relative;
+    return mode.kind == ChannelKind::color && mode.error_kind == ErrorKind::relative;
 }
 bool isNormalised(const DebugMode& mode) {
     if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;

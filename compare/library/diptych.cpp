@@ -48,7 +48,7 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     if (coverage.count == 0) throw std::runtime_error("no pixel counts: Options::covered is 0 everywhere");
     HdrFlipOptions flip;
     flip.pixels_per_degree = options.pixels_per_degree;
-    const Measurement measurement({.metric = Metric::absolute,
+    const Measurement measurement({.error_kind = ErrorKind::absolute,
                                    .kind = ChannelKind::color,
                                    .display = options.display,
                                    .reference = a,

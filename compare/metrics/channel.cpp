@@ -234,35 +234,36 @@ Coverage coverage(const Frame& a, const Frame& b) {
     return coverage;
 }
 
-PixelError::PixelError(Metric metric, ChannelKind kind, const ImageRows& baseline, const Coverage& coverage)
-    : metric_(metric), components_(baseline.components) {
-    if (metric == Metric::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
-    if (isAngle(metric) && components_ != 3)
+PixelError::PixelError(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline,
+                       const Coverage& coverage)
+    : error_kind_(errorKind), components_(baseline.components) {
+    if (errorKind == ErrorKind::relative) floor_ = 1e-3 * meanMagnitude(baseline, kind, coverage);
+    if (isAngle(errorKind) && components_ != 3)
         throw std::runtime_error(fmt::format("angles need vectors of 3 components, not {}", components_));
 }
 
 double PixelError::operator()(const float* test, const float* baseline) const {
     const double difference = distance(test, baseline, components_);
     if (difference == 0 || difference == infinity) return difference;
-    switch (metric_) {
-        case Metric::relative:
+    switch (error_kind_) {
+        case ErrorKind::relative:
             return difference / std::max(largestFinite(baseline, components_), floor_);
-        case Metric::absolute:
+        case ErrorKind::absolute:
             return difference;
-        case Metric::angular:
+        case ErrorKind::angular:
             return finite(test, components_) ? angle(test, baseline) : infinity;
-        case Metric::axial:
+        case ErrorKind::axial:
             return finite(test, components_) ? lineAngle(test, baseline) : infinity;
-        case Metric::exact:
+        case ErrorKind::exact:
             return 1;
     }
     return infinity;
 }
 
-ChannelStats channelStats(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
-                          const Coverage& coverage) {
+ChannelStats channelStats(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline,
+                          const ImageRows& test, const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
-    const PixelError error(metric, kind, baseline, coverage);
+    const PixelError error(errorKind, kind, baseline, coverage);
     ChannelStats stats;
     Histogram first(std::size_t{1} << digit);
     std::uint64_t zeros = 0;
@@ -297,10 +298,10 @@ ChannelStats channelStats(Metric metric, ChannelKind kind, const ImageRows& base
     return stats;
 }
 
-Image errorImage(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
+Image errorImage(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
                  const Coverage& coverage) {
     checkAlike(baseline, test, coverage.covered.size());
-    const PixelError error(metric, kind, baseline, coverage);
+    const PixelError error(errorKind, kind, baseline, coverage);
     Image errors(baseline.width, baseline.height, 1);
     eachPair(test, baseline, 0, baseline.height, [&](std::size_t i, const float* a, const float* b) {
         if (!coverage.covered[i]) return;

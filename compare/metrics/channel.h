@@ -58,23 +58,23 @@ struct ChannelStats {
 // Two NaNs are equal, and so are equal infinities.
 class PixelError {
 public:
-    PixelError(Metric metric, ChannelKind kind, const ImageRows& baseline, const Coverage& coverage);
+    PixelError(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline, const Coverage& coverage);
     double operator()(const float* test, const float* baseline) const;
     double floor() const { return floor_; }  // relative: least denominator; else 0
 
 private:
-    Metric metric_;
+    ErrorKind error_kind_;
     int components_;
     double floor_ = 0;
 };
 
 // Statistics of `test` against `baseline`. Throws std::runtime_error if their sizes or components differ.
 // Deterministic: sums are double, in pixel order. Takes a few MB for any size.
-ChannelStats channelStats(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
-                          const Coverage& coverage);
+ChannelStats channelStats(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline,
+                          const ImageRows& test, const Coverage& coverage);
 
 // The errors behind the statistics, W x H x 1; 0 in the background, infinite errors are +infinity.
-Image errorImage(Metric metric, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
+Image errorImage(ErrorKind errorKind, ChannelKind kind, const ImageRows& baseline, const ImageRows& test,
                  const Coverage& coverage);
 
 // Tolerance in units in the last place of a pixel's largest component between two pipelines on a GPU. Its

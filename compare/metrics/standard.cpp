@@ -34,13 +34,13 @@ struct BandSums {
 class StandardPass {
 public:
     StandardPass(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
-                 const Coverage& coverage, Metric metric)
+                 const Coverage& coverage, ErrorKind errorKind)
         : reference_(reference),
           test_(test),
           coverage_(coverage),
           angles_(kind == ChannelKind::vector && reference.components == 3),
-          lines_(metric == Metric::axial),
-          floor_(PixelError(Metric::relative, kind, reference, coverage).floor()) {}
+          lines_(errorKind == ErrorKind::axial),
+          floor_(PixelError(ErrorKind::relative, kind, reference, coverage).floor()) {}
 
     bool angles() const { return angles_; }
     double meanMagnitude() const { return 1e3 * floor_; }
@@ -231,10 +231,10 @@ std::optional<double> ssimOf(const ImageRows& reference, const ImageRows& test, 
 }  // namespace
 
 StandardMetrics standardMetrics(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
-                                Range range, const Coverage& coverage, Metric metric) {
+                                Range range, const Coverage& coverage, ErrorKind errorKind) {
     checkPair(reference, test, coverage);
     StandardMetrics m;
-    const StandardPass pass(reference, test, kind, coverage, metric);
+    const StandardPass pass(reference, test, kind, coverage, errorKind);
     const BandSums sums = pass.run();
     m.pixels = coverage.count;
     m.different = sums.different;

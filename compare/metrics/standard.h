@@ -54,6 +54,7 @@ struct StandardMetrics {
 // over the pixels, each with a few dozen rows per thread. The result does not depend on the number of
 // threads.
 StandardMetrics standardMetrics(const ImageRows& reference, const ImageRows& test, ChannelKind kind,
-                                Range range, const Coverage& coverage, Metric metric = Metric::angular);
+                                Range range, const Coverage& coverage,
+                                ErrorKind errorKind = ErrorKind::angular);
 
 }  // namespace diptych

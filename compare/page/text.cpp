@@ -83,7 +83,7 @@ std::string breakable(std::string_view name) {
 }
 
 const char* unitOf(const DebugMode& mode) {
-    return isAngle(mode.metric) ? "\u00b0" : "";
+    return isAngle(mode.error_kind) ? "\u00b0" : "";
 }
 
 std::string cameraTitle(const Frame& frame) {

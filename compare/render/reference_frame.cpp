@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 // 99.9th percentile of the relative uncertainty over pixels that show a surface.
 double uncertaintyOf(const Image& uncertainty, const Image& image, const Coverage& covered) {
-    const PixelError error(Metric::relative, ChannelKind::color, image, covered);
+    const PixelError error(ErrorKind::relative, ChannelKind::color, image, covered);
     std::vector<double> all;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         if (!covered.covered[i]) continue;

@@ -224,7 +224,8 @@ private:
         ChannelNoise noise{unequalPixels(first, again, 0), 0};
         const DebugMode& mode = debugMode(channel);
         if (noise.pixels > 0)
-            noise.max = channelStats(mode.metric, mode.kind, first, again, everyPixel(first.pixels())).max;
+            noise.max =
+                channelStats(mode.error_kind, mode.kind, first, again, everyPixel(first.pixels())).max;
         frame_.noise[channel] = noise;
         letGo(first.data);
     }

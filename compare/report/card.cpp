@@ -65,8 +65,8 @@ public:
                 {body},
                 id_,
                 {Span(mode.name, Span::title),
-                 Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelNumber(mode.channel), nameOf(mode.metric),
-                                  mode.shows),
+                 Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelNumber(mode.channel),
+                                  nameOf(mode.error_kind), mode.shows),
                       Span::words, "soft"),
                  Span(verdict, Span::verdict, verdict)},
                 open || (compared && channel_.stats.different > 0)};
@@ -228,18 +228,18 @@ private:
         if (channel_.certain_p999 && channel_.shown_error)
             return "excess: relative error minus the reference's uncertainty and the G-buffer's quantization "
                    "bound";
-        if (channel_.shown_error && channel_.shown_error_name != nameOf(Metric::relative))
+        if (channel_.shown_error && channel_.shown_error_name != nameOf(ErrorKind::relative))
             return markup(channel_.shown_error_name);
-        switch (channel_.shown_error ? Metric::relative : channel_.mode->metric) {
-            case Metric::relative:
+        switch (channel_.shown_error ? ErrorKind::relative : channel_.mode->error_kind) {
+            case ErrorKind::relative:
                 return "relative error, |a-b| / |b|";
-            case Metric::angular:
+            case ErrorKind::angular:
                 return "angle between the two, degrees";
-            case Metric::axial:
+            case ErrorKind::axial:
                 return "angle between the two lines, degrees";
-            case Metric::exact:
+            case ErrorKind::exact:
                 return "1 where the two differ";
-            case Metric::absolute:
+            case ErrorKind::absolute:
                 break;
         }
         return "absolute error, |a-b|";

@@ -47,8 +47,8 @@ Cell channelCell(const ChannelDiff& channel, const std::string& id) {
 
 // "angle, \u00b0": pixel error and unit of the channel's row.
 Cell metricCell(const DebugMode& mode) {
-    const std::string unit = page::unitOf(mode), metric(nameOf(mode.metric));
-    return either(metric, metric + (unit.empty() ? "" : ", " + unit));
+    const std::string unit = page::unitOf(mode), errorKind(nameOf(mode.error_kind));
+    return either(errorKind, errorKind + (unit.empty() ? "" : ", " + unit));
 }
 
 Cell usedCell(const ChannelDiff& channel) {

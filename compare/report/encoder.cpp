@@ -93,7 +93,7 @@ private:
         const Image *left = findChannel(baseline, mode.channel), *right = findChannel(test, mode.channel);
         Image errors;
         if (images.differ) {
-            errors = errorImage(mode.metric, mode.kind, *left, *right, comparison.coverage);
+            errors = errorImage(mode.error_kind, mode.kind, *left, *right, comparison.coverage);
             const Image& shown = channel.shown_error ? *channel.shown_error : errors;
             if (!images.difference.empty()) write(images.difference, errorMap(shown, images.error_top));
             images.histogram = errorHistogram(shown, comparison.coverage);

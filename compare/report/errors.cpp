@@ -19,11 +19,11 @@ namespace {
 
 // The kind of error, in a word or two.
 std::string kindOf(const ChannelDiff& channel) {
-    if (channel.shown_error && channel.shown_error_name != nameOf(Metric::relative))
+    if (channel.shown_error && channel.shown_error_name != nameOf(ErrorKind::relative))
         return channel.shown_error_name;
     if (channel.shown_error) return "relative error";
-    const Metric metric = channel.mode->metric;
-    return isAngle(metric) ? "angle" : fmt::format("{} error", nameOf(metric));
+    const ErrorKind errorKind = channel.mode->error_kind;
+    return isAngle(errorKind) ? "angle" : fmt::format("{} error", nameOf(errorKind));
 }
 
 // If an error exceeds the limit, the bin that contains the limit is split at it. The right part is coloured
@@ -89,7 +89,7 @@ std::string worstList(const ChannelDiff& channel, const ChannelImages& images, c
 
 std::string errorFigures(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
     if (images.worst.empty()) return {};
-    const std::string spread = channel.mode->metric == Metric::exact ? "" : histogram(channel, images);
+    const std::string spread = channel.mode->error_kind == ErrorKind::exact ? "" : histogram(channel, images);
     return "<div class=\"spread\">" + spread + worstList(channel, images, id) + "</div>\n";
 }
 

@@ -61,7 +61,7 @@ Json channelJson(const ImageChannelDiff* of) {
               {"channels", channel.pair.channels},
               {"reference_type", channel.pair.reference_type},
               {"test_type", channel.pair.test_type},
-              {"metric", nameOf(channel.pair.metric)}};
+              {"metric", nameOf(channel.pair.error_kind)}};
     for (const auto& [name, value] : s.byName()) json[name] = finiteOrNull(value);
     const HdrFlipResult* flip = m.flip();
     json["flip"] = flip ? Json(flip->mean) : Json(nullptr);

@@ -31,7 +31,7 @@ std::vector<DebugMode> modesOf(const ImageDiff& diff) {
         DebugMode mode{.channel = ours ? known->channel : foreignChannel(static_cast<int>(modes.size())),
                        .name = pair.name,
                        .width = pair.reference.components(),
-                       .metric = pair.metric,
+                       .error_kind = pair.error_kind,
                        .kind = pair.kind,
                        .domain = Domain::any,
                        .maker = MadeBy::both,
@@ -39,7 +39,7 @@ std::vector<DebugMode> modesOf(const ImageDiff& diff) {
         const bool color = pair.kind == ChannelKind::color && mode.width == 3;
         if (channel->display && color)
             mode.shown = Shown::display;
-        else if (color && (!ours || known->metric == Metric::relative))
+        else if (color && (!ours || known->error_kind == ErrorKind::relative))
             mode.shown = Shown::radiance;
         else if (!ours && pair.kind != ChannelKind::id)
             mode.shown = Shown::normalised;

@@ -51,7 +51,7 @@ Json jsonOf(const BoundUse& use) {
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
     Json json{{"number", channelNumber(channel.mode->channel)},
               {"name", channel.mode->name},
-              {"metric", nameOf(channel.mode->metric)}};
+              {"metric", nameOf(channel.mode->error_kind)}};
     const ChannelStats& s = channel.stats;
     const bool compared = isCompared(channel.verdict), anywhere = compared && s.worst_x >= 0;
     for (const auto& [name, value] : s.byName()) json[name] = compared ? finiteOrNull(value) : Json(nullptr);

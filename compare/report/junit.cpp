@@ -136,8 +136,8 @@ private:
         const ChannelStats& s = channel.stats;
         return failure("difference", channel.reason,
                        fmt::format("max {} mean {} p99.9 {} ({}), worst at {},{}; {}: {}", number(s.max),
-                                   number(s.mean), number(s.p999), nameOf(channel.mode->metric), s.worst_x,
-                                   s.worst_y,
+                                   number(s.mean), number(s.p999), nameOf(channel.mode->error_kind),
+                                   s.worst_x, s.worst_y,
                                    channel.rule.empty() ? limit : fmt::format("{}, {}", channel.rule, limit),
                                    channel.tolerance.because)) +
                attachments(channel, images);

@@ -24,11 +24,12 @@ bool isDrawn(const ChannelDiff& channel, std::string_view figure) {
         return std::ranges::count(names, figure) > 0;
     };
     if (channel.shown_error_name == "FLIP") return figure == "flip_max";
-    const Metric metric =
-        channel.shown_error_name == nameOf(Metric::relative) ? Metric::relative : channel.mode->metric;
-    if (metric == channel.mode->metric && isOneOf({"max", "p99", "p999"})) return true;
-    return (metric == Metric::relative && isOneOf({"relative_max", "relative_p99", "relative_p999"})) ||
-           (isAngle(metric) && figure == "angle_max");
+    const ErrorKind errorKind = channel.shown_error_name == nameOf(ErrorKind::relative)
+                                    ? ErrorKind::relative
+                                    : channel.mode->error_kind;
+    if (errorKind == channel.mode->error_kind && isOneOf({"max", "p99", "p999"})) return true;
+    return (errorKind == ErrorKind::relative && isOneOf({"relative_max", "relative_p99", "relative_p999"})) ||
+           (isAngle(errorKind) && figure == "angle_max");
 }
 
 std::optional<double> errorLimit(const ChannelDiff& channel) {
@@ -48,7 +49,8 @@ double errorTop(const ChannelDiff& channel, const std::optional<double>& limit, 
     if (channel.shown_error) return channel.shown_error_top;
     if (std::isfinite(channel.stats.max)) return channel.stats.max;
     float largest = 0;
-    for (const float e : errorImage(channel.mode->metric, channel.mode->kind, baseline, test, coverage).data)
+    for (const float e :
+         errorImage(channel.mode->error_kind, channel.mode->kind, baseline, test, coverage).data)
         if (std::isfinite(e)) largest = std::max(largest, e);
     return double{largest};
 }

@@ -51,7 +51,7 @@ void take(AfterBlending& found, double error, std::size_t pixel, int width) {
 AfterBlending ofPaths(const FramePair& pair, const Blending& a, const Blending& b) {
     AfterBlending found;
     const DebugMode& lit = debugMode(Channel::lit);
-    const PixelError error(lit.metric, lit.kind, *a.after, pair.coverage);
+    const PixelError error(lit.error_kind, lit.kind, *a.after, pair.coverage);
     for (std::size_t i = 0; i < a.after->pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
         found.covered += isBlended(a, i) || isBlended(b, i) ? 1 : 0;

@@ -15,7 +15,7 @@ struct BoundUse {
     double used = 0;            // largest error divided by its pixel's bound; fails above 1
     int x = -1, y = -1;         // its pixel
     std::uint64_t beyond = 0;   // pixels with an error above their bound
-    double most = 0, mean = 0;  // of the finite bounds, in the channel's metric
+    double most = 0, mean = 0;  // of the finite bounds, in the channel's error kind
 };
 
 // For one pixel: its error divided by its bound (0 without an error), and the bound.

@@ -281,10 +281,10 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
                         bool allowNoise) {
     ChannelDiff channel;
     channel.mode = &mode;
-    channel.stats = channelStats(mode.metric, mode.kind, pair.baseline.channels.at(mode.channel),
+    channel.stats = channelStats(mode.error_kind, mode.kind, pair.baseline.channels.at(mode.channel),
                                  pair.test.channels.at(mode.channel), pair.coverage);
     if (mode.channel == Channel::lit) channel.granted = grantedIn(mode, pair);
-    ChannelPair images{mode.metric,
+    ChannelPair images{mode.error_kind,
                        mode.kind,
                        false,
                        pair.baseline.channels.at(mode.channel),

@@ -17,11 +17,12 @@ namespace {
 PathError pathErrorOf(const DebugMode& mode, const Image& reference, const Image& test,
                       const Coverage& covered) {
     PathError error;
-    error.stats = channelStats(mode.metric, mode.kind, reference, test, covered);
-    error.relative_rmse = mode.metric == Metric::relative
+    error.stats = channelStats(mode.error_kind, mode.kind, reference, test, covered);
+    error.relative_rmse = mode.error_kind == ErrorKind::relative
                               ? error.stats.rmse
-                              : channelStats(Metric::relative, mode.kind, reference, test, covered).rmse;
-    const Measurement measurement({mode.metric, mode.kind, false, reference, test, &covered, &error.stats});
+                              : channelStats(ErrorKind::relative, mode.kind, reference, test, covered).rmse;
+    const Measurement measurement(
+        {mode.error_kind, mode.kind, false, reference, test, &covered, &error.stats});
     error.flip = measurement({"flip", 0});
     return error;
 }
@@ -57,7 +58,7 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
 // The uncertainty of the reference's mean over the covered pixels, relative to its values.
 double meanUncertainty(const Frame& referenceFrame, const Image& reference, const Coverage& covered) {
     if (referenceFrame.uncertainty.empty() || covered.count == 0) return 0;
-    const PixelError error(Metric::relative, ChannelKind::color, reference, covered);
+    const PixelError error(ErrorKind::relative, ChannelKind::color, reference, covered);
     double sum = 0;
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
@@ -79,7 +80,7 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
     for (std::size_t k = 0; k < 2; ++k) {
         const Image& image = paths[k]->channels.at(mode.channel);
         channel.paths[k] = pathErrorOf(mode, reference, image, covered);
-        errors[k] = errorImage(mode.metric, mode.kind, reference, image, covered);
+        errors[k] = errorImage(mode.error_kind, mode.kind, reference, image, covered);
     }
     channel.between =
         pathErrorOf(mode, paths[0]->channels.at(mode.channel), paths[1]->channels.at(mode.channel), covered);

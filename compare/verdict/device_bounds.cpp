@@ -63,7 +63,7 @@ double roundedFloors(const Requirements& needs) {
 double perTexel(const DebugMode& mode, const Requirements& needs) {
     switch (mode.texels) {
         case TexelUse::direction:
-            return 2 * std::sqrt(3.0) * (isAngle(mode.metric) ? degreesPerRadian : 1);
+            return 2 * std::sqrt(3.0) * (isAngle(mode.error_kind) ? degreesPerRadian : 1);
         case TexelUse::line:  // two components, in the plane of a normal with three
             return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * degreesPerRadian;
         case TexelUse::thickness:
@@ -158,7 +158,7 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
         case ChannelStage::surface:
         case ChannelStage::map:
             if (sourceOf(mode.channel).part == MaterialPart::transmission) return Kind::pane;
-            return mode.metric == Metric::exact ? Kind::step : Kind::surface;
+            return mode.error_kind == ErrorKind::exact ? Kind::step : Kind::surface;
     }
     return Kind::surface;
 }
@@ -169,7 +169,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       kind_(kindOf(mode)),
       baseline_(pair.baseline.channels.at(mode.channel)),
       test_(pair.test.channels.at(mode.channel)),
-      error_(mode.metric, mode.kind, baseline_, pair.coverage),
+      error_(mode.error_kind, mode.kind, baseline_, pair.coverage),
       place_(mode, pair, baseline_, test_),
       facet_(pair),
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
@@ -186,7 +186,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
         const DebugMode& whole = debugMode(Channel::lit);
         rounded_as_ =
             std::max(rounded_as_, roundedFloors(pair.needs) *
-                                      PixelError(whole.metric, whole.kind, *lit, pair.coverage).floor());
+                                      PixelError(whole.error_kind, whole.kind, *lit, pair.coverage).floor());
     }
     if (mode.channel == Channel::lit && !pair.baseline.unblended.empty() && !pair.test.unblended.empty())
         unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
@@ -197,8 +197,8 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
 
 double DeviceBounds::operator()(std::size_t i) const {
     const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
-    const double unit = mode_.metric == Metric::relative ? size : 1;
-    const double rounding = relativeRounding() * (isAngle(mode_.metric) ? degreesPerRadian : size);
+    const double unit = mode_.error_kind == ErrorKind::relative ? size : 1;
+    const double rounding = relativeRounding() * (isAngle(mode_.error_kind) ? degreesPerRadian : size);
     switch (kind_) {
         case Kind::id:
             return 0;
@@ -316,7 +316,7 @@ bool DeviceBounds::isColor() const {
 }
 
 double DeviceBounds::decoded(double value) const {
-    const bool radiance = mode_.metric == Metric::relative;
+    const bool radiance = mode_.error_kind == ErrorKind::relative;
     std::size_t code = radiance ? 1 : 0;  // a factor may have brightened it
     while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
     return value * shares_[code];

@@ -46,7 +46,7 @@ private:
     std::vector<std::array<const Image*, 3>> images_;  // relit (else baseline), test, baseline
 };
 
-// Tolerance of each pixel, and the difference compared with it, both in the channel's metric.
+// Tolerance of each pixel, and the difference compared with it, both in the channel's error kind.
 class DeviceBounds {
 public:
     DeviceBounds(const DebugMode& mode, const FramePair& pair);

@@ -49,7 +49,7 @@ struct StoredField {
     unsigned bits = 0;         // of each component or coordinate; radiance: of the mantissas
     unsigned normal_bits = 0;  // line: of each coordinate of the normal
 
-    double largestBound() const;  // of any value, in the channel's metric; index: infinite
+    double largestBound() const;  // of any value, in the channel's error kind; index: infinite
 };
 
 // A channel's field in a G-buffer of this encoding; empty if it is stored exactly or not at all.

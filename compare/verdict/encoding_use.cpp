@@ -34,7 +34,7 @@ PixelUse floatUse(const float* read, const float* own, int components, FloatBoun
 
 // A field that is stored exactly: nothing but the slack is granted.
 PixelUse exactUse(const DebugMode& mode, const float* read, const float* own, double slack) {
-    const double size = mode.metric == Metric::relative ? metrics::largestFinite(own, mode.width) : 1;
+    const double size = mode.error_kind == ErrorKind::relative ? metrics::largestFinite(own, mode.width) : 1;
     return pixelUse(metrics::distance(read, own, mode.width), slack * size);
 }
 

@@ -57,7 +57,7 @@ public:
           pair_(pair),
           baseline_(pair.baseline.channels.at(mode.channel)),
           test_(pair.test.channels.at(mode.channel)),
-          error_(mode.metric, mode.kind, baseline_, pair.coverage),
+          error_(mode.error_kind, mode.kind, baseline_, pair.coverage),
           environment_(pair),
           blended_(pair) {
         for (const DebugMode& of : debugModes())
@@ -137,9 +137,10 @@ private:
             if (!a && !b) continue;
             if (!a || !b) return false;
             const double size =
-                mode.metric == Metric::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
-            const double same = (isAngle(mode.metric) ? degreesPerRadian : size) * sameSurface +
-                                (mode.metric == Metric::relative ? size : 1) * bounds_.at(mode.channel);
+                mode.error_kind == ErrorKind::relative ? metrics::largestFinite(a->pixel(i), mode.width) : 1;
+            const double same =
+                (isAngle(mode.error_kind) ? degreesPerRadian : size) * sameSurface +
+                (mode.error_kind == ErrorKind::relative ? size : 1) * bounds_.at(mode.channel);
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded =
                 mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) + darkened(mode, *a, i) : 0;
@@ -163,13 +164,13 @@ private:
                 return code * double{pair_.needs.volume_thickness_range};
             case TexelUse::direction:
                 // Three components of 2 t - 1.
-                return 2 * std::sqrt(3.0) * code * (isAngle(mode.metric) ? degreesPerRadian : 1);
+                return 2 * std::sqrt(3.0) * code * (isAngle(mode.error_kind) ? degreesPerRadian : 1);
             case TexelUse::line:
                 // Two components of 2 t - 1, in the plane of a normal with three.
                 return 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * code * degreesPerRadian;
             case TexelUse::color:
             case TexelUse::scaled_color: {
-                if (mode.metric == Metric::relative)
+                if (mode.error_kind == ErrorKind::relative)
                     return shares_[1] * metrics::largestFinite(value, mode.width);
                 double most = 0;
                 for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
@@ -210,7 +211,7 @@ private:
         return value * shares_[code] + exact_[code + 1] - exact_[code] + pair_.texels->srgb_filter.rounding;
     }
 
-    // Largest permitted error of a smooth pixel, in the channel's metric; negative if it is not smooth.
+    // Largest permitted error of a smooth pixel, in the channel's error kind; negative if it is not smooth.
     double boundAt(std::size_t i) const {
         if (mode_.kind == ChannelKind::id) return 0;
         // Only the reference's range: the tested image must not widen its own tolerance.
@@ -218,14 +219,15 @@ private:
         const Image &reference = first ? baseline_ : test_, &path = first ? test_ : baseline_;
         const double range = rangeAt(mode_, reference, i);
         const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
-        const double unit = mode_.metric == Metric::relative ? size : 1;  // of the metric, in the channel's
+        const double unit =
+            mode_.error_kind == ErrorKind::relative ? size : 1;  // of the error kind, in the channel's
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
         // A fiftieth of the channel's range; two degrees for directions.
-        const double smooth = isAngle(mode_.metric) ? 2 : 0.02 * unit;
+        const double smooth = isAngle(mode_.error_kind) ? 2 : 0.02 * unit;
         if (!(std::max(range, rangeAt(mode_, path, i)) <= smooth)) return -1;
         if (isLit(mode_.channel) && !isSameSurface(i)) return -1;
         const double rounding =
-            isAngle(mode_.metric) ? shadingRounding * degreesPerRadian : shadingRounding * unit;
+            isAngle(mode_.error_kind) ? shadingRounding * degreesPerRadian : shadingRounding * unit;
         // A device's mip level may be one step coarser, which covers two pixels. Limited to an even slope
         // of what is still smooth, because only an edge exceeds that.
         const double filtered = std::min(rangeAt(mode_, reference, i, 2), 2 * smooth);
@@ -246,7 +248,7 @@ private:
         return isLit(mode_.channel) && !known.empty() ? surerThan95 * double{*known.pixel(i)} : 0;
     }
 
-    // Quantization error bound, or for light the encoding's effect, in the channel's metric.
+    // Quantization error bound, or for light the encoding's effect, in the channel's error kind.
     double encoding(std::size_t i, double unit) const {
         if (!isLit(mode_.channel)) return bounds_.at(mode_.channel);
         const Frame* const shown = encodingShownBy(mode_, pair_);
@@ -262,7 +264,7 @@ private:
         result.detailed = count;
         FlipOptions options;
         options.covered = detailed;
-        const bool endless = mode_.metric == Metric::relative || mode_.domain == Domain::positive;
+        const bool endless = mode_.error_kind == ErrorKind::relative || mode_.domain == Domain::positive;
         const double scale = endless ? exposure(detailed) : 0;
         result.flip = ldrFlip(displayed(baseline_, scale), displayed(test_, scale), options).mean;
     }
@@ -287,9 +289,9 @@ private:
             for (int c = 0; c < 3; ++c) {
                 const double value = image.pixel(i)[std::min(c, image.components - 1)],
                              exposed = scale * value;
-                const double shown = scale > 0               ? std::pow(exposed / (1 + exposed), 1 / 2.2)
-                                     : isAngle(mode_.metric) ? 0.5 * value + 0.5
-                                                             : value;
+                const double shown = scale > 0                   ? std::pow(exposed / (1 + exposed), 1 / 2.2)
+                                     : isAngle(mode_.error_kind) ? 0.5 * value + 0.5
+                                                                 : value;
                 mapped.pixel(i)[c] = static_cast<float>(std::clamp(shown, 0.0, 1.0));
             }
         return mapped;

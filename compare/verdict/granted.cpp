@@ -42,7 +42,7 @@ std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
     if (!isPathAgainstReference(pair) || pair.coverage.count == 0) return {};
     const Image &baseline = pair.baseline.channels.at(mode.channel),
                 &test = pair.test.channels.at(mode.channel);
-    const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
+    const PixelError error(mode.error_kind, mode.kind, baseline, pair.coverage);
     const Allowances allowances(pair);
     std::array<std::vector<double>, approximations> errors;
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {

@@ -327,7 +327,7 @@ std::unique_ptr<ImageChannelDiff> diffOf(MatchedChannel pair, const ImageDiff& d
     }
     channel->display = diff.display && p.kind == ChannelKind::color;
     channel->measurement =
-        std::make_unique<Measurement>(ChannelPair{p.metric, p.kind, channel->display, p.reference.rows(),
+        std::make_unique<Measurement>(ChannelPair{p.error_kind, p.kind, channel->display, p.reference.rows(),
                                                   p.test.rows(), diff.coverage.get(), nullptr, options.flip});
     return channel;
 }
@@ -390,10 +390,10 @@ DecidingErrors decidingErrors(const ImageDiff& diff, const ImageChannelDiff& cha
     };
     if (decides("flip"))
         if (auto errors = channel.measurement->flipErrors()) return {std::move(errors), "FLIP", 1};
-    const bool relative = decides("relative") && pair.metric == Metric::absolute;
-    const Metric metric = relative ? Metric::relative : pair.metric;
+    const bool relative = decides("relative") && pair.error_kind == ErrorKind::absolute;
+    const ErrorKind errorKind = relative ? ErrorKind::relative : pair.error_kind;
     auto errors = std::make_shared<Image>(
-        errorImage(metric, pair.kind, pair.reference.rows(), pair.test.rows(), *diff.coverage));
+        errorImage(errorKind, pair.kind, pair.reference.rows(), pair.test.rows(), *diff.coverage));
     if (!relative) return {std::move(errors), "", channel.measurement->stats().max};
     const double top = channel.measurement->plain().relative_max;
     return {std::move(errors), "relative", top};

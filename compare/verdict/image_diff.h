@@ -50,7 +50,7 @@ struct ImageChannelDiff {
 // Errors of the deciding metric.
 struct DecidingErrors {
     std::shared_ptr<const Image> image;  // W x H x 1
-    std::string name;                    // "FLIP", "relative"; empty: the channel's metric
+    std::string name;                    // "FLIP", "relative"; empty: the channel's error kind
     double top = 0;                      // the end of their colour map
 };
 DecidingErrors decidingErrors(const ImageDiff& diff, const ImageChannelDiff& channel);

@@ -118,8 +118,8 @@ std::vector<std::pair<std::string, double>> Measurement::all() const {
 const ChannelStats& Measurement::stats() const {
     if (pair_.stats) return *pair_.stats;
     if (!stats_) {
-        stats_ = channelStats(pair_.metric, pair_.kind, pair_.reference, pair_.test, *pair_.coverage);
-        if (pair_.metric == Metric::absolute) {
+        stats_ = channelStats(pair_.error_kind, pair_.kind, pair_.reference, pair_.test, *pair_.coverage);
+        if (pair_.error_kind == ErrorKind::absolute) {
             stats_->mean = plain().mae;
             stats_->rmse = plain().rmse;
         }
@@ -129,9 +129,9 @@ const ChannelStats& Measurement::stats() const {
 
 const StandardMetrics& Measurement::plain() const {
     if (!plain_)
-        plain_ =
-            standardMetrics(pair_.reference, pair_.test, pair_.kind,
-                            pair_.display ? Range::display : Range::linear, *pair_.coverage, pair_.metric);
+        plain_ = standardMetrics(pair_.reference, pair_.test, pair_.kind,
+                                 pair_.display ? Range::display : Range::linear, *pair_.coverage,
+                                 pair_.error_kind);
     return *plain_;
 }
 
@@ -184,7 +184,7 @@ std::shared_ptr<const Image> Measurement::flipErrors() const {
 }
 
 std::uint64_t Measurement::pixelsAbove(double most) const {
-    const PixelError error(pair_.metric, pair_.kind, pair_.reference, *pair_.coverage);
+    const PixelError error(pair_.error_kind, pair_.kind, pair_.reference, *pair_.coverage);
     std::uint64_t count = 0;
     eachPair(pair_.test, pair_.reference, 0, pair_.reference.height,
              [&](std::size_t i, const float* test, const float* reference) {

@@ -19,7 +19,8 @@ namespace diptych {
 
 // Two images of one channel, of equal size and components. They must outlive their Measurement.
 struct ChannelPair {
-    Metric metric = Metric::absolute;  // of max, mean, rmse, p99, p999 and the fraction of failing pixels
+    ErrorKind error_kind =
+        ErrorKind::absolute;  // of max, mean, rmse, p99, p999 and the fraction of failing pixels
     ChannelKind kind = ChannelKind::color;
     bool display = false;  // sRGB values in [0, 1]; else linear
     ImageRows reference, test;
@@ -39,7 +40,7 @@ public:
     // All defined metrics, in the table's order.
     std::vector<std::pair<std::string, double>> all() const;
 
-    // Covered pixels whose error in the channel's metric exceeds `most` (NaN against a number always
+    // Covered pixels whose error in the channel's error kind exceeds `most` (NaN against a number always
     // does).
     std::uint64_t pixelsAbove(double most) const;
 

@@ -32,9 +32,9 @@ void within(const Image& image, std::size_t pixel, int radius, const Visit& visi
 // Difference of two values in the unit of ranges: degrees for directions, else the largest component
 // difference.
 inline double apart(const DebugMode& mode, const float* a, const float* b) {
-    return mode.metric == Metric::angular ? metrics::angle(a, b)
-           : mode.metric == Metric::axial ? metrics::lineAngle(a, b)
-                                          : metrics::distance(a, b, mode.width);
+    return mode.error_kind == ErrorKind::angular ? metrics::angle(a, b)
+           : mode.error_kind == ErrorKind::axial ? metrics::lineAngle(a, b)
+                                                 : metrics::distance(a, b, mode.width);
 }
 
 // Whether neighbours show the same surface, by material, position and normal; without these channels all

@@ -26,7 +26,7 @@ bool isBetterIfMore(std::string_view name);
 
 inline constexpr const char* FAILING = "failing";
 
-// A metric, or the fraction of pixels, 0 to 1, whose error in the channel's metric exceeds `above`.
+// A metric, or the fraction of pixels, 0 to 1, whose error in the channel's error kind exceeds `above`.
 struct Quantity {
     std::string figure;  // FAILING for the fraction
     double above = 0;

@@ -82,7 +82,7 @@ double unitsPer(Channel mode) {
     constexpr double three = 2 * 1.7320508 * degreesPerRadian, two = 2 * 1.4142136 * degreesPerRadian;
     if (of.texels == TexelUse::line) return two;
     if (of.texels != TexelUse::direction) return 1;
-    return isAngle(of.metric) ? three : three / degreesPerRadian;
+    return isAngle(of.error_kind) ? three : three / degreesPerRadian;
 }
 
 struct Reading {

@@ -25,7 +25,7 @@ namespace {
 Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tolerance& relative,
                          const Tolerance& least) {
     const Image& baseline = pair.baseline.channels.at(mode.channel);
-    const double floor = PixelError(mode.metric, mode.kind, baseline, pair.coverage).floor();
+    const double floor = PixelError(mode.error_kind, mode.kind, baseline, pair.coverage).floor();
     const double smallest = floor > 0 ? least.max / floor : 0;
     return smallest > relative.max ? Tolerance{smallest, least.because} : relative;
 }
@@ -116,8 +116,8 @@ Tolerance litTolerance(const DebugMode& mode, const FramePair& pair) {
                 "forward+ was not rendered through this G-buffer's encoding, so it explains no difference"};
     const Image& own = pair.of(shadesFragments)->channels.at(mode.channel);
     const bool first = shadesFragments(pair.baseline.settings.path);
-    const ChannelStats moved =
-        channelStats(mode.metric, mode.kind, first ? own : *through, first ? *through : own, pair.coverage);
+    const ChannelStats moved = channelStats(mode.error_kind, mode.kind, first ? own : *through,
+                                            first ? *through : own, pair.coverage);
     return {moved.max,
             fmt::format("decoded surfaces change lit by up to {:.3g} (mean {:.3g}): forward+ shades its own "
                         "surfaces through the {} G-buffer's encoding; deferred must equal that {}, and each "
@@ -273,19 +273,19 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
 
 double gpuSlack(const DebugMode& mode, const Image& baseline) {
     constexpr double share = gpuUlps * 0x1p-23;
-    switch (mode.metric) {
-        case Metric::relative:
+    switch (mode.error_kind) {
+        case ErrorKind::relative:
             return share;
-        case Metric::absolute: {
+        case ErrorKind::absolute: {
             float largest = 0;
             for (const float v : baseline.data)
                 if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
             return share * double{largest};
         }
-        case Metric::angular:
-        case Metric::axial:
+        case ErrorKind::angular:
+        case ErrorKind::axial:
             return std::sqrt(3.0) * share * degreesPerRadian;
-        case Metric::exact:
+        case ErrorKind::exact:
             return 0;
     }
     return 0;
@@ -302,7 +302,7 @@ Tolerance derivedTolerance(const DebugMode& mode, const FramePair& pair) {
         result = referenceTolerance(mode, pair);
     else if (pair.baseline.settings.path != pair.test.settings.path)
         result = {0, "no bound is known between these two paths"};
-    if (!pair.cpu && mode.metric != Metric::exact) {
+    if (!pair.cpu && mode.error_kind != ErrorKind::exact) {
         result.max += gpuSlack(mode, pair.baseline.channels.at(mode.channel));
         result.because += fmt::format("; plus {} ULP of the pixel's largest component on a GPU", gpuUlps);
         const Frame* const forward = pair.of(shadesFragments);
@@ -348,7 +348,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     const Frame* const encoded = encodingShownBy(mode, pair);
     const bool first = isReferenceFrame(pair.baseline);
     const Allowances allowances(pair);
-    const PixelError error(mode.metric, mode.kind, baseline, pair.coverage);
+    const PixelError error(mode.error_kind, mode.kind, baseline, pair.coverage);
     std::vector<double> errors;
     for (std::size_t i = 0; i < baseline.pixels(); ++i) {
         if (!pair.coverage.covered[i]) continue;
@@ -358,7 +358,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
         for (const double allowed : allowances.at(mode, i)) open += allowed;
         if (isLit(mode.channel) && !reference.uncertainty.empty())
             open += surerThan95 * double{reference.uncertainty.pixel(i)[0]};
-        if (mode.metric == Metric::relative)
+        if (mode.error_kind == ErrorKind::relative)
             open /= std::max(metrics::largestFinite(p, baseline.components), error.floor());
         // Removes the encoding's effect on light from the path's pixel.
         std::array<float, 3> moved{};

@@ -21,7 +21,7 @@
 namespace diptych {
 
 struct Tolerance {
-    double max = 0;  // in the channel's metric
+    double max = 0;  // in the channel's error kind
     std::string because;
     bool most_pixels = false;  // against the reference: 0.1 % of the pixels may exceed it
 };
@@ -55,7 +55,7 @@ inline constexpr double shadingRounding = reference::everywhereRounded;
 
 using reference::surerThan95;
 
-// gpuUlps of the pixel's largest component, in the channel's metric. Relative: that fraction, because the
+// gpuUlps of the pixel's largest component, in the channel's error kind. Relative: that fraction, because the
 // denominator is at least the component. Absolute: of the image's largest value. Angular: errors of that
 // fraction in all three components turn a vector by sqrt(3) times it. Indices are exact.
 double gpuSlack(const DebugMode& mode, const Image& baseline);

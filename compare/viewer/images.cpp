@@ -79,7 +79,7 @@ Image8 signedImage(const Image& errors, double top) {
 }
 
 std::string unitOf(const DebugMode& mode) {
-    if (mode.metric == Metric::relative && mode.kind == ChannelKind::color) return ", W/(sr m^2)";
+    if (mode.error_kind == ErrorKind::relative && mode.kind == ChannelKind::color) return ", W/(sr m^2)";
     if (mode.channel == Channel::depth || mode.channel == Channel::position ||
         mode.channel == Channel::transmission_thickness || mode.channel == Channel::attenuation_distance)
         return ", m";
@@ -100,16 +100,16 @@ DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Ima
             panel.words = "right - left, the largest component" + unitOf(mode);
             break;
         case Difference::absolute:
-            panel.values = errorImage(Metric::absolute, mode.kind, baseline, test, covered);
+            panel.values = errorImage(ErrorKind::absolute, mode.kind, baseline, test, covered);
             panel.words = "|right - left|, the largest component" + unitOf(mode);
             break;
         case Difference::relative:
-            panel.values = errorImage(Metric::relative, mode.kind, baseline, test, covered);
+            panel.values = errorImage(ErrorKind::relative, mode.kind, baseline, test, covered);
             panel.words = "|right - left| / max(|left|, 1e-3 of the mean)";
             break;
         case Difference::flip: {
-            const bool display = mode.metric != Metric::relative;
-            const Measurement measurement({.metric = mode.metric,
+            const bool display = mode.error_kind != ErrorKind::relative;
+            const Measurement measurement({.error_kind = mode.error_kind,
                                            .kind = mode.kind,
                                            .display = display,
                                            .reference = baseline,

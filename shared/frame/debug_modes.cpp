@@ -15,11 +15,20 @@ namespace diptych {
 std::span<const DebugMode> debugModes() {
     using namespace gpu;  // the bits of G-buffers
     static constexpr DebugMode modes[] = {
-#define DIPTYCH_DEBUG_ROW(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
-                          standard, compact, part, texels, related)                                   \
-    {Channel::name,    #name,         width, Metric::metric, ChannelKind::kind,                       \
-     Domain::domain,   MadeBy::maker, shows, step,           {FieldCode::code, standard, compact},    \
-     TexelUse::texels, related},
+#define DIPTYCH_DEBUG_ROW(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
+                          standard, compact, part, texels, related)                                      \
+    {Channel::name,                                                                                      \
+     #name,                                                                                              \
+     width,                                                                                              \
+     ErrorKind::errorKind,                                                                               \
+     ChannelKind::kind,                                                                                  \
+     Domain::domain,                                                                                     \
+     MadeBy::maker,                                                                                      \
+     shows,                                                                                              \
+     step,                                                                                               \
+     {FieldCode::code, standard, compact},                                                               \
+     TexelUse::texels,                                                                                   \
+     related},
         DEBUG_MODES(DIPTYCH_DEBUG_ROW)
 #undef DIPTYCH_DEBUG_ROW
     };
@@ -50,17 +59,17 @@ const DebugMode& debugMode(Channel channel) {
     return *found;
 }
 
-std::string_view nameOf(Metric metric) {
-    switch (metric) {
-        case Metric::relative:
+std::string_view nameOf(ErrorKind errorKind) {
+    switch (errorKind) {
+        case ErrorKind::relative:
             return "relative";
-        case Metric::absolute:
+        case ErrorKind::absolute:
             return "absolute";
-        case Metric::angular:
+        case ErrorKind::angular:
             return "angular";
-        case Metric::axial:
+        case ErrorKind::axial:
             return "axial";
-        case Metric::exact:
+        case ErrorKind::exact:
             return "exact";
     }
     return "?";

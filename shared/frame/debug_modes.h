@@ -15,9 +15,9 @@
 
 namespace diptych {
 
-enum class Metric { relative, absolute, angular, axial, exact };
-constexpr bool isAngle(Metric metric) {  // in degrees
-    return metric == Metric::angular || metric == Metric::axial;
+enum class ErrorKind { relative, absolute, angular, axial, exact };
+constexpr bool isAngle(ErrorKind errorKind) {  // in degrees
+    return errorKind == ErrorKind::angular || errorKind == ErrorKind::axial;
 }
 enum class ChannelKind { color, vector, scalar, id };
 // Valid range of the values: unit vectors, these or 0, 0 to 1, 0 or more, or any.
@@ -54,7 +54,7 @@ struct DebugMode {
     Channel channel;
     std::string_view name;
     int width;  // number of components
-    Metric metric;
+    ErrorKind error_kind;
     ChannelKind kind;
     Domain domain;
     MadeBy maker;
@@ -69,12 +69,12 @@ struct DebugMode {
 std::span<const DebugMode> debugModes();                        // in ascending order of number
 const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unknown
 const DebugMode& debugMode(Channel channel);                    // throws std::out_of_range
-std::string_view nameOf(Metric metric);
+std::string_view nameOf(ErrorKind errorKind);
 
 // The stage that makes a channel, and the part of a material without which it is not stored.
-#define DIPTYCH_DEBUG_PROPERTY(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
-                               standard, compact, part, texels, related)                                   \
-    case Channel::name:                                                                                    \
+#define DIPTYCH_DEBUG_PROPERTY(number, name, width, errorKind, kind, domain, maker, shows, stage, step, \
+                               code, standard, compact, part, texels, related)                          \
+    case Channel::name:                                                                                 \
         return {ChannelStage::stage, MaterialPart::part};
 struct ChannelSource {
     ChannelStage stage = ChannelStage::surface;
@@ -103,8 +103,8 @@ constexpr bool isShaded(Channel mode) {
 }
 
 // Every channel, and those for which isLit(), in ascending order of number.
-#define DIPTYCH_DEBUG_LISTED(number, name, width, metric, kind, domain, maker, shows, stage, step, code, \
-                             standard, compact, part, texels, related)                                   \
+#define DIPTYCH_DEBUG_LISTED(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
+                             standard, compact, part, texels, related)                                      \
     Channel::name,
 inline constexpr std::array allChannels{DEBUG_MODES(DIPTYCH_DEBUG_LISTED)};
 #undef DIPTYCH_DEBUG_LISTED

@@ -64,7 +64,7 @@ struct FrameCounters {
 // Differences between two runs of the same path. On a CPU device any difference is a race.
 struct ChannelNoise {
     std::uint64_t pixels = 0;  // not bitwise identical
-    double max = 0;            // in the channel's metric, over all pixels including the background
+    double max = 0;            // in the channel's error kind, over all pixels including the background
 };
 
 // Origin of a Frame that was read from a file; unknown fields are empty.
@@ -132,7 +132,7 @@ struct Frame {
     // Buffers in which a second run of the compute shaders left other bytes.
     std::vector<std::string> changed_buffers;
     // Reference with sampling: half the 95 % confidence interval of lit, W x H x 1, W/(sr m^2); and
-    // relative to lit (as lit's metric), at 99.9 % of the covered pixels.
+    // relative to lit (as lit's error kind), at 99.9 % of the covered pixels.
     Image uncertainty;
     double relative_uncertainty = 0;
     // Reference with punctual lights: what float32 may err by more than 1e-4 of the light, in lit_diffuse,

@@ -44,7 +44,7 @@ TEST(AfterBlendingImages, BothPathsBringWhatWasBefore) {
             ASSERT_FALSE(all[i].unblended.empty());
             const DebugMode& mode = debugMode(Channel::lit);
             // F0 is then read, not a constant: the blended materials include unlit ones.
-            EXPECT_LT(channelStats(mode.metric, mode.kind, rest[i].channels.at(Channel::lit),
+            EXPECT_LT(channelStats(mode.error_kind, mode.kind, rest[i].channels.at(Channel::lit),
                                    all[i].unblended, everyPixel(all[i].unblended.pixels()))
                           .max,
                       1e-5)

@@ -135,7 +135,7 @@ TEST_P(AmbientReference, BothPathsAreTheIntegral) {
         const Coverage covered = coverage(referenceFrame, path);
         const DebugMode& mode = debugMode(Channel::lit_ambient);
         const ChannelStats stats =
-            channelStats(mode.metric, mode.kind, referenceFrame.channels.at(Channel::lit_ambient),
+            channelStats(mode.error_kind, mode.kind, referenceFrame.channels.at(Channel::lit_ambient),
                          path.channels.at(Channel::lit_ambient), covered);
         RecordProperty(path.name, std::to_string(stats.max));
         EXPECT_LE(stats.max, 1e-4) << path.name;

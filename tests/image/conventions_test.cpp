@@ -64,7 +64,7 @@ TEST_P(Conventions, BothPathsAreTheReference) {
     }
     const auto p99 = [&](const Drawn& side, std::size_t path, Channel channel) {
         const DebugMode& mode = debugMode(channel);
-        return channelStats(mode.metric, mode.kind, side.reference.channels.at(channel),
+        return channelStats(mode.error_kind, mode.kind, side.reference.channels.at(channel),
                             side.paths[path].channels.at(channel), coverage(side.reference, side.paths[path]))
             .p99;
     };
@@ -76,7 +76,7 @@ TEST_P(Conventions, BothPathsAreTheReference) {
     // It changes its own effect by far more than that.
     const auto change = [&](Channel channel) {
         const DebugMode& mode = debugMode(channel);
-        return channelStats(mode.metric, mode.kind, drawn[0].paths[0].channels.at(channel),
+        return channelStats(mode.error_kind, mode.kind, drawn[0].paths[0].channels.at(channel),
                             drawn[1].paths[0].channels.at(channel),
                             coverage(drawn[0].paths[0], drawn[1].paths[0]))
             .max;

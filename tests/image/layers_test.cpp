@@ -390,8 +390,8 @@ TEST(Layers, TheReferenceAgrees) {
             const Channel mode = m.channel;
             if (mode != Channel::lit && mode != Channel::lit_specular && (layerOf(mode) & of_scene) == 0)
                 continue;
-            const ChannelStats stats =
-                channelStats(m.metric, m.kind, reference.channels.at(mode), path.channels.at(mode), covered);
+            const ChannelStats stats = channelStats(m.error_kind, m.kind, reference.channels.at(mode),
+                                                    path.channels.at(mode), covered);
             EXPECT_LE(stats.p999, 1e-4) << path.name << " " << m.name << ", max " << stats.max;
         }
     }

@@ -100,8 +100,9 @@ TEST_P(MultiscatterReference, BothPathsAreTheReference) {
         const Coverage covered = coverage(reference, path);
         for (const Channel channel : {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse}) {
             const DebugMode& mode = debugMode(channel);
-            const ChannelStats stats = channelStats(mode.metric, mode.kind, reference.channels.at(channel),
-                                                    path.channels.at(channel), covered);
+            const ChannelStats stats =
+                channelStats(mode.error_kind, mode.kind, reference.channels.at(channel),
+                             path.channels.at(channel), covered);
             EXPECT_LE(stats.p99, channel == Channel::lit_ambient || gallery ? 1e-4 : 1.2e-3)
                 << path.name << " " << mode.name << ", max " << stats.max;
         }

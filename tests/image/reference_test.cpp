@@ -25,7 +25,8 @@ Frame reference(const Scene& scene, const Settings& settings, ReferenceMode mode
 
 ChannelStats against(const Frame& referenceFrame, const Frame& frame, Channel mode, const Coverage& covered) {
     const DebugMode& m = debugMode(mode);
-    return channelStats(m.metric, m.kind, referenceFrame.channels.at(mode), frame.channels.at(mode), covered);
+    return channelStats(m.error_kind, m.kind, referenceFrame.channels.at(mode), frame.channels.at(mode),
+                        covered);
 }
 
 std::size_t nonfinite(const Frame& frame) {
@@ -93,7 +94,7 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
 // neighbours. 1e-4 relative is allowed beyond that.
 double shareBeyond(const Frame& traced, const Frame& surface, Channel mode, const Coverage& same) {
     const Image &expected = traced.channels.at(mode), &image = surface.channels.at(mode);
-    const PixelError error(Metric::relative, debugMode(mode).kind, expected, same);
+    const PixelError error(ErrorKind::relative, debugMode(mode).kind, expected, same);
     std::size_t beyond = 0;
     for (int y = 0; y < expected.height; ++y)
         for (int x = 0; x < expected.width; ++x) {

@@ -295,8 +295,9 @@ TEST(SpecularAa, TheReferenceShadesWhatWasFiltered) {
         EXPECT_EQ(differingPixels(reference.channels.at(roughness), path.channels.at(roughness)), 0u);
         const Coverage covered = coverage(reference, path);
         const DebugMode& mode = debugMode(Channel::lit);
-        const ChannelStats stats = channelStats(mode.metric, mode.kind, reference.channels.at(Channel::lit),
-                                                path.channels.at(Channel::lit), covered);
+        const ChannelStats stats =
+            channelStats(mode.error_kind, mode.kind, reference.channels.at(Channel::lit),
+                         path.channels.at(Channel::lit), covered);
         EXPECT_LE(stats.p999, 1e-4) << path.name << ", max " << stats.max;
     }
 }

@@ -119,7 +119,7 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
         const auto most = [&](Channel mode) {
             const DebugMode& m = debugMode(mode);
             const Image &a = rest.channels.at(mode), &b = all.channels.at(mode);
-            return channelStats(m.metric, m.kind, a, b, everyPixel(a.pixels())).max;
+            return channelStats(m.error_kind, m.kind, a, b, everyPixel(a.pixels())).max;
         };
         EXPECT_GT(most(Channel::lit), 0.1) << nameOf(path);
         EXPECT_EQ(most(channels[1]), 0) << nameOf(path);

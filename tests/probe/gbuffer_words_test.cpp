@@ -39,8 +39,8 @@ std::vector<Stored> storedChannels() {
         for (std::string* name : {&standard, &compact}) name->resize(name->size() - std::size("_BITS") + 1);
         all.push_back({&debugMode(channel), standard, compact});
     };
-#define ADD(number, name, width, metric, kind, domain, maker, shows, stage, step, code, standard, compact, \
-            part, texels, related)                                                                         \
+#define ADD(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, standard, \
+            compact, part, texels, related)                                                          \
     add(Channel::name, #standard, #compact);
     DEBUG_MODES(ADD)
 #undef ADD
@@ -80,7 +80,7 @@ std::vector<float> inputs() {
                 const float along = at[0] * n[0] + at[1] * n[1] + at[2] * n[2];
                 for (int c = 0; c < 3; ++c) at[c] -= along * n[c];
             }
-            if (isAngle(stored.mode->metric)) {
+            if (isAngle(stored.mode->error_kind)) {
                 const float size = std::hypot(at[0], at[1], at[2]);
                 for (int c = 0; c < 3; ++c) at[c] /= size;
             }

@@ -72,7 +72,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
             Image& image = frame.channels[mode.channel] = Image(4, 3, mode.width);
             if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;
-            if (isAngle(mode.metric)) {
+            if (isAngle(mode.error_kind)) {
                 image.at(1, 2, 0) = 0.6f;
                 image.at(1, 2, 1) = 0;
                 image.at(1, 2, 2) = 0.8f;

@@ -23,7 +23,7 @@ inline std::vector<Frame> rampFrames(int width = 96, int height = 54) {
         for (auto& [number, image] : frame.channels) {
             const DebugMode& mode = debugMode(number);
             image = Image(width, height, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
-            if (isAngle(mode.metric))
+            if (isAngle(mode.error_kind))
                 for (std::size_t i = 0; i < image.pixels(); ++i)
                     std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
         }

@@ -76,7 +76,7 @@ TEST(PageValues, LargerImagesAreQuantisedAndSaySo) {
             EXPECT_NEAR(value, exact, exact / 4096 + 500) << seen.told;
         }
     }
-    const Image errors = errorImage(Metric::relative, ChannelKind::vector, position,
+    const Image errors = errorImage(ErrorKind::relative, ChannelKind::vector, position,
                                     frames[1].channels.at(Channel::position), everyPixel(position.pixels()));
     const std::string difference = seen.told[3];
     ASSERT_TRUE(difference.starts_with("difference ")) << difference;

@@ -85,7 +85,7 @@ TEST(ExperimentErrors, AreThoseOfTheReport) {
         a.channels[Channel::material_id].data[i] = b.channels[Channel::material_id].data[i] = -1;
     const FrameErrors errors = errorsBetween(a, b);
     const ChannelStats stats =
-        channelStats(Metric::relative, ChannelKind::color, reference, test, coverage(a, b));
+        channelStats(ErrorKind::relative, ChannelKind::color, reference, test, coverage(a, b));
     EXPECT_EQ(errors.pixels.size(), 900u);
     EXPECT_DOUBLE_EQ(errors.errors[1], stats.rmse);
     EXPECT_DOUBLE_EQ(errors.errors[2], stats.p99);

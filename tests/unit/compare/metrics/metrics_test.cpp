@@ -15,25 +15,25 @@ namespace diptych {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-ChannelStats scalars(Metric metric, const PixelData& baseline, const PixelData& test) {
-    return channelStats(metric, ChannelKind::scalar, rowOf(1, baseline), rowOf(1, test),
+ChannelStats scalars(ErrorKind errorKind, const PixelData& baseline, const PixelData& test) {
+    return channelStats(errorKind, ChannelKind::scalar, rowOf(1, baseline), rowOf(1, test),
                         everyPixel(baseline.size()));
 }
-double largest(Metric metric, PixelData a, PixelData b) {
-    return channelStats(metric, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
+double largest(ErrorKind errorKind, PixelData a, PixelData b) {
+    return channelStats(errorKind, ChannelKind::vector, rowOf(3, std::move(a)), rowOf(3, std::move(b)),
                         everyPixel(1))
         .max;
 }
 double angle(PixelData a, PixelData b) {
-    return largest(Metric::angular, std::move(a), std::move(b));
+    return largest(ErrorKind::angular, std::move(a), std::move(b));
 }
 double lineAngle(PixelData a, PixelData b) {
-    return largest(Metric::axial, std::move(a), std::move(b));
+    return largest(ErrorKind::axial, std::move(a), std::move(b));
 }
 
 TEST(Metrics, AbsoluteByHand) {
     // Errors 0, 0.5, 0.25, 0: all exact in binary.
-    const ChannelStats s = scalars(Metric::absolute, {1, 2, 3, 4}, {1, 2.5f, 2.75f, 4});
+    const ChannelStats s = scalars(ErrorKind::absolute, {1, 2, 3, 4}, {1, 2.5f, 2.75f, 4});
     EXPECT_EQ(s.max, 0.5);
     EXPECT_EQ(s.mean, 0.1875);
     EXPECT_DOUBLE_EQ(s.rmse, std::sqrt((0.25 + 0.0625) / 4));
@@ -47,7 +47,7 @@ TEST(Metrics, PercentilesAreTheNearestRank) {
     PixelData baseline(1000, 0.0f), test(1000);
     for (std::size_t i = 0; i < 1000; ++i)
         test[(i * 617) % 1000] = static_cast<float>(i + 1);  // 1 .. 1000, mixed
-    const ChannelStats s = scalars(Metric::absolute, baseline, test);
+    const ChannelStats s = scalars(ErrorKind::absolute, baseline, test);
     EXPECT_EQ(s.p99, 990);
     EXPECT_EQ(s.p999, 999);
     EXPECT_EQ(s.max, 1000);
@@ -56,7 +56,7 @@ TEST(Metrics, PercentilesAreTheNearestRank) {
 
 TEST(Metrics, RelativeIsOverTheBaselinesLargestComponent) {
     // Blue changes by 1 beside a green of 4.
-    const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, rowOf(3, {0, 4, 1}),
+    const ChannelStats s = channelStats(ErrorKind::relative, ChannelKind::color, rowOf(3, {0, 4, 1}),
                                         rowOf(3, {0, 4, 2}), everyPixel(1));
     EXPECT_EQ(s.max, 0.25);
 }
@@ -65,15 +65,17 @@ TEST(Metrics, RelativeHasAFloorOfAThousandthOfTheMeanLuminance) {
     // Rec.709: the first pixel's luminance is 0.7152 x 1000, the second's 0; the mean is 357.6, the floor
     // 0.3576.
     const Image baseline = rowOf(3, {0, 1000, 0, 0, 0, 0}), test = rowOf(3, {0, 1000, 0, 0.5f, 0, 0});
-    const ChannelStats s = channelStats(Metric::relative, ChannelKind::color, baseline, test, everyPixel(2));
+    const ChannelStats s =
+        channelStats(ErrorKind::relative, ChannelKind::color, baseline, test, everyPixel(2));
     EXPECT_NEAR(s.max, 0.5 / 0.3576, 1e-12);
     // Scalars: the mean magnitude, (1000 + 0) / 2.
-    EXPECT_NEAR(scalars(Metric::relative, {-1000, 0}, {-1000, 0.25f}).max, 0.25 / 0.5, 1e-12);
+    EXPECT_NEAR(scalars(ErrorKind::relative, {-1000, 0}, {-1000, 0.25f}).max, 0.25 / 0.5, 1e-12);
 }
 
 TEST(Metrics, RelativeToABaselineOfZeroIsInfinite) {
-    EXPECT_EQ(scalars(Metric::relative, {0, 0}, {0, 1e-9f}).max, infinity);
-    EXPECT_EQ(scalars(Metric::relative, {0, 0}, {0, 0}).max, 0) << "nothing against nothing is no difference";
+    EXPECT_EQ(scalars(ErrorKind::relative, {0, 0}, {0, 1e-9f}).max, infinity);
+    EXPECT_EQ(scalars(ErrorKind::relative, {0, 0}, {0, 0}).max, 0)
+        << "nothing against nothing is no difference";
 }
 
 TEST(Metrics, AnglesAreExactWhereACosineIsNot) {
@@ -103,7 +105,7 @@ TEST(Metrics, AZeroVectorIsPerpendicularToEveryLine) {
 }
 
 TEST(Metrics, ExactCountsPixelsNotComponents) {
-    const ChannelStats s = channelStats(Metric::exact, ChannelKind::id, rowOf(2, {1, 2, 3, 4, 5, 6}),
+    const ChannelStats s = channelStats(ErrorKind::exact, ChannelKind::id, rowOf(2, {1, 2, 3, 4, 5, 6}),
                                         rowOf(2, {1, 2, 9, 9, 5, 6.0000005f}), everyPixel(3));
     EXPECT_EQ(s.max, 1);
     EXPECT_EQ(s.different, 2u);
@@ -111,14 +113,14 @@ TEST(Metrics, ExactCountsPixelsNotComponents) {
 }
 
 TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
-    for (const Metric metric :
-         {Metric::relative, Metric::absolute, Metric::angular, Metric::axial, Metric::exact})
+    for (const ErrorKind errorKind :
+         {ErrorKind::relative, ErrorKind::absolute, ErrorKind::angular, ErrorKind::axial, ErrorKind::exact})
         for (const float bad : {nan, inf, -inf}) {
             const Image good = rowOf(3, {1, 2, 3, 1, 2, 3}), broken = rowOf(3, {1, 2, 3, 1, bad, 3});
             for (const bool inTest : {false, true}) {
-                const ChannelStats s = channelStats(metric, ChannelKind::vector, inTest ? good : broken,
+                const ChannelStats s = channelStats(errorKind, ChannelKind::vector, inTest ? good : broken,
                                                     inTest ? broken : good, everyPixel(2));
-                EXPECT_EQ(s.max, infinity) << nameOf(metric);
+                EXPECT_EQ(s.max, infinity) << nameOf(errorKind);
                 EXPECT_EQ(s.mean, infinity);
                 EXPECT_EQ(s.infinite, 1u);
                 EXPECT_EQ(s.worst_x, 1);
@@ -129,35 +131,35 @@ TEST(Metrics, NonFiniteAgainstANumberIsInfiniteInEveryMetric) {
 }
 
 TEST(Metrics, TheSameNonFiniteIsNoDifferenceButIsCounted) {
-    for (const Metric metric :
-         {Metric::relative, Metric::absolute, Metric::angular, Metric::axial, Metric::exact}) {
+    for (const ErrorKind errorKind :
+         {ErrorKind::relative, ErrorKind::absolute, ErrorKind::angular, ErrorKind::axial, ErrorKind::exact}) {
         const Image both = rowOf(3, {1, nan, 3, inf, 2, 3, 1, 2, 3});
-        const ChannelStats s = channelStats(metric, ChannelKind::color, both, both, everyPixel(3));
-        EXPECT_EQ(s.max, 0) << nameOf(metric);
+        const ChannelStats s = channelStats(errorKind, ChannelKind::color, both, both, everyPixel(3));
+        EXPECT_EQ(s.max, 0) << nameOf(errorKind);
         EXPECT_EQ(s.different, 0u);
         EXPECT_EQ(s.nonfinite_baseline, 2u);
         EXPECT_EQ(s.nonfinite_test, 2u);
     }
-    EXPECT_EQ(scalars(Metric::absolute, {inf}, {-inf}).max, infinity)
+    EXPECT_EQ(scalars(ErrorKind::absolute, {inf}, {-inf}).max, infinity)
         << "opposite infinities are not the same";
 }
 
 TEST(Metrics, ANonFiniteBaselinePixelDoesNotLiftTheRelativeFloor) {
     // If the mean included infinity, every difference would be divided by infinity and pass.
-    EXPECT_EQ(scalars(Metric::relative, {inf, 1}, {inf, 1.5f}).max, 0.5);
+    EXPECT_EQ(scalars(ErrorKind::relative, {inf, 1}, {inf, 1.5f}).max, 0.5);
 }
 
 TEST(Metrics, ATrueDifferenceBelowFloat32StaysVisible) {
-    EXPECT_EQ(scalars(Metric::absolute, {1}, {std::nextafter(1.0f, 2.0f)}).max, 0x1p-23);
+    EXPECT_EQ(scalars(ErrorKind::absolute, {1}, {std::nextafter(1.0f, 2.0f)}).max, 0x1p-23);
 }
 
 TEST(Metrics, SizesMustAgree) {
-    EXPECT_THROW(
-        channelStats(Metric::absolute, ChannelKind::scalar, rowOf(1, {1}), rowOf(1, {1, 2}), everyPixel(1)),
-        std::runtime_error);
-    EXPECT_THROW(
-        channelStats(Metric::angular, ChannelKind::vector, rowOf(2, {1, 1}), rowOf(2, {1, 2}), everyPixel(1)),
-        std::runtime_error);
+    EXPECT_THROW(channelStats(ErrorKind::absolute, ChannelKind::scalar, rowOf(1, {1}), rowOf(1, {1, 2}),
+                              everyPixel(1)),
+                 std::runtime_error);
+    EXPECT_THROW(channelStats(ErrorKind::angular, ChannelKind::vector, rowOf(2, {1, 1}), rowOf(2, {1, 2}),
+                              everyPixel(1)),
+                 std::runtime_error);
 }
 
 Frame ids(PixelData values) {
@@ -195,8 +197,8 @@ TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
 TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
     const Coverage c = coverage(ids({-1, 1}), ids({-1, 1}));
     const Image baseline = rowOf(1, {0, 1}), test = rowOf(1, {7, 1.5f});  // 7: background, must not count
-    EXPECT_EQ(channelStats(Metric::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
-    const Image errors = errorImage(Metric::absolute, ChannelKind::scalar, baseline, test, c);
+    EXPECT_EQ(channelStats(ErrorKind::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
+    const Image errors = errorImage(ErrorKind::absolute, ChannelKind::scalar, baseline, test, c);
     EXPECT_EQ(errors.data, (PixelData{0, 0.5f}));
 }
 

@@ -151,7 +151,7 @@ TEST(StandardMetrics, AnglesByHand) {
     EXPECT_EQ(vectors({0, 0, 1}, {0, nan, 1}).angle_max, endless);
     EXPECT_EQ(colors(rowOf(3, {1, 0, 0}), rowOf(3, {0, 1, 0})).angle_max, 0) << "colours have none";
     EXPECT_EQ(standardMetrics(rowOf(3, {0, 0, 1}), rowOf(3, {0, 0, -1}), ChannelKind::vector, Range::linear,
-                              everyPixel(1), Metric::axial)
+                              everyPixel(1), ErrorKind::axial)
                   .angle_max,
               0)
         << "lines have no sign";
@@ -161,7 +161,7 @@ TEST(StandardMetrics, AgreeWithTheChannelsStatistics) {
     const Image a = noise(120, 70, 4, 0, 5), b = noise(120, 70, 5, 0, 5);
     const Coverage all = everyPixel(a.pixels());
     const StandardMetrics m = colors(a, b);
-    const ChannelStats relative = channelStats(Metric::relative, ChannelKind::color, a, b, all);
+    const ChannelStats relative = channelStats(ErrorKind::relative, ChannelKind::color, a, b, all);
     constexpr double half = 0x1p-24;  // a float's rounding
     EXPECT_NEAR(m.relative_max, relative.max, half * relative.max);
     EXPECT_NEAR(m.relative_mean, relative.mean, half * relative.mean);

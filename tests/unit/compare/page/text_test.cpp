@@ -72,7 +72,7 @@ TEST(PageText, NamesBreakAfterUnderscores) {
 
 TEST(PageText, AnglesAloneHaveAUnit) {
     for (const DebugMode& mode : debugModes())
-        EXPECT_STREQ(unitOf(mode), isAngle(mode.metric) ? "\u00b0" : "") << mode.name;
+        EXPECT_STREQ(unitOf(mode), isAngle(mode.error_kind) ? "\u00b0" : "") << mode.name;
 }
 
 TEST(PageText, ACameraIsCalledByItsNameThenByItsOption) {

@@ -175,7 +175,7 @@ TEST(FrameFacts, AReferenceStatesTheUncertaintyOfNearlyAllPixels) {
     const Frame frame = drawReferenceFrame(scene, view, settings, nullptr, options);
     ASSERT_EQ(frame.uncertainty.pixels(), 96u);
     const Image& lit = frame.channels.at(Channel::lit);
-    const PixelError relative(Metric::relative, ChannelKind::color, lit, coverage(frame, frame));
+    const PixelError relative(ErrorKind::relative, ChannelKind::color, lit, coverage(frame, frame));
     std::vector<double> all;
     for (std::size_t i = 0; i < lit.pixels(); ++i)
         if (frame.channels.at(Channel::material_id).data[i] >= 0)

@@ -128,9 +128,9 @@ TEST(Measurement, NothingPassesANan) {
     Image b = a;
     b.data[300] = std::nanf("");
     const Coverage all = everyPixel(a.pixels());
-    const Measurement same({Metric::absolute, ChannelKind::color, true, b, b, &all, nullptr, {}}),
-        one({Metric::absolute, ChannelKind::color, true, a, b, &all, nullptr, {}}),
-        other({Metric::absolute, ChannelKind::color, false, b, a, &all, nullptr, {}});
+    const Measurement same({ErrorKind::absolute, ChannelKind::color, true, b, b, &all, nullptr, {}}),
+        one({ErrorKind::absolute, ChannelKind::color, true, a, b, &all, nullptr, {}}),
+        other({ErrorKind::absolute, ChannelKind::color, false, b, a, &all, nullptr, {}});
     EXPECT_EQ(same({"flip", 0}), 0);
     EXPECT_EQ(one({"flip", 0}), 1.0 / 256) << "error 1 there, counted, not spread";
     EXPECT_EQ(other({"flip", 0}), 1.0 / 256) << "in the reference, too";

@@ -231,7 +231,7 @@ TEST(EncodingUse, EverySampleIsJudged) {
         ASSERT_TRUE(p.use(field)) << debugMode(mode).name;
         EXPECT_EQ(p.use(field)->beyond, 0u) << debugMode(mode).name;
         float& value = p.frames[0].further_samples.at(mode)[1].at(1, 2);
-        value += isAngle(debugMode(mode).metric) ? 0.01f : 0.1f;
+        value += isAngle(debugMode(mode).error_kind) ? 0.01f : 0.1f;
         EXPECT_EQ(p.use(field)->beyond, 1u) << debugMode(mode).name;
         EXPECT_EQ(p.use(field, 1)->beyond, 0u) << debugMode(mode).name << ": slack is granted";
         p.frames[0].further_samples.at(mode).pop_back();
@@ -249,7 +249,7 @@ TEST(EncodingUse, LitIsJudgedWithItsFields) {
     for (const Channel mode : lightingFields()) {
         PackedPair p;
         float* const value = p.read(mode);
-        value[0] += isAngle(debugMode(mode).metric) ? 0.01f : 0.1f;
+        value[0] += isAngle(debugMode(mode).error_kind) ? 0.01f : 0.1f;
         const Report report = p.report(lit);
         EXPECT_FALSE(report.passed()) << debugMode(mode).name;
         ASSERT_EQ(report.comparisons[0].channels.size(), 2u) << debugMode(mode).name;

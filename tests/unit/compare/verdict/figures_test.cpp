@@ -48,8 +48,8 @@ void expectFigures(const Measurement& m, const Figures& expected, const std::set
 TEST(Figures, NoTwoOfTheSpreadAreAlike) {
     const Errors e = errorsOf(spread());
     Figures all = standardFigures(e);
-    for (const auto& [metric, errors] : {std::pair{"absolute", &e.absolute}, {"angular", &e.angles}})
-        for (const auto& [name, value] : ofPixels(*errors)) all[std::string(metric) + " " + name] = value;
+    for (const auto& [errorKind, errors] : {std::pair{"absolute", &e.absolute}, {"angular", &e.angles}})
+        for (const auto& [name, value] : ofPixels(*errors)) all[std::string(errorKind) + " " + name] = value;
     for (const auto& [a, x] : all)
         for (const auto& [b, y] : all)
             if (a < b) {
@@ -65,21 +65,22 @@ TEST(Figures, NoTwoOfTheSpreadAreAlike) {
 TEST(Figures, OfAChannelFollowTheirDefinitions) {
     const Spread s = spread();
     const Errors e = errorsOf(s);
-    for (const auto& [metric, errors] : {std::pair{Metric::absolute, &e.absolute},
-                                         {Metric::relative, &e.relative},
-                                         {Metric::angular, &e.angles}}) {
-        const ChannelStats stats = channelStats(metric, ChannelKind::vector, s.reference, s.test, s.covered);
+    for (const auto& [errorKind, errors] : {std::pair{ErrorKind::absolute, &e.absolute},
+                                            {ErrorKind::relative, &e.relative},
+                                            {ErrorKind::angular, &e.angles}}) {
+        const ChannelStats stats =
+            channelStats(errorKind, ChannelKind::vector, s.reference, s.test, s.covered);
         const Figures expected = ofPixels(*errors);
         for (const auto& [name, value] : {std::pair{"max", stats.max},
                                           {"mean", stats.mean},
                                           {"rmse", stats.rmse},
                                           {"p99", stats.p99},
                                           {"p999", stats.p999}})
-            EXPECT_NEAR(value, expected.at(name), 1e-12 * value) << nameOf(metric) << " " << name;
+            EXPECT_NEAR(value, expected.at(name), 1e-12 * value) << nameOf(errorKind) << " " << name;
         EXPECT_EQ(stats.different, counted);
         const auto worst = static_cast<std::size_t>(std::ranges::max_element(*errors) - errors->begin());
-        EXPECT_EQ(stats.worst_x, spreadPixel(worst) % wide) << nameOf(metric);
-        EXPECT_EQ(stats.worst_y, spreadPixel(worst) / wide) << nameOf(metric);
+        EXPECT_EQ(stats.worst_x, spreadPixel(worst) % wide) << nameOf(errorKind);
+        EXPECT_EQ(stats.worst_y, spreadPixel(worst) / wide) << nameOf(errorKind);
     }
 }
 
@@ -104,7 +105,8 @@ TEST(Figures, AreGivenByTheirNames) {
                           {"angle_mean", meanOf(e.angles)},
                           {"length_max", longestApart(s)}});
     vectors.merge(ofPixels(e.angles));
-    const Measurement angular({Metric::angular, ChannelKind::vector, false, s.reference, s.test, &s.covered});
+    const Measurement angular(
+        {ErrorKind::angular, ChannelKind::vector, false, s.reference, s.test, &s.covered});
     expectFigures(angular, vectors, {});
 
     // For absolute errors, mean and RMSE are over components, as in other programs.
@@ -113,7 +115,7 @@ TEST(Figures, AreGivenByTheirNames) {
     pixels["rmse"] = rootMeanSquareOf(e.components);
     colors.merge(pixels);
     const Measurement absolute(
-        {Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
+        {ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
     ASSERT_NE(absolute.flip(), nullptr);
     const HdrFlipResult& flip = *absolute.flip();
     colors.merge(Figures{{"flip", flip.mean}, {"flip_median", flip.weighted_median}, {"flip_max", flip.max}});
@@ -122,9 +124,10 @@ TEST(Figures, AreGivenByTheirNames) {
     expectFigures(absolute, colors, {"ssim"});
 
     // Statistics that were computed before are used, whatever the metric.
-    ChannelStats known = channelStats(Metric::absolute, ChannelKind::color, s.reference, s.test, s.covered);
+    ChannelStats known =
+        channelStats(ErrorKind::absolute, ChannelKind::color, s.reference, s.test, s.covered);
     const Measurement given(
-        {Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered, &known});
+        {ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered, &known});
     for (const auto& [name, value] : ofPixels(e.absolute))
         EXPECT_NEAR(given({name, 0}).value_or(-1), value, 1e-12 * value) << name;
 }
@@ -141,7 +144,7 @@ TEST(Figures, OfPlainMetricsArePixelsToo) {
 TEST(Figures, FlipIsToldItsOptions) {
     const Spread s = spread();
     const auto mean = [&](const HdrFlipOptions& flip, bool display) {
-        return Measurement({Metric::absolute, ChannelKind::color, display, s.reference, s.test, &s.covered,
+        return Measurement({ErrorKind::absolute, ChannelKind::color, display, s.reference, s.test, &s.covered,
                             nullptr, flip})({"flip", 0})
             .value_or(-1);
     };
@@ -157,7 +160,7 @@ TEST(Figures, FlipIsToldItsOptions) {
 // A fraction of failing pixels: an error equal to the bound passes.
 TEST(Figures, AShareIsOfTheCountedPixelsBeyond) {
     const Spread s = spread();
-    const Measurement m({Metric::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
+    const Measurement m({ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
     for (const std::size_t i : {std::size_t{0}, std::size_t{1000}, counted - 2, counted - 1})
         EXPECT_EQ(m({FAILING, stepOf(i)}), static_cast<double>(counted - 1 - i) / counted) << i;
     EXPECT_EQ(m({FAILING, stepOf(0) / 2}), 1.0);

@@ -32,7 +32,7 @@ std::vector<Frame> evenFrames() {
             if (!isMadeByReference(mode)) continue;
             Image& image = frame.channels[mode.channel] =
                 Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
-            if (isAngle(mode.metric))
+            if (isAngle(mode.error_kind))
                 for (std::size_t i = 0; i < image.pixels(); ++i)
                     std::ranges::copy(std::array{0.6f, 0.0f, 0.8f}, image.pixel(i));
         }

@@ -34,7 +34,7 @@ struct Pair {
         deferred.settings.size = forward.settings.size = {1, 1};
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.channel] = Image(1, 1, mode.width, 0.5f);
-            if (isAngle(mode.metric)) forward.channels[mode.channel].data = {0.6f, 0, 0.8f};
+            if (isAngle(mode.error_kind)) forward.channels[mode.channel].data = {0.6f, 0, 0.8f};
             if (mode.maker != MadeBy::forward_only)
                 deferred.channels[mode.channel] = forward.channels[mode.channel];
             if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.channel);
@@ -271,9 +271,9 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
         p.cpu = true;
         EXPECT_EQ(derivedTolerance(mode, p.pair()).max, 0) << mode.name;
         p.cpu = false;
-        const double share = 16 * 0x1p-23, expected = mode.metric == Metric::relative   ? share
-                                                      : mode.metric == Metric::absolute ? 0.5 * share
-                                                      : isAngle(mode.metric)
+        const double share = 16 * 0x1p-23, expected = mode.error_kind == ErrorKind::relative   ? share
+                                                      : mode.error_kind == ErrorKind::absolute ? 0.5 * share
+                                                      : isAngle(mode.error_kind)
                                                           ? std::sqrt(3.0) * share * 180 / std::numbers::pi
                                                           : 0;
         EXPECT_DOUBLE_EQ(derivedTolerance(mode, p.pair()).max, expected) << mode.name;
@@ -378,7 +378,7 @@ TEST(Diff, EveryChannelCanFail) {
         if (mode.maker == MadeBy::forward_only || mode.maker == MadeBy::deferred_only) continue;
         Pair p;
         float& value = p.forward.channels[mode.channel].data[0];
-        value = mode.metric == Metric::exact ? value + 1 : -value;
+        value = mode.error_kind == ErrorKind::exact ? value + 1 : -value;
         const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
         EXPECT_FALSE(c.passed()) << mode.name;
         EXPECT_EQ(std::ranges::count(c.channels, Verdict::fail, &ChannelDiff::verdict), 1) << mode.name;

@@ -61,22 +61,23 @@ TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {
 
 TEST(DebugModes, MetricsHaveNamesOfTheirOwn) {
     std::set<std::string_view> names;
-    for (const Metric metric :
-         {Metric::relative, Metric::absolute, Metric::angular, Metric::axial, Metric::exact})
-        names.insert(nameOf(metric));
+    for (const ErrorKind errorKind :
+         {ErrorKind::relative, ErrorKind::absolute, ErrorKind::angular, ErrorKind::axial, ErrorKind::exact})
+        names.insert(nameOf(errorKind));
     EXPECT_EQ(names.size(), 5u);
     EXPECT_FALSE(names.contains("?"));
-    EXPECT_EQ(nameOf(Metric::axial), "axial");
+    EXPECT_EQ(nameOf(ErrorKind::axial), "axial");
 }
 
 // Angles need three components, and a range of unit vectors.
 TEST(DebugModes, AnglesAreBetweenUnitVectors) {
     for (const DebugMode& mode : debugModes()) {
-        EXPECT_EQ(isAngle(mode.metric), mode.domain == Domain::unit || mode.domain == Domain::unit_or_zero)
+        EXPECT_EQ(isAngle(mode.error_kind),
+                  mode.domain == Domain::unit || mode.domain == Domain::unit_or_zero)
             << mode.name;
-        EXPECT_TRUE(!isAngle(mode.metric) || mode.width == 3) << mode.name;
+        EXPECT_TRUE(!isAngle(mode.error_kind) || mode.width == 3) << mode.name;
     }
-    EXPECT_EQ(debugMode(Channel::anisotropy_direction).metric, Metric::axial) << "it has no sign";
+    EXPECT_EQ(debugMode(Channel::anisotropy_direction).error_kind, ErrorKind::axial) << "it has no sign";
 }
 
 // A pixel's surface is found before the light that reaches it, and that before the light it sends.
@@ -99,7 +100,7 @@ TEST(DebugModes, CodesHaveBits) {
         EXPECT_LE(of.compact, of.standard) << mode.name;
         EXPECT_EQ(of.compact == 0, of.standard == 0) << mode.name;
         const bool turned = of.code == FieldCode::octahedral || of.code == FieldCode::line;
-        EXPECT_TRUE(!turned || isAngle(mode.metric)) << mode.name;
+        EXPECT_TRUE(!turned || isAngle(mode.error_kind)) << mode.name;
     }
     EXPECT_EQ(debugMode(Channel::normals).stored.compact, 12u);
     EXPECT_EQ(debugMode(Channel::normals).stored.standard, 16u);
@@ -122,7 +123,7 @@ TEST(DebugModes, TexelsMakeSurfaces) {
         EXPECT_EQ(sourceOf(mode.channel).stage, ChannelStage::surface) << mode.name;
         const bool color = mode.texels == TexelUse::color || mode.texels == TexelUse::scaled_color;
         EXPECT_EQ(color, mode.kind == ChannelKind::color) << mode.name;
-        EXPECT_EQ(mode.texels == TexelUse::line, mode.metric == Metric::axial) << mode.name;
+        EXPECT_EQ(mode.texels == TexelUse::line, mode.error_kind == ErrorKind::axial) << mode.name;
     }
 }
 

@@ -81,8 +81,8 @@ TEST(ImageRows, EightBitsAndFloatsHaveTheSameFigures) {
             const Image fa = floats(a, 3), fb = floats(b, 3);
             const ImageRows ca(a, 3), cb(b, 3);
             Coverage all = everyPixel(fa.pixels());
-            expectSame(channelStats(Metric::absolute, ChannelKind::color, ca, cb, all),
-                       channelStats(Metric::absolute, ChannelKind::color, fa, fb, all));
+            expectSame(channelStats(ErrorKind::absolute, ChannelKind::color, ca, cb, all),
+                       channelStats(ErrorKind::absolute, ChannelKind::color, fa, fb, all));
             expectSame(standardMetrics(ca, cb, ChannelKind::color, Range::display, all),
                        standardMetrics(fa, fb, ChannelKind::color, Range::display, all));
             const FlipResult flip = ldrFlip(fa, fb);
@@ -90,17 +90,17 @@ TEST(ImageRows, EightBitsAndFloatsHaveTheSameFigures) {
             EXPECT_EQ(ldrFlip(ca, fb).error.data, flip.error.data) << "one of each";
             EXPECT_EQ(ldrFlip(ca, cb).weighted_median, flip.weighted_median);
             EXPECT_EQ(hdrFlip(ca, cb).error.data, hdrFlip(fa, fb).error.data);
-            EXPECT_EQ(errorImage(Metric::relative, ChannelKind::color, ca, cb, all).data,
-                      errorImage(Metric::relative, ChannelKind::color, fa, fb, all).data);
+            EXPECT_EQ(errorImage(ErrorKind::relative, ChannelKind::color, ca, cb, all).data,
+                      errorImage(ErrorKind::relative, ChannelKind::color, fa, fb, all).data);
         }
 }
 
 // Compared with sorting all errors at once.
 TEST(ImageRows, RanksAreThoseOfTheSortedErrors) {
-    for (const Metric metric :
-         {Metric::absolute, Metric::relative, Metric::angular, Metric::axial, Metric::exact})
+    for (const ErrorKind errorKind :
+         {ErrorKind::absolute, ErrorKind::relative, ErrorKind::angular, ErrorKind::axial, ErrorKind::exact})
         for (const Wide size : sizes) {
-            SCOPED_TRACE(name(size) + " " + std::to_string(static_cast<int>(metric)));
+            SCOPED_TRACE(name(size) + " " + std::to_string(static_cast<int>(errorKind)));
             const Image a = noise(size.width, size.height, 1);
             Image b = a;
             std::mt19937 random(3);
@@ -110,7 +110,7 @@ TEST(ImageRows, RanksAreThoseOfTheSortedErrors) {
             Coverage covered = everyPixel(a.pixels());
             if (b.pixels() > 9) covered.covered[5] = 0;
             covered.count = static_cast<std::size_t>(std::ranges::count(covered.covered, 1));
-            const PixelError error(metric, ChannelKind::color, a, covered);
+            const PixelError error(errorKind, ChannelKind::color, a, covered);
             std::vector<double> all;
             for (std::size_t i = 0; i < a.pixels(); ++i)
                 if (covered.covered[i]) all.push_back(error(b.pixel(i), a.pixel(i)));
@@ -119,7 +119,7 @@ TEST(ImageRows, RanksAreThoseOfTheSortedErrors) {
                 const auto rank = std::ceil(share * static_cast<double>(all.size()));
                 return all[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
             };
-            const ChannelStats stats = channelStats(metric, ChannelKind::color, a, b, covered);
+            const ChannelStats stats = channelStats(errorKind, ChannelKind::color, a, b, covered);
             EXPECT_EQ(stats.p99, at(0.99));
             EXPECT_EQ(stats.p999, at(0.999));
             EXPECT_EQ(stats.max, all.back());
@@ -134,7 +134,7 @@ TEST(ImageRows, RanksOfManyErrorsThatAreAlmostTheSame) {
     for (std::size_t i = 0; i < b.pixels(); ++i)
         b.data[i] = 1 + static_cast<float>(i * 7919 % b.pixels()) * 0x1p-23f;
     const ChannelStats stats =
-        channelStats(Metric::absolute, ChannelKind::scalar, a, b, everyPixel(a.pixels()));
+        channelStats(ErrorKind::absolute, ChannelKind::scalar, a, b, everyPixel(a.pixels()));
     EXPECT_EQ(stats.p99, 1 + (0.99 * 1'100'000 - 1) * 0x1p-23);
     EXPECT_EQ(stats.p999, 1 + (0.999 * 1'100'000 - 1) * 0x1p-23);
 }
