@@ -77,7 +77,7 @@ const std::array<Criterion, criterionCount> criteria{{
 }};
 
 bool passes(const Criterion& criterion, const Outcome& outcome) {
-    return criterion.figure(outcome) < criterion.limit;
+    return criterion.metric(outcome) < criterion.limit;
 }
 
 bool agrees(const BreakingPoint& point, double predicted, bool up, double tried) {

@@ -21,7 +21,7 @@ namespace diptych::audit {
 struct Criterion {
     std::string_view name, title;  // "1e-3", "error below 1e-3"
     double limit;
-    double (*figure)(const Outcome&);
+    double (*metric)(const Outcome&);
 };
 // Error below 1e-3 and below 1e-2; not visible (mean HDR-FLIP below 0.05); and every pixel finite.
 inline constexpr std::size_t criterionCount = 4;

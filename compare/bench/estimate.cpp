@@ -14,7 +14,7 @@ namespace {
 // sheets (2017, 2020, 2022, 2023, 2025). An H100 runs draws on only two of its 66 texture processing
 // clusters (four multiprocessors). Its draws are those of a small GPU, its memory and compute those of a
 // large one.
-constexpr GpuFigures gpus[] = {
+constexpr GpuRates gpus[] = {
     {"NVIDIA GeForce RTX 3060", 360, 5.3, 85, 199, 12'740, 12'740},
     {"NVIDIA GeForce RTX 4090", 1008, 27.7, 443, 1290, 82'600, 82'600},
     {"AMD Radeon RX 7600", 288, 5.3, 170, 340, 21'750, 21'750, "navi33", 64 * 2.655},
@@ -37,17 +37,17 @@ double msOf(double units, double giga, double reached) {
 
 }  // namespace
 
-std::span<const GpuFigures> estimatedGpus() {
+std::span<const GpuRates> estimatedGpus() {
     return gpus;
 }
 
-bool isOfFamily(const GpuFigures& gpu, std::string_view device) {
+bool isOfFamily(const GpuRates& gpu, std::string_view device) {
     std::string family(gpu.family);
     for (char& c : family) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return !family.empty() && device.find(family) != std::string_view::npos;
 }
 
-std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu, const EstimateAssumptions& assumed,
+std::vector<Demand> demandsOf(const PassWork& work, const GpuRates& gpu, const EstimateAssumptions& assumed,
                               const PassCycles* cycles) {
     const PassCounts& n = work.counts;
     const auto real = [](std::uint64_t count) { return static_cast<double>(count); };
@@ -95,7 +95,7 @@ std::vector<PassCycles> passCycles(const CompiledPath& path) {
     return means;
 }
 
-FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed,
+FrameEstimate estimate(const FrameWork& frame, const GpuRates& gpu, const EstimateAssumptions& assumed,
                        std::span<const PassCycles> cycles) {
     FrameEstimate result{frame.path, &gpu, 0, {}};
     for (const PassWork& work : frame.passes) {

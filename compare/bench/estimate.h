@@ -15,15 +15,15 @@ namespace diptych::bench {
 
 // Data sheet values, 1e9 per second: bytes of memory traffic, triangles set up, pixels written per target,
 // bilinear texels. Also float32 operations of draws and of compute shaders; a multiply-add is two.
-struct GpuFigures {
+struct GpuRates {
     std::string_view name;
     double bytes, triangles, outputs, texels, draw_flops, compute_flops;
     std::string_view family = {};  // RADV's name: "navi31"
     double simd_cycles = 0;        // all SIMD units, 1e9 cycles per second
 };
-std::span<const GpuFigures> estimatedGpus();
+std::span<const GpuRates> estimatedGpus();
 // Whether the device's name contains the GPU's family, as in "... (RADV NAVI31)".
-bool isOfFamily(const GpuFigures& gpu, std::string_view device);
+bool isOfFamily(const GpuRates& gpu, std::string_view device);
 
 // One demand of a pass, and the time it takes alone, ms.
 struct Demand {
@@ -47,7 +47,7 @@ std::vector<PassCycles> passCycles(const CompiledPath& path);
 
 struct FrameEstimate {
     Path path = Path::deferred;
-    const GpuFigures* gpu = nullptr;
+    const GpuRates* gpu = nullptr;
     double ms = 0;
     std::vector<PassEstimate> passes;
 };
@@ -63,10 +63,10 @@ struct EstimateAssumptions {
 };
 
 // `cycles`: of the pass; nullptr: uses the assumed operation counts.
-std::vector<Demand> demandsOf(const PassWork& work, const GpuFigures& gpu,
+std::vector<Demand> demandsOf(const PassWork& work, const GpuRates& gpu,
                               const EstimateAssumptions& assumed = {}, const PassCycles* cycles = nullptr);
 // `cycles`: passes compiled for the GPU's family; the others use assumed operation counts.
-FrameEstimate estimate(const FrameWork& frame, const GpuFigures& gpu, const EstimateAssumptions& assumed = {},
+FrameEstimate estimate(const FrameWork& frame, const GpuRates& gpu, const EstimateAssumptions& assumed = {},
                        std::span<const PassCycles> cycles = {});
 
 // "deferred on NVIDIA GeForce RTX 3060: 0.42 ms; G-buffer 0.21 (memory), ..."

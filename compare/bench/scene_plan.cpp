@@ -19,7 +19,7 @@ std::vector<FrameEstimate> estimatesOf(const ScenePlan& plan, const FrameWork& w
     std::vector<PassCycles> cycles;
     for (const CompiledPath& path : plan.compiled)
         if (path.path == work.path) cycles = passCycles(path);
-    for (const GpuFigures& gpu : estimatedGpus())
+    for (const GpuRates& gpu : estimatedGpus())
         if (plan.compiler == nullptr || isOfFamily(gpu, plan.compiler->name))
             all.push_back(estimate(work, gpu, {}, cycles));
     return all;

@@ -77,7 +77,7 @@ private:
                 tiers[0].push_back(i);
             }
             if (!candidate.isJudged()) continue;
-            if (!accurate || candidate[budget_.figure] < choice.candidates[*accurate][budget_.figure])
+            if (!accurate || candidate[budget_.metric] < choice.candidates[*accurate][budget_.metric])
                 accurate = i;
             if (candidate.isFit() && i != choice.chosen) others.emplace_back(candidate.ms(), i);
         }
@@ -152,7 +152,7 @@ private:
     double worstError(std::size_t i) const {
         double worst = 0;
         for (const experiment::Row& in : found_.candidates[i].scenes)
-            worst = std::max(worst, in[budget_.figure]);
+            worst = std::max(worst, in[budget_.metric]);
         return worst;
     }
     double sumOfLogs(std::size_t i) const {

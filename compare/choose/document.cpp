@@ -48,7 +48,7 @@ std::string longerInWords(const TimeRatio& of) {
 std::string goalInWords(const Budget& budget) {
     std::vector<std::string> limits;
     if (budget.error)
-        limits.push_back(fmt::format("{} at most {:.4g}", titleOf(budget.figure), *budget.error));
+        limits.push_back(fmt::format("{} at most {:.4g}", titleOf(budget.metric), *budget.error));
     if (budget.ms) limits.push_back(fmt::format("at most {:.4g} ms", *budget.ms));
     if (budget.bytes) limits.push_back(fmt::format("at most {}", page::bytes(*budget.bytes)));
     return fmt::format("the {} with {}", budget.isForSpeed() ? "fastest" : "most accurate",
@@ -56,11 +56,11 @@ std::string goalInWords(const Budget& budget) {
 }
 
 // "4.5 ms, FLIP 0.0125, 3 MiB"
-std::string figuresInWords(const experiment::Row& row, Measure figure) {
+std::string metricsInWords(const experiment::Row& row, Measure metric) {
     std::string text =
         row.measured.has(Measure::ms) ? fmt::format("{:.4g} ms", row[Measure::ms]) : "not timed";
     if (row.measured.has(Measure::memory))
-        text += fmt::format(", {} {:.4g}, {}", titleOf(figure), row[figure],
+        text += fmt::format(", {} {:.4g}, {}", titleOf(metric), row[metric],
                             page::bytes(row.whole(Measure::memory)));
     return text;
 }
@@ -72,7 +72,7 @@ Sentences missesInWords(const experiment::Row& row, const Budget& budget) {
             lines.emplace_back(fmt::format("{} over the {} budget of {}", page::percent(value / limit - 1),
                                            what, limit_text));
     };
-    if (budget.error) gap(row[budget.figure], *budget.error, "error", fmt::format("{:.4g}", *budget.error));
+    if (budget.error) gap(row[budget.metric], *budget.error, "error", fmt::format("{:.4g}", *budget.error));
     if (budget.ms) gap(row[Measure::ms], *budget.ms, "time", fmt::format("{:.4g} ms", *budget.ms));
     if (budget.bytes)
         gap(row[Measure::memory], static_cast<double>(*budget.bytes), "memory", page::bytes(*budget.bytes));
@@ -102,7 +102,7 @@ void addHeldOut(Sentences& lines, const ChoiceReport& report) {
     for (const HeldOutCamera& camera : report.held_out)
         lines.emplace_back(
             fmt::format("checked from camera {}, which the choice did not use: {} {:.4g}{}", camera.camera,
-                        titleOf(report.budget.figure), camera.error,
+                        titleOf(report.budget.metric), camera.error,
                         camera.holds ? "" : ", over the budget: name both cameras with --camera"));
 }
 
@@ -174,9 +174,9 @@ Span verdictOf(const Report& report) {
     return {fits ? "fits" : "nothing fits", Span::verdict, fits ? "pass" : "fail"};
 }
 
-// The chosen or nearest Settings, why, and the command. `figures`: of them; empty: none.
+// The chosen or nearest Settings, why, and the command. `metrics`: of them; empty: none.
 template <class Report>
-output::Box outcomeBox(const Report& report, const std::string& figures, const Sentences& lines) {
+output::Box outcomeBox(const Report& report, const std::string& metrics, const Sentences& lines) {
     const auto& choice = report.choice;
     output::Text title("no candidate could be drawn");
     const std::string nearest =
@@ -185,7 +185,7 @@ output::Box outcomeBox(const Report& report, const std::string& figures, const S
         title = {swatchOf(choice.candidates[*shown].settings), choice.chosen ? "" : nearest,
                  report.words[*shown]};
     output::Box box{"box", {Heading{3, title}}};
-    if (!figures.empty()) box.blocks.emplace_back(Paragraph{figures, "figures mono"});
+    if (!metrics.empty()) box.blocks.emplace_back(Paragraph{metrics, "figures mono"});
     box.blocks.emplace_back(output::List{lines});
     if (choice.chosen)
         box.blocks.emplace_back(Paragraph{Span(report.commands[*choice.chosen], Span::command), "again"});
@@ -214,7 +214,7 @@ Table candidateTable(const ChoiceReport& report) {
         return output::Text{swatchOf(choice.candidates[i].settings), report.words[i]};
     });
     measure(Measure::ms);
-    measure(report.budget.figure);
+    measure(report.budget.metric);
     measure(Measure::memory);
     addColumn(table, {"result"}, order, [&](std::size_t i) {
         return i == choice.chosen                       ? "chosen"
@@ -232,7 +232,7 @@ Table sceneTable(const CommonReport& report, std::size_t candidate) {
     table.sortable = true;
     addColumn(table, {"scene"}, report.scenes,
               [](const std::string& scene) { return Span(scene, Span::name); });
-    for (const Measure measure : {Measure::ms, report.budget.figure, Measure::memory})
+    for (const Measure measure : {Measure::ms, report.budget.metric, Measure::memory})
         addColumn(table, columnOf(measure), rows,
                   [&](const experiment::Row& row) { return cellOf(row, measure); });
     if (report.choice.chosen)
@@ -256,9 +256,9 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
 // budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
 std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     const Choice& choice = report.choice;
-    const std::string_view figure = titleOf(report.budget.figure);
+    const std::string_view metric = titleOf(report.budget.metric);
     PlotPanel panel{.across = {"time of a frame, ms"},
-                    .up = {fmt::format("{} against the reference", figure)}};
+                    .up = {fmt::format("{} against the reference", metric)}};
     if (const auto& most = report.budget.error)
         panel.limits.push_back({.y = most, .name = fmt::format("at most {:.4g}", *most)});
     if (const auto& most = report.budget.ms)
@@ -268,14 +268,14 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
         const Candidate& candidate = choice.candidates[i];
         if (!candidate.isJudged() || candidate.timings == 0) continue;
-        const double ms = candidate.ms(), error = candidate[report.budget.figure];
+        const double ms = candidate.ms(), error = candidate[report.budget.metric];
         const bool raced = candidate.status == CandidateStatus::raced;
         if (raced) interval = "finalist, 99 % interval";
         points.push_back({ms, error});
         panel.pointsOf(std::string(nameOf(candidate.settings.path)), candidate.settings.path, false)
             .push_back({.x = ms,
                         .y = error,
-                        .words = fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, figure,
+                        .words = fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, metric,
                                              error, candidate.statusName().words),
                         .across = {endOf(candidate, &TimeRatio::low), endOf(candidate, &TimeRatio::high)},
                         .row = i + 1,
@@ -287,7 +287,7 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     }
     for (const std::size_t i : experiment::paretoFront(points))
         panel.front.emplace_back(points[i].time, points[i].error);
-    return svgOf({.title = fmt::format("{} over time of the measured candidates, {}", figure, report.scene),
+    return svgOf({.title = fmt::format("{} over time of the measured candidates, {}", metric, report.scene),
                   .panels = {panel},
                   .interval = interval},
                  place);
@@ -316,8 +316,8 @@ std::string whyInWords(const ChoiceReport& report) {
     std::string line = fmt::format("the other path: the {} settings that fit are {}, {:.3g} ms",
                                    forSpeed ? "fastest" : "most accurate", report.words[*best], other.ms());
     if (!forSpeed)
-        line += fmt::format(", {} {:.3g} against {:.3g}", titleOf(report.budget.figure),
-                            other[report.budget.figure], chosen[report.budget.figure]);
+        line += fmt::format(", {} {:.3g} against {:.3g}", titleOf(report.budget.metric),
+                            other[report.budget.metric], chosen[report.budget.metric]);
     for (std::size_t i = 0; i < parts.size(); ++i)
         line += (i == 0 ? "; passes, ms: " : ", ") + parts[i].second;
     return line;
@@ -325,11 +325,11 @@ std::string whyInWords(const ChoiceReport& report) {
 
 std::vector<Block> blocksOf(const ChoiceReport& report) {
     const Choice& choice = report.choice;
-    std::string figures;
+    std::string metrics;
     Sentences lines;
     if (const std::optional<std::size_t> shown = choice.shown()) {
         const Candidate& candidate = choice.candidates[*shown];
-        figures = figuresInWords(candidate, report.budget.figure);
+        metrics = metricsInWords(candidate, report.budget.metric);
         lines = choice.chosen ? Sentences{whyInWords(report)} : missesInWords(candidate, report.budget);
     }
     if (choice.chosen) {
@@ -350,7 +350,7 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
                  fmt::format(", {}x{}, ", report.given.size.width, report.given.size.height),
                  Span(fmt::format("{}", fmt::join(report.cameras, "; ")), Span::foreign),
                  ": " + goalInWords(report.budget)}},
-        output::Box{"choice", {outcomeBox(report, figures, lines), plot}}};
+        output::Box{"choice", {outcomeBox(report, metrics, lines), plot}}};
     if (report.sensitivities) addSensitivities(blocks, *report.sensitivities);
     output::List notes{{}, "box says"};
     for (const std::string& note : report.notes) notes.items.emplace_back("note: " + note);
@@ -362,12 +362,12 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
 
 std::vector<Block> blocksOf(const CommonReport& report) {
     const CommonChoice& choice = report.choice;
-    std::string figures;
+    std::string metrics;
     Sentences lines;
     if (choice.nearest) {
         const experiment::Row& worst = choice.candidates[*choice.nearest].scenes[choice.nearest_scene];
-        figures = fmt::format("{}: {}", report.scenes[choice.nearest_scene],
-                              figuresInWords(worst, report.budget.figure));
+        metrics = fmt::format("{}: {}", report.scenes[choice.nearest_scene],
+                              metricsInWords(worst, report.budget.metric));
         lines = missesInWords(worst, report.budget);
     }
     if (choice.chosen) addFinalists(lines, report);
@@ -380,7 +380,7 @@ std::vector<Block> blocksOf(const CommonReport& report) {
                 {verdictOf(report),
                  fmt::format(" all {} scenes, {}x{}: {} in each", report.scenes.size(),
                              report.given.size.width, report.given.size.height, goalInWords(report.budget))}},
-        outcomeBox(report, figures, lines)};
+        outcomeBox(report, metrics, lines)};
     if (const std::optional<std::size_t> shown = choice.shown())
         blocks.emplace_back(sceneTable(report, *shown));
     return blocks;

@@ -81,7 +81,7 @@ Json sceneJson(const ChoiceReport& report) {
         {"scene", report.scene},
         {"cameras", report.cameras},
         {"device", jsonOf(report.device)},
-        {"figure", named(budget.figure).name},
+        {"figure", named(budget.metric).name},
         {"budget",
          {{"error", orNull(budget.error)}, {"ms", orNull(budget.ms)}, {"bytes", orNull(budget.bytes)}}}};
     addOutcome(json, report);

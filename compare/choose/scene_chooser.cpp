@@ -96,11 +96,11 @@ std::vector<Change> singleChanges(const std::vector<Settings>& candidates) {
 
 }  // namespace
 
-Measure figureNamed(const std::string& name) {
+Measure metricNamed(const std::string& name) {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < experiment::errorFigures.size(); ++i) {
-        if (experiment::errorFigures[i].name == name) return Measure::flip + i;
-        names.push_back(experiment::errorFigures[i].name);
+    for (std::size_t i = 0; i < experiment::errorMetrics.size(); ++i) {
+        if (experiment::errorMetrics[i].name == name) return Measure::flip + i;
+        names.push_back(experiment::errorMetrics[i].name);
     }
     throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
 }
@@ -129,7 +129,7 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
     loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, question_.settings, progress), device_,
                                             pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
-        loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.budget.figure,
+        loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.budget.metric,
                                    question_.drawing);
     return *loaded_;
 }
@@ -177,7 +177,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
     experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
-    loaded.evaluator.emplace(loaded.renderer, references, question_.budget.figure, question_.drawing);
+    loaded.evaluator.emplace(loaded.renderer, references, question_.budget.metric, question_.drawing);
 
     report.choice = search(loaded, given, candidates, stage.part(0.2, 0.95));
 
@@ -215,7 +215,7 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
     for (std::size_t i = 0; i < choice.candidates.size() && !fits; ++i)
         if (const Candidate& candidate = choice.candidates[i];
             candidate.isJudged() && candidate.settings.path != chosen_path &&
-            (!other || candidate[report.budget.figure] < choice.candidates[*other][report.budget.figure]))
+            (!other || candidate[report.budget.metric] < choice.candidates[*other][report.budget.metric]))
             other = i;
     if (!other) return {};  // --grid has candidates of one path only
     // Without blended pixels the candidates may differ in transparency settings. Equalize these, because
@@ -245,10 +245,10 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
     drawing.progress = {};
     const experiment::ReferenceFrames references =
         experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.image, drawing, false);
-    experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.figure, drawing);
+    experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.metric, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
-    const double error = evaluator.judge(chosen.settings)[question_.budget.figure];
-    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.figure];
+    const double error = evaluator.judge(chosen.settings)[question_.budget.metric];
+    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.metric];
     return {page::cameraTitle(references.frames.front()), error, error <= most};
 }
 

@@ -28,8 +28,8 @@ struct Question {
     ImageChoice image;
 };
 
-// An error measure. Throws std::runtime_error if --figure names none.
-Measure figureNamed(const std::string& name);
+// An error measure. Throws std::runtime_error if --metric names none.
+Measure metricNamed(const std::string& name);
 
 class SceneChooser {
 public:

@@ -137,7 +137,7 @@ private:
         const Candidate& candidate = all_[i];
         const Candidate& judged =
             candidate.isJudged() ? candidate : all_[firsts_.at(candidate.settings.path)];
-        return {candidate.log_ms, judged[budget_.figure], judged[Measure::memory]};
+        return {candidate.log_ms, judged[budget_.metric], judged[Measure::memory]};
     }
     void learnChanges() {
         const auto add = [&](const Change& change, std::optional<Effect> effect) {
@@ -183,7 +183,7 @@ private:
         const Candidate& candidate = all_[i];
         if (!candidate.isJudged()) return {std::numeric_limits<double>::infinity(), 0, 0};
         if (const double miss = missBy(candidate); miss > 0) return {miss, 0, 0};
-        const double error = candidate[budget_.figure];
+        const double error = candidate[budget_.metric];
         if (budget_.isForSpeed()) return {0, candidate.log_ms, error};
         return {0, std::round(std::log(std::max(error, 1e-9)) / std::log(alikeErrors)), candidate.log_ms};
     }
@@ -216,7 +216,7 @@ private:
             const Effect sum = measured(from) + effect;
             const double ms = std::exp(sum.log_ms), error = std::max(sum.error, 0.0);
             Measures expected;
-            expected[budget_.figure] = error / budgetSlack;
+            expected[budget_.metric] = error / budgetSlack;
             expected[Measure::memory] = sum.bytes / budgetSlack;
             expected[Measure::ms] = ms / budgetSlack;
             const double predicted = missOf(expected, budget_);
@@ -226,13 +226,13 @@ private:
                 trials.push_back({{predicted, ms, count}, std::move(changes)});
             else if (budget_.isForSpeed() && ms < timeSlack * best.ms())
                 trials.push_back({{0, ms, count}, std::move(changes)});
-            else if (!budget_.isForSpeed() && error < best[budget_.figure])
+            else if (!budget_.isForSpeed() && error < best[budget_.metric])
                 trials.push_back({{0, error, ms}, std::move(changes)});
         };
         for (std::size_t a = 0; a < singles.size(); ++a) {
             if (!singles[a].second) {
                 // Unknown effect: assume slightly better than the best, so that it is tried.
-                consider({0, -1e-3 * best[budget_.figure], 0}, {singles[a].first});
+                consider({0, -1e-3 * best[budget_.metric], 0}, {singles[a].first});
                 continue;
             }
             consider(*singles[a].second, {singles[a].first});
@@ -298,7 +298,7 @@ private:
             const Candidate& best = all_[fit.front()];
             std::erase_if(fit, [&](std::size_t i) {
                 return budget_.isForSpeed() ? all_[i].ms() > worthTimingAgain * best.ms()
-                                            : all_[i][budget_.figure] > alikeErrors * best[budget_.figure];
+                                            : all_[i][budget_.metric] > alikeErrors * best[budget_.metric];
             });
             fit.resize(std::min(fit.size(), finalists));
             timeAgain(fit);
@@ -360,7 +360,7 @@ double missOf(const Measures& measured, const Budget& budget) {
     const auto add = [&](double value, double limit) {
         if (value > limit) miss = std::max(miss, value / std::max(limit, 1e-12) - 1);
     };
-    if (budget.error) add(measured[budget.figure], *budget.error);
+    if (budget.error) add(measured[budget.metric], *budget.error);
     if (budget.bytes) add(measured[Measure::memory], static_cast<double>(*budget.bytes));
     if (budget.ms) add(measured[Measure::ms], *budget.ms);
     return miss;
@@ -374,7 +374,7 @@ std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& b
     if (!choice.chosen) return {};
     const auto value = [&](std::size_t i) {
         const Candidate& candidate = choice.candidates[i];
-        return budget.isForSpeed() ? candidate.ms() : candidate[budget.figure];
+        return budget.isForSpeed() ? candidate.ms() : candidate[budget.metric];
     };
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i)

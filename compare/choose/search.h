@@ -40,7 +40,7 @@ std::vector<Settings> tableOf(std::span<const Settings> candidates);
 inline constexpr std::size_t mostInTable = 24;
 
 struct Budget {
-    Measure figure = Measure::flip;  // the error's
+    Measure metric = Measure::flip;  // the error's
     std::optional<double> error;
     std::optional<double> ms;            // per frame
     std::optional<std::uint64_t> bytes;  // images and buffers of a frame

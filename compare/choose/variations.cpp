@@ -56,7 +56,7 @@ struct MadeScene {
 };
 
 // Sums over all cameras.
-struct Figures {
+struct Metrics {
     double fragments = 0, covered = 0, triangles = 0;  // opaque
     double lights = 0, surface = 0;                    // evaluated lights, pixels with an opaque surface
 };
@@ -68,15 +68,15 @@ Overdraw overdrawFrom(const VariedScene& of, const Settings& settings) {
                            static_cast<std::uint32_t>(settings.size.height));
 }
 
-Figures figuresOf(const VariedScene& of) {
-    Figures figures;
+Metrics metricsOf(const VariedScene& of) {
+    Metrics metrics;
     for (const Frame& from : of.references.frames) {
         Settings seen = shadesFragments(of.settings[0].path) ? of.settings[0] : of.settings[1];
         seen.camera = from.settings.camera;
         const Overdraw overdraw = overdrawFrom(of, seen);
-        figures.fragments += static_cast<double>(overdraw.fragments);
-        figures.covered += static_cast<double>(overdraw.covered);
-        figures.triangles += static_cast<double>(overdraw.triangles);
+        metrics.fragments += static_cast<double>(overdraw.fragments);
+        metrics.covered += static_cast<double>(overdraw.covered);
+        metrics.triangles += static_cast<double>(overdraw.triangles);
         RenderOptions drawing;
         drawing.channels = {Channel::material_id, Channel::light_count};
         drawing.requested = drawing.channels;
@@ -86,11 +86,11 @@ Figures figuresOf(const VariedScene& of) {
                     &lights = frame.channels.at(Channel::light_count);
         for (std::size_t i = 0; i < ids.pixels(); ++i) {
             if (ids.pixel(i)[0] < 0) continue;
-            figures.surface += 1;
-            figures.lights += lights.pixel(i)[0];
+            metrics.surface += 1;
+            metrics.lights += lights.pixel(i)[0];
         }
     }
-    return figures;
+    return metrics;
 }
 
 double ratioOf(double a, double b) {
@@ -122,7 +122,7 @@ public:
         : of_(of),
           scene_(of.views.scene()),
           viewpoints_(viewpointsOf(scene_, of.references)),
-          here_(figuresOf({of.device, of.pipelines, of.views, of.renderer, viewpoints_, of.settings})) {}
+          here_(metricsOf({of.device, of.pipelines, of.views, of.renderer, viewpoints_, of.settings})) {}
 
     std::vector<Property> all() const {
         return {overdraw(), lights(), blended(), samples(), materials(), triangles(), size()};
@@ -147,18 +147,18 @@ private:
                              [made](std::span<const std::size_t> order) { return made->draw(order); }};
         };
     }
-    // Adds a modified scene whose figures measure the property.
+    // Adds a modified scene whose metrics measure the property.
     template <class Make>
-    void addFigured(Property& property, double (*of_figures)(const Figures&), Make make,
-                    bool bakedLights = false) const {
+    void addMeasured(Property& property, double (*of_metrics)(const Metrics&), Make make,
+                     bool bakedLights = false) const {
         property.others.push_back(withScene(
-            make, [of_figures](const VariedScene& made) { return of_figures(figuresOf(made)); },
+            make, [of_metrics](const VariedScene& made) { return of_metrics(metricsOf(made)); },
             bakedLights));
     }
 
-    static double overdrawOf(const Figures& figures) { return ratioOf(figures.fragments, figures.covered); }
-    static double lightsOf(const Figures& figures) { return ratioOf(figures.lights, figures.surface); }
-    static double trianglesOf(const Figures& figures) { return figures.triangles; }
+    static double overdrawOf(const Metrics& metrics) { return ratioOf(metrics.fragments, metrics.covered); }
+    static double lightsOf(const Metrics& metrics) { return ratioOf(metrics.lights, metrics.surface); }
+    static double trianglesOf(const Metrics& metrics) { return metrics.triangles; }
 
     Property overdraw() const {
         Property property{.name = "overdraw",
@@ -173,8 +173,8 @@ private:
             property.not_varied = "this device does not count fragments, or no surface is opaque";
         for (const int copies : {1, 3})
             if (property.not_varied.empty())
-                addFigured(property, overdrawOf,
-                           [copies](const Scene& scene) { return withOverdraw(scene, copies); });
+                addMeasured(property, overdrawOf,
+                            [copies](const Scene& scene) { return withOverdraw(scene, copies); });
         return property;
     }
 
@@ -193,7 +193,7 @@ private:
         if (lights.empty()) property.not_varied = "the scene has no light to remove or copy";
         for (const double factor : {0.5, 2.0, 4.0}) {
             if (lights.empty() || (factor < 1 && lights.size() < 2)) continue;
-            addFigured(
+            addMeasured(
                 property, lightsOf,
                 [lights, factor](const Scene& scene) { return withLights(scene, lights, factor); }, true);
         }
@@ -261,7 +261,7 @@ private:
                           .value = trianglesOf(here_),
                           .least = 1,
                           .most = 1e8};
-        addFigured(property, trianglesOf, [](const Scene& scene) { return withEmptyTriangles(scene, 8); });
+        addMeasured(property, trianglesOf, [](const Scene& scene) { return withEmptyTriangles(scene, 8); });
         return property;
     }
 
@@ -290,7 +290,7 @@ private:
     const VariedScene& of_;
     const Scene& scene_;
     const experiment::ReferenceFrames viewpoints_;
-    const Figures here_;
+    const Metrics here_;
 };
 
 }  // namespace

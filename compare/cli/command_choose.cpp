@@ -24,7 +24,7 @@ namespace {
 using namespace choose;
 
 struct ChooseLine : SceneGroup, GridGroup, Budget {
-    std::string figure_word = "flip";  // name in experiment::errorFigures
+    std::string metric_word = "flip";  // name in experiment::errorMetrics
     std::string bytes_word;
     bool explain = false;  // --explain-choice
 };
@@ -39,7 +39,7 @@ void describeChoose(CLI::App& app, ChooseLine& options) {
     app.option_defaults()->group("Budgets (one or two)");
     addOption(app, "--max-error", options.error, "E",
               "largest error of lit; finds the fastest Settings within it");
-    addOption(app, "--figure", options.figure_word, "flip|relative_rmse|relative_p99",
+    addOption(app, "--figure", options.metric_word, "flip|relative_rmse|relative_p99",
               "error metric of --max-error (flip)");
     addOption(app, "--max-ms", options.ms, "T",
               "longest frame time, ms; without --max-error, finds the most accurate Settings within it");
@@ -101,7 +101,7 @@ void checkChooseOptions(const ChooseLine& options) {
 
 Question questionOf(const ChooseLine& options) {
     return {options.settings,    options.camera_given ? options.cameras : std::vector<std::string>(),
-            options.grid,        {figureNamed(options.figure_word), options.error, options.ms, options.bytes},
+            options.grid,        {metricNamed(options.metric_word), options.error, options.ms, options.bytes},
             options.explain,     renderOptions(options),
             imageChoice(options)};
 }

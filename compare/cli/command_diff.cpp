@@ -68,16 +68,16 @@ void resolveDiff(DiffLine& options) {
     diff.strict = options.strict;
     diff.allow_empty = options.allow_empty;
     diff.metric_given = !options.metric_word.empty();
-    diff.metric = figureOfMetric(diff.metric_given ? options.metric_word : "flip");
+    diff.metric = metricOfMetric(diff.metric_given ? options.metric_word : "flip");
     if (diff.failing && diff.metric_given)
         refuse("--failing: counts pixels by the channel's own error; leave out --metric");
     if (!std::isfinite(diff.blur)) refuse("--blur: must be a finite number of pixels");
-    const Figure& figure = *findFigure(diff.metric);
+    const Metric& metric = *findMetric(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double identity = !figure.more_is_better ? 0 : figure.name == "ssim" ? 1 : infinity;
+    const double identity = !metric.more_is_better ? 0 : metric.name == "ssim" ? 1 : infinity;
     diff.tolerance = options.tolerance_given.value_or(identity);
     diff.tolerance_given = options.tolerance_given.has_value();
-    if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !figure.more_is_better))
+    if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !metric.more_is_better))
         refuse("--tolerance {}: must be 0 or more", diff.tolerance);
     if (diff.failing && !diff.tolerance_given)
         refuse("--failing: needs --tolerance T, the error above which a pixel fails");

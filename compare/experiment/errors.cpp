@@ -79,10 +79,10 @@ FrameErrors ErrorsAgainst::operator()(const Image& lit) const {
     return result;
 }
 
-FrameErrors ErrorsAgainst::forFigure(std::size_t figure, const Image& lit) const {
+FrameErrors ErrorsAgainst::forMetric(std::size_t metric, const Image& lit) const {
     FrameErrors result;
-    constexpr std::size_t flipFigure = 0;  // other metrics use the pixels' relative errors
-    if (figure != flipFigure) {
+    constexpr std::size_t flipMetric = 0;  // other metrics use the pixels' relative errors
+    if (metric != flipMetric) {
         result.pixels = pixelsOf(lit);
         return result;
     }

@@ -37,8 +37,8 @@ public:
     ErrorsAgainst& operator=(const ErrorsAgainst&) = delete;
 
     FrameErrors operator()(const Image& lit) const;
-    // Inputs of one metric of errorFigures for ErrorsOfCameras: flip_sum and flip_pixels, or `pixels`.
-    FrameErrors forFigure(std::size_t figure, const Image& lit) const;
+    // Inputs of one metric of errorMetrics for ErrorsOfCameras: flip_sum and flip_pixels, or `pixels`.
+    FrameErrors forMetric(std::size_t metric, const Image& lit) const;
     // Frees FLIP's data of the reference, about 256 MiB at most. It is recomputed on demand.
     void release() const { flip_.reset(); }
 

@@ -26,7 +26,7 @@ FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     key.addAll(lit.data);
     const std::pair image(camera, key.value());
     if (const auto known = judged_.find(image); known != judged_.end()) return known->second;
-    FrameErrors errors = references_.errors[camera]->forFigure(figureIndex(), lit);
+    FrameErrors errors = references_.errors[camera]->forMetric(metricIndex(), lit);
     if (errors.pixels.empty()) judged_.emplace(image, errors);
     return errors;
 }
@@ -55,7 +55,7 @@ Measures SceneEvaluator::judge(const Settings& settings) {
             add(camera, frame.channels.at(Channel::lit), frame.bytes);
         }
     }
-    judged[figure_] = errors.errors()[figureIndex()];
+    judged[metric_] = errors.errors()[metricIndex()];
     return judged;
 }
 

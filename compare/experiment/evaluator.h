@@ -35,10 +35,10 @@ public:
 // are the mean, memory is the maximum; passes are of the first camera.
 class SceneEvaluator final : public Evaluator {
 public:
-    // `figure`: the error that is wanted. The renderer and the references must outlive the object.
-    SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, Measure figure,
+    // `metric`: the error that is wanted. The renderer and the references must outlive the object.
+    SceneEvaluator(Renderer& renderer, const ReferenceFrames& references, Measure metric,
                    const RenderOptions& options)
-        : renderer_(renderer), references_(references), figure_(figure), options_(options), pool_(renderer) {}
+        : renderer_(renderer), references_(references), metric_(metric), options_(options), pool_(renderer) {}
 
     Measures judge(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
@@ -50,14 +50,14 @@ public:
     std::vector<PassTime> profile(const Settings& settings) override;
 
 private:
-    std::size_t figureIndex() const { return figure_ - Measure::flip; }
+    std::size_t metricIndex() const { return metric_ - Measure::flip; }
     std::size_t cameras() const { return references_.frames.size(); }
     // Errors of one camera's image. FLIP results are cached by the image's hash.
     FrameErrors errorsOf(std::size_t camera, const Image& lit);
 
     Renderer& renderer_;
     const ReferenceFrames& references_;
-    Measure figure_;
+    Measure metric_;
     RenderOptions options_;
     PreparedPool pool_;
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.

@@ -118,11 +118,11 @@ constexpr auto groupOf() {
     for (std::size_t i = 0; i < group.size(); ++i) group[i] = named(first + i);
     return group;
 }
-inline constexpr std::array errorFigures = groupOf<Measure::flip, Measure::relative_p99>();
-inline constexpr std::array shadowFigures = groupOf<Measure::shadow_error, Measure::gap>();
-inline constexpr std::array sampleFigures = groupOf<Measure::shaded, Measure::elsewhere>();
-using Errors = std::array<double, errorFigures.size()>;
-using ShadowErrors = std::array<double, shadowFigures.size()>;
-using SampleShares = std::array<double, sampleFigures.size()>;
+inline constexpr std::array errorMetrics = groupOf<Measure::flip, Measure::relative_p99>();
+inline constexpr std::array shadowMetrics = groupOf<Measure::shadow_error, Measure::gap>();
+inline constexpr std::array sampleMetrics = groupOf<Measure::shaded, Measure::elsewhere>();
+using Errors = std::array<double, errorMetrics.size()>;
+using ShadowErrors = std::array<double, shadowMetrics.size()>;
+using SampleShares = std::array<double, sampleMetrics.size()>;
 
 }  // namespace diptych::experiment

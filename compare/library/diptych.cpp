@@ -59,8 +59,8 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     result.compared = coverage.count;
     for (const auto& [name, value] : measurement.all()) result.figures.emplace(name, value);
     for (const Limit& limit : options.limits) {
-        const Figure* const figure = findFigure(limit.figure);
-        if (!figure)
+        const Metric* const metric = findMetric(limit.figure);
+        if (!metric)
             throw std::runtime_error(
                 fmt::format("{}: unknown metric; figureNames() lists them", limit.figure));
         const auto measured = result.figures.find(limit.figure);
@@ -88,13 +88,13 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
 
 std::vector<std::string> figureNames() {
     std::vector<std::string> names;
-    for (const Figure& figure : figures()) names.emplace_back(figure.name);
+    for (const Metric& metric : allMetrics()) names.emplace_back(metric.name);
     return names;
 }
 
 std::string meaningOf(const std::string& name) {
-    const Figure* const figure = findFigure(name);
-    return figure ? std::string(figure->meaning) : "";
+    const Metric* const metric = findMetric(name);
+    return metric ? std::string(metric->meaning) : "";
 }
 
 std::string version() {

@@ -79,8 +79,8 @@ private:
         box.summary =
             box.blocks.empty() ? "Numbers, worst pixels" : "Numbers, worst pixels, commands to reproduce it";
         box.blocks.insert(box.blocks.end(),
-                          {numbers(), output::Drawing{errorFigures(channel_, images_, id_)}});
-        if (!channel_.figures.empty()) box.blocks.emplace_back(allFigures());
+                          {numbers(), output::Drawing{errorMetrics(channel_, images_, id_)}});
+        if (!channel_.metrics.empty()) box.blocks.emplace_back(allMetrics());
         return box;
     }
 
@@ -139,14 +139,14 @@ private:
             unitOf(*channel_.mode));
     }
 
-    Box allFigures() const {
+    Box allMetrics() const {
         output::Table table{.columns = {}, .style = "", .box = ""};
-        addColumn(table, {""}, channel_.figures, [](const auto& figure) { return figure.first; });
-        addColumn(table, {"", output::Column::number}, channel_.figures,
-                  [](const auto& figure) { return number(figure.second); });
-        addColumn(table, {.title = "", .style = "soft wide"}, channel_.figures, [](const auto& of) {
-            const Figure* figure = findFigure(of.first);
-            return figure ? figure->meaning : "";
+        addColumn(table, {""}, channel_.metrics, [](const auto& metric) { return metric.first; });
+        addColumn(table, {"", output::Column::number}, channel_.metrics,
+                  [](const auto& metric) { return number(metric.second); });
+        addColumn(table, {.title = "", .style = "soft wide"}, channel_.metrics, [](const auto& of) {
+            const Metric* metric = findMetric(of.first);
+            return metric ? metric->meaning : "";
         });
         return {"figures scroll", {table}, "", "All metrics"};
     }

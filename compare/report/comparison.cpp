@@ -41,7 +41,7 @@ std::string explainedWords(const ChannelDiff& channel) {
 // The deciding metric is below the name on pages too narrow for its column.
 Cell channelCell(const ChannelDiff& channel, const std::string& id) {
     Text page = cardLink(id, *channel.mode);
-    if (channel.criterion) page.spans.emplace_back(channel.criterion->figure, Span::words, "soft judged");
+    if (channel.criterion) page.spans.emplace_back(channel.criterion->metric, Span::words, "soft judged");
     return either(channel.mode->name, page);
 }
 
@@ -115,17 +115,17 @@ output::Table channelTable(const Comparison& comparison, const std::string& id, 
     addStatistic("mean", &ChannelStats::mean);
     if (files) addStatistic("rmse", &ChannelStats::rmse);
     addStatistic("p99.9", &ChannelStats::p999);
-    for (const char* figure : {"psnr", "ssim"})
+    for (const char* metric : {"psnr", "ssim"})
         if (files)
-            add({.title = figure, .kind = Column::number, .style = "optional"},
+            add({.title = metric, .kind = Column::number, .style = "optional"},
                 [=](const ChannelDiff* channel) {
                     const auto found =
-                        std::ranges::find(channel->figures, figure, &std::pair<std::string, double>::first);
-                    return found == channel->figures.end() ? either("-", "\u2013")
+                        std::ranges::find(channel->metrics, metric, &std::pair<std::string, double>::first);
+                    return found == channel->metrics.end() ? either("-", "\u2013")
                                                            : Cell(page::number(found->second));
                 });
     addCriterion({.title = "judged by", .style = "soft by"}, "nothing",
-                 [](const Criterion& criterion) { return criterion.figure; });
+                 [](const Criterion& criterion) { return criterion.metric; });
     addCriterion({"measured", Column::number}, either("-", ""), [](const Criterion& criterion) {
         return beside(criterion, criterion.measured, criterion.limit);
     });
@@ -152,7 +152,7 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
         text.spans.emplace_back(explainedWords(channel));
     else if (const auto& c = channel.criterion)
         text.spans.emplace_back(
-            fmt::format("{} {}, {} {} allowed", c->figure, beside(*c, c->measured, c->limit),
+            fmt::format("{} {}, {} {} allowed", c->metric, beside(*c, c->measured, c->limit),
                         c->least ? "at least" : "at most", beside(*c, c->limit, c->measured)));
     else
         text.spans.emplace_back("differs");
@@ -175,15 +175,15 @@ namespace {
 // The words of the table that not everyone knows.
 List glossaryOf(const Comparison& comparison) {
     List list{{}, "soft small"};
-    for (const auto& [figure, meaning] :
+    for (const auto& [metric, meaning] :
          {std::pair{"excess",
                     "the error minus the reference's uncertainty and the G-buffer's quantization bound"},
           {"pixels unexplained",
            "pixels whose difference the G-buffer's encoding does not explain; the limit is 0"}})
-        if (std::ranges::any_of(comparison.channels, [word = figure](const ChannelDiff& channel) {
-                return channel.criterion && channel.criterion->figure.find(word) != std::string::npos;
+        if (std::ranges::any_of(comparison.channels, [word = metric](const ChannelDiff& channel) {
+                return channel.criterion && channel.criterion->metric.find(word) != std::string::npos;
             }))
-            list.items.emplace_back(fmt::format("{}: {}", figure, meaning));
+            list.items.emplace_back(fmt::format("{}: {}", metric, meaning));
     return list;
 }
 

@@ -39,7 +39,7 @@ output::Table channelTable(const Comparison& comparison, const std::string& id, 
 output::Block cardOf(const Report& report, const ReportLayout& layout, std::size_t index,
                      const ChannelDiff& channel, bool open);
 // Histogram and worst pixels for the card with this `id`.
-std::string errorFigures(const ChannelDiff& channel, const ChannelImages& images, const std::string& id);
+std::string errorMetrics(const ChannelDiff& channel, const ChannelImages& images, const std::string& id);
 void addVisualChecks(std::vector<output::Block>& blocks, const Report& report, const ReportLayout& layout,
                      std::size_t index);
 output::List frameLines(const Frame& baseline, const Frame& test);

@@ -63,7 +63,7 @@ std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
     std::string words = fmt::format("{} of {} pixels are equal", errors.equal, all);
     if (errors.infinite > 0) words += fmt::format("; {} have an infinite error", errors.infinite);
     if (!limit && channel.criterion)
-        words += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->figure);
+        words += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->metric);
     return fmt::format(
         "<figure class=\"histogram\">{}<figcaption>{}</figcaption></figure>\n",
         svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotPlace::page),
@@ -87,7 +87,7 @@ std::string worstList(const ChannelDiff& channel, const ChannelImages& images, c
 
 }  // namespace
 
-std::string errorFigures(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
+std::string errorMetrics(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
     if (images.worst.empty()) return {};
     const std::string spread = channel.mode->error_kind == ErrorKind::exact ? "" : histogram(channel, images);
     return "<div class=\"spread\">" + spread + worstList(channel, images, id) + "</div>\n";

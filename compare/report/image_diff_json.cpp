@@ -69,7 +69,7 @@ Json channelJson(const ImageChannelDiff* of) {
     const Condition* bound = singleBound(channel);
     json["tolerance"] = bound ? finiteOrNull(bound->limit) : Json(nullptr);
     if (const auto& c = channel.decision.criterion)
-        json["criterion"] = {{"figure", c->figure},
+        json["criterion"] = {{"figure", c->metric},
                              {"measured", finiteOrNull(c->measured)},
                              {c->differing ? "differing_share" : "share_beyond", c->share}};
     json["rule"] = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));

@@ -70,9 +70,9 @@ ChannelDiff channelOf(const ImageChannelDiff& channel, const DebugMode& mode) {
     row.criterion = channel.decision.criterion;
     row.stats.worst_x = channel.worst_x;
     row.stats.worst_y = channel.worst_y;
-    for (const char* figure : {"psnr", "ssim"})
-        if (const std::optional<double> value = (*channel.measurement)({figure, 0}))
-            row.figures.emplace_back(figure, *value);
+    for (const char* metric : {"psnr", "ssim"})
+        if (const std::optional<double> value = (*channel.measurement)({metric, 0}))
+            row.metrics.emplace_back(metric, *value);
     row.verdict = channel.decision.level == Level::fail ? Verdict::fail : Verdict::pass;
     return row;
 }
@@ -110,7 +110,7 @@ void addImages(Report& report, Comparison& comparison, ImageDiff& diff) {
             row.shown_error_name = errors.name;
             row.shown_error_top = errors.top;
         }
-        row.figures = channel.measurement->all();
+        row.metrics = channel.measurement->all();
     }
     for (std::size_t i = 0; i < comparison.channels.size(); ++i) {
         diff.channels[i]->measurement.reset();

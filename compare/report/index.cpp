@@ -38,7 +38,7 @@ std::string rowTitle(const Report& report, const Comparison& comparison) {
 // The first metric that moved; a tooltip lists all.
 Cell sinceCell(const Trend& trend) {
     std::string all;
-    for (const MovedFigure& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
+    for (const MovedMetric& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
     output::Text text(trend.kind == TrendKind::same ? "" : nameOf(trend.kind));
     if (!trend.moved.empty())
         text.spans.insert(text.spans.end(), {" ", {movedText(trend.moved[0]), Span::words, "soft"}});
@@ -126,7 +126,7 @@ output::Table tableOf(const Report& report, const ReportLayout& layout, const Re
 
 // The metrics of every comparison by channel, which fill the page's columns: { "lit": [failed, used, max,
 // mean, rmse, p99, p999, flip], ... }. Channels equal on both sides are omitted; numbers have four digits.
-std::string figuresOf(const ReportLayout& layout, const ReportTexts& texts) {
+std::string metricsOf(const ReportLayout& layout, const ReportTexts& texts) {
     std::string out = "{";
     for (std::size_t i = 0; i < texts.rows.size(); ++i) {
         const IndexRow& row = texts.rows[i];
@@ -196,11 +196,11 @@ std::vector<output::Block> indexBlocks(const Report& report, const ReportLayout&
         "<option>rmse</option><option>p99</option><option>p99.9</option><option>FLIP</option><option>of its "
         "limit</option></select></label></p>",
         choices, channelOptions(texts))};
-    const output::Drawing figures{fmt::format("<script type=\"application/json\" id=\"figures\">{}</script>",
-                                              figuresOf(layout, texts))};
+    const output::Drawing metrics{fmt::format("<script type=\"application/json\" id=\"figures\">{}</script>",
+                                              metricsOf(layout, texts))};
     return {output::Box{"index",
                         {output::Heading{2, {"Comparisons ", Span("", Span::words, "shown soft")}}, filters,
-                         tableOf(report, layout, texts), figures}}};
+                         tableOf(report, layout, texts), metrics}}};
 }
 
 }  // namespace diptych

@@ -24,7 +24,7 @@ Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
 }
 
 Json jsonOf(const Criterion& criterion) {
-    return {{"figure", criterion.figure},
+    return {{"figure", criterion.metric},
             {"measured", finiteOrNull(criterion.measured)},
             {criterion.least ? "least" : "limit", finiteOrNull(criterion.limit)},
             {criterion.differing ? "differing_pixels" : "pixels_beyond", criterion.pixels},
@@ -65,9 +65,9 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     if (!compared) return json;
     if (!channel.reason.empty()) json["reason"] = channel.reason;
     json["criterion"] = channel.criterion ? jsonOf(*channel.criterion) : Json(nullptr);
-    Json figures = Json::object();
-    for (const auto& [name, value] : channel.figures) figures[name] = finiteOrNull(value);
-    json["figures"] = figures;
+    Json metrics = Json::object();
+    for (const auto& [name, value] : channel.metrics) metrics[name] = finiteOrNull(value);
+    json["figures"] = metrics;
     json["different_pixels"] = s.different;
     json["infinite_pixels"] = s.infinite;
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};

@@ -127,7 +127,7 @@ private:
                 : markup(fmt::format("warning: {} ({})", channel.warning, channel.rule)) + "\n";
         const std::string limit =
             channel.criterion
-                ? fmt::format("{} {}, limit {}", channel.criterion->figure,
+                ? fmt::format("{} {}, limit {}", channel.criterion->metric,
                               digitsApart(channel.criterion->measured, channel.criterion->limit),
                               digitsApart(channel.criterion->limit, channel.criterion->measured))
                 : "no limit";

@@ -18,18 +18,18 @@ namespace diptych {
 
 namespace {
 
-// Whether a rule's `figure` limits single errors of the metric in the image: the maximum, or a percentile.
-bool isDrawn(const ChannelDiff& channel, std::string_view figure) {
+// Whether a rule's `metric` limits single errors of the metric in the image: the maximum, or a percentile.
+bool isDrawn(const ChannelDiff& channel, std::string_view metric) {
     const auto isOneOf = [&](std::initializer_list<std::string_view> names) {
-        return std::ranges::count(names, figure) > 0;
+        return std::ranges::count(names, metric) > 0;
     };
-    if (channel.shown_error_name == "FLIP") return figure == "flip_max";
+    if (channel.shown_error_name == "FLIP") return metric == "flip_max";
     const ErrorKind errorKind = channel.shown_error_name == nameOf(ErrorKind::relative)
                                     ? ErrorKind::relative
                                     : channel.mode->error_kind;
     if (errorKind == channel.mode->error_kind && isOneOf({"max", "p99", "p999"})) return true;
     return (errorKind == ErrorKind::relative && isOneOf({"relative_max", "relative_p99", "relative_p999"})) ||
-           (isAngle(errorKind) && figure == "angle_max");
+           (isAngle(errorKind) && metric == "angle_max");
 }
 
 std::optional<double> errorLimit(const ChannelDiff& channel) {
@@ -37,7 +37,7 @@ std::optional<double> errorLimit(const ChannelDiff& channel) {
         return std::isfinite(channel.tolerance.max) ? std::optional(channel.tolerance.max) : std::nullopt;
     if (!channel.criterion) return {};
     if (channel.criterion->above && !channel.shown_error) return channel.criterion->above;
-    return isDrawn(channel, channel.criterion->figure) ? std::optional(channel.criterion->limit)
+    return isDrawn(channel, channel.criterion->metric) ? std::optional(channel.criterion->limit)
                                                        : std::nullopt;
 }
 

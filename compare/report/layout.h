@@ -4,7 +4,7 @@
 
 #include "compare/image/channel_image.h"
 #include "compare/page/emitted.h"
-#include "compare/report/error_figures.h"
+#include "compare/report/error_metrics.h"
 #include "compare/report/report_options.h"
 #include "compare/verdict/comparison.h"
 

@@ -54,7 +54,7 @@ bool isLeftOut(const std::string& key) {
 }
 
 // JSON has null for infinity.
-double figureIn(const Place& json, const char* name) {
+double metricIn(const Place& json, const char* name) {
     return json.has(name) && json.at(name).json().is_number() ? json.at(name).number() : 1e300;
 }
 
@@ -68,8 +68,8 @@ void addComparison(EarlierReport& report, std::map<std::string, int>& again, con
     for (const Place& channel : json.at("channels").each()) {
         const std::string verdict = channel.textOr("verdict", "");
         if (verdict != "pass" && verdict != "fail") continue;
-        auto& figures = earlier.channels[channel.textOr("name", "")];
-        for (const auto& [name, member] : judged) figures[name] = figureIn(channel, name);
+        auto& metrics = earlier.channels[channel.textOr("name", "")];
+        for (const auto& [name, member] : judged) metrics[name] = metricIn(channel, name);
     }
 }
 
@@ -78,7 +78,7 @@ void addNoise(EarlierReport& report, const Place& frame) {
     const Place noise = frame.at("noise");
     for (const auto& [channel, of] : noise.json().items()) {
         double& most = report.noise[frame.textOr("scene", "") + "\n" + channel];
-        most = std::max(most, 2 * figureIn(Place(of), "max"));
+        most = std::max(most, 2 * metricIn(Place(of), "max"));
     }
 }
 
@@ -99,9 +99,9 @@ EarlierReport readEarlier(const fs::path& where) {
     });
 }
 
-std::vector<MovedFigure> movedSince(const Earlier& earlier, const EarlierReport& report,
+std::vector<MovedMetric> movedSince(const Earlier& earlier, const EarlierReport& report,
                                     const IndexRow& row) {
-    std::vector<MovedFigure> moved;
+    std::vector<MovedMetric> moved;
     for (const IndexChannel& channel : row.channels) {
         const auto then = earlier.channels.find(channel.name);
         if (then == earlier.channels.end()) continue;
@@ -161,15 +161,15 @@ Trends trendsSince(const fs::path& where, const Report& report, const std::vecto
     return trends;
 }
 
-std::string movedText(const MovedFigure& moved) {
-    return fmt::format("{} {} {} -> {}", moved.channel, moved.figure, numberOf(moved.from),
+std::string movedText(const MovedMetric& moved) {
+    return fmt::format("{} {} {} -> {}", moved.channel, moved.metric, numberOf(moved.from),
                        numberOf(moved.to));
 }
 
 Json jsonOf(const Trends& trends, const Report& report) {
-    const auto movedJson = [](const MovedFigure& one) -> Json {
+    const auto movedJson = [](const MovedMetric& one) -> Json {
         return {{"channel", one.channel},
-                {"figure", one.figure},
+                {"figure", one.metric},
                 {"from", finite(one.from)},
                 {"to", finite(one.to)},
                 {"noise", one.noise}};

@@ -16,14 +16,14 @@ enum class TrendKind { same, fails_now, mended, moved, fresh };
 std::string_view nameOf(TrendKind kind);  // "same", "new failure", "mended", "moved", "new"
 
 // A channel's metric that changed by more than the noise between two runs.
-struct MovedFigure {
-    std::string channel, figure;
+struct MovedMetric {
+    std::string channel, metric;
     double from = 0, to = 0, noise = 0;  // 1e300: infinite
 };
 
 struct Trend {
     TrendKind kind = TrendKind::same;
-    std::vector<MovedFigure> moved;  // for every kind
+    std::vector<MovedMetric> moved;  // for every kind
 };
 
 struct Trends {
@@ -44,6 +44,6 @@ Trends trendsSince(const std::filesystem::path& earlier, const Report& report,
 nlohmann::ordered_json jsonOf(const Trends& trends, const Report& report);
 // Lines for people: the count of each kind, and its scenes.
 std::vector<std::string> trendLines(const Trends& trends, const Report& report);
-std::string movedText(const MovedFigure& moved);  // "lit max 0.01 -> 0.02"
+std::string movedText(const MovedMetric& moved);  // "lit max 0.01 -> 0.02"
 
 }  // namespace diptych

@@ -46,11 +46,11 @@ std::string spreadText(const Spread& spread) {
 std::string switches() {
     std::string out =
         "<div class=\"switches\"><span class=\"soft chooses\">Error</span><span class=\"buttons chooses\">";
-    for (std::size_t i = 0; i < errorFigures.size(); ++i)
+    for (std::size_t i = 0; i < errorMetrics.size(); ++i)
         out += fmt::format(
             "<button type=\"button\" data-shows=\"{}\" aria-pressed=\"{}\"{} title=\"{}\">{}</button>",
-            errorFigures[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorFigures[i].means),
-            markup(errorFigures[i].title));
+            errorMetrics[i].name, i == 0, i == 0 ? " class=\"on\"" : "", markup(errorMetrics[i].means),
+            markup(errorMetrics[i].title));
     return out +
            "</span><span class=\"soft\">A filled mark with its row's number is on the Pareto front: no other "
            "row is both faster and closer to the reference. A bar spans all timed frames and "
@@ -61,15 +61,15 @@ std::string switches() {
 template <class MarkupOf>
 std::string ofErrors(const MarkupOf& markupOf) {
     std::string out;
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
-        out += fmt::format("<div data-figure=\"{}\"{}>{}</div>", errorFigures[figure].name,
-                           hiddenUnless(figure == 0), markupOf(figure));
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric)
+        out += fmt::format("<div data-figure=\"{}\"{}>{}</div>", errorMetrics[metric].name,
+                           hiddenUnless(metric == 0), markupOf(metric));
     return out;
 }
 
 std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
     return ofErrors(
-        [&](std::size_t figure) { return tradeoffPlot(tradeoff, figure, path, PlotPlace::page); });
+        [&](std::size_t metric) { return tradeoffPlot(tradeoff, metric, path, PlotPlace::page); });
 }
 
 std::string images(const Tradeoff& tradeoff, const TradeoffRow& row) {
@@ -90,9 +90,9 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
         "{0}</p>{3}<dl><dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
         index + 1, hiddenUnless(shown), markup(inWords(row, tradeoff.given)), images(tradeoff, row),
         row[Measure::ms], row[Measure::ms_min], row[Measure::ms_max]);
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure)
-        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorFigures[figure].title),
-                           spreadText(spreadOf(row, errorMeasure(figure))));
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric)
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorMetrics[metric].title),
+                           spreadText(spreadOf(row, errorMeasure(metric))));
     out += fmt::format("<dt>memory</dt><dd>{}</dd>", inHtml(cellOf(row, Measure::memory).text));
     for (const PassTime& pass : row.passes)
         out += fmt::format("<dt>{}</dt><dd>{:.3g} ms</dd>", markup(pass.name), pass.ms);
@@ -111,7 +111,7 @@ std::string plots(const Tradeoff& tradeoff) {
     const std::size_t first = front.empty() ? 0 : front.front();
     std::string out = "<div class=\"plots\"><div class=\"drawn\"><div class=\"box\">" +
                       plotsOf(tradeoff, {}) + "</div><div class=\"front\">" +
-                      ofErrors([&](std::size_t figure) { return inHtml(frontTable(tradeoff, figure)); }) +
+                      ofErrors([&](std::size_t metric) { return inHtml(frontTable(tradeoff, metric)); }) +
                       "</div><div class=\"each\">";
     for (const Path path : pathsOf(tradeoff))
         out += fmt::format("<div class=\"box\"><h3>{}</h3>{}</div>", nameOf(path), plotsOf(tradeoff, path));
@@ -123,11 +123,11 @@ std::string plots(const Tradeoff& tradeoff) {
 // A line for each error.
 output::List frontList(const Tradeoff& tradeoff) {
     output::List list;
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
         std::vector<std::size_t> numbers;
-        for (const std::size_t row : frontOf(tradeoff, figure)) numbers.push_back(row + 1);
+        for (const std::size_t row : frontOf(tradeoff, metric)) numbers.push_back(row + 1);
         list.items.emplace_back(fmt::format(
-            "Pareto front of time and {}: {}", errorFigures[figure].title,
+            "Pareto front of time and {}: {}", errorMetrics[metric].title,
             numbers.empty()
                 ? "none"
                 : fmt::format("row{} {}", numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "))));
@@ -235,7 +235,7 @@ std::string tradeoffHtml(const Tradeoff& tradeoff) {
         .style = tradeoffStyle,
         .script = tradeoffScript,
         .skip = "rows"};
-    for (std::size_t f = 0; f < errorFigures.size(); ++f) page.files.push_back(plotName(f, {}));
+    for (std::size_t f = 0; f < errorMetrics.size(); ++f) page.files.push_back(plotName(f, {}));
     for (Block& block : resultBlocks(tradeoff)) page.blocks.push_back(std::move(block));
     return inHtml(page);
 }
@@ -255,10 +255,10 @@ std::string writeTradeoff(const Tradeoff& measured, const std::filesystem::path&
     tradeoff.reference_image = "reference.png";
     writePng(folder / tradeoff.reference_image, reference);
     folder.list(tradeoff.reference_image);
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
-        folder.put(plotName(figure, {}), tradeoffPlot(tradeoff, figure, {}, PlotPlace::file));
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
+        folder.put(plotName(metric, {}), tradeoffPlot(tradeoff, metric, {}, PlotPlace::file));
         for (const Path one : pathsOf(tradeoff))
-            folder.put(plotName(figure, one), tradeoffPlot(tradeoff, figure, one, PlotPlace::file));
+            folder.put(plotName(metric, one), tradeoffPlot(tradeoff, metric, one, PlotPlace::file));
     }
     folder.put("tradeoff.csv", inCsv(csvTable(tradeoff)));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(experiment::pointersTo(tradeoff.rows))));

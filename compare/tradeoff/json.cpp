@@ -24,11 +24,11 @@ Json numbersOf(const std::vector<std::size_t>& rows) {
 
 Json frontsOf(const Tradeoff& tradeoff) {
     Json fronts = Json::array();
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
         const auto add = [&](std::optional<Path> path) {
-            fronts.push_back({{"error", errorFigures[figure].name},
+            fronts.push_back({{"error", errorMetrics[metric].name},
                               {"path", path ? Json(nameOf(*path)) : Json(nullptr)},
-                              {"rows", numbersOf(frontOf(tradeoff, figure, path))}});
+                              {"rows", numbersOf(frontOf(tradeoff, metric, path))}});
         };
         add({});
         for (const Path path : pathsOf(tradeoff)) add(path);
@@ -85,9 +85,9 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
             {"runs", tradeoff.runs},
             {"settings", jsonOf(tradeoff.given)},
             {"reference", {{"settings", jsonOf(tradeoff.reference)}, {"picture", tradeoff.reference_image}}},
-            {"errors", metricsJson(errorFigures)},
-            {"shadow_figures", metricsJson(shadowFigures)},
-            {"sample_figures", metricsJson(sampleFigures)},
+            {"errors", metricsJson(errorMetrics)},
+            {"shadow_figures", metricsJson(shadowMetrics)},
+            {"sample_figures", metricsJson(sampleMetrics)},
             {"rows", rows},
             {"fronts", frontsOf(tradeoff)},
             {"skipped", arrayOf(tradeoff.skips, skipJson)},

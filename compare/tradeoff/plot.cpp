@@ -9,14 +9,14 @@
 
 namespace diptych::tradeoff {
 
-std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path,
+std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::optional<Path> path,
                          PlotPlace place) {
-    const std::string title(errorFigures[figure].title);
+    const std::string title(errorMetrics[metric].title);
     PlotPanel panel{.across = {"time of a frame, ms"}, .up = {title}};
-    const std::vector<std::size_t> front = frontOf(tradeoff, figure, path);
+    const std::vector<std::size_t> front = frontOf(tradeoff, metric, path);
     for (const std::size_t i : rowsOf(tradeoff, path)) {
         const TradeoffRow& row = tradeoff.rows[i];
-        const Spread error = spreadOf(row, errorMeasure(figure));
+        const Spread error = spreadOf(row, errorMeasure(metric));
         const bool best = std::ranges::count(front, i) > 0;
         if (best) panel.front.emplace_back(row[Measure::ms], error.value);
         panel.pointsOf(std::string(nameOf(row.settings.path)), row.settings.path, false)
@@ -40,8 +40,8 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t figure, std::opti
                  place);
 }
 
-std::string plotName(std::size_t figure, std::optional<Path> path) {
-    const std::string_view name = errorFigures[figure].name;
+std::string plotName(std::size_t metric, std::optional<Path> path) {
+    const std::string_view name = errorMetrics[metric].name;
     return path ? fmt::format("{}.{}.svg", name, nameOf(*path)) : fmt::format("{}.svg", name);
 }
 

@@ -31,7 +31,7 @@ constexpr std::pair<Measure, std::size_t> sweepMeasures[] = {
     {Measure::memory, 10}};
 
 // Time, memory and the measures from `first` to `last`.
-std::vector<std::pair<Measure, std::size_t>> figures(Measure first, Measure last) {
+std::vector<std::pair<Measure, std::size_t>> metrics(Measure first, Measure last) {
     std::vector<std::pair<Measure, std::size_t>> shown{{Measure::ms, 8}, {Measure::memory, 10}};
     for (Measure measure = first; measure <= last; measure = measure + 1) shown.emplace_back(measure, 10);
     return shown;
@@ -65,7 +65,7 @@ std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::stri
 }
 
 // Rows on the front of time and each error.
-using Fronts = std::array<std::vector<std::size_t>, errorFigures.size()>;
+using Fronts = std::array<std::vector<std::size_t>, errorMetrics.size()>;
 
 output::Table sweepHead() {
     output::Table table = headOf(sweepMeasures);
@@ -76,8 +76,8 @@ output::Table sweepHead() {
 output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
     output::Row row = rowOf(tradeoff, index, inWords(tradeoff.rows[index], tradeoff.given), sweepMeasures);
     std::vector<std::string_view> on;
-    for (std::size_t f = 0; f < errorFigures.size(); ++f)
-        if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorFigures[f].title);
+    for (std::size_t f = 0; f < errorMetrics.size(); ++f)
+        if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorMetrics[f].title);
     row.cells.emplace_back(fmt::format("{}", fmt::join(on, ", ")));
     return row;
 }
@@ -105,17 +105,17 @@ std::vector<output::Block> blocksOf(const char* title, const char* explanation, 
 }
 
 // Columns that a narrow terminal lacks; the first are dropped first.
-constexpr std::string_view leftOut[] = {"max", "min", errorFigures[2].title, "memory", errorFigures[1].title};
+constexpr std::string_view leftOut[] = {"max", "min", errorMetrics[2].title, "memory", errorMetrics[1].title};
 constexpr std::size_t fewestWords = 24;
 
 }  // namespace
 
-output::Table frontTable(const Tradeoff& tradeoff, std::size_t figure) {
-    const std::pair<Measure, std::size_t> shown[] = {{Measure::ms, 0}, {errorMeasure(figure), 0}};
+output::Table frontTable(const Tradeoff& tradeoff, std::size_t metric) {
+    const std::pair<Measure, std::size_t> shown[] = {{Measure::ms, 0}, {errorMeasure(metric), 0}};
     output::Table table = headOf(shown);
     table.sortable = false;
     table.box = "box scroll";
-    for (const std::size_t i : frontOf(tradeoff, figure))
+    for (const std::size_t i : frontOf(tradeoff, metric))
         table.rows.push_back(rowOf(tradeoff, i, inWords(tradeoff.rows[i], tradeoff.given), shown));
     return table;
 }
@@ -134,7 +134,7 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (tradeoff.rows[i].measured.has(Measure::shadow_error)) rows.push_back({i});
     const auto differs = [&](const ShadowRow& row) {
-        for (std::size_t f = 0; f < shadowFigures.size(); ++f)
+        for (std::size_t f = 0; f < shadowMetrics.size(); ++f)
             if (tradeoff.rows[row.row][Measure::shadow_error + f] !=
                 tradeoff.rows[rows.front().row][Measure::shadow_error + f])
                 return true;
@@ -149,7 +149,7 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
 }
 
 std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
-    const auto shown = figures(Measure::shadow_error, Measure::gap);
+    const auto shown = metrics(Measure::shadow_error, Measure::gap);
     output::Table table = headOf(shown);
     table.columns.push_back({"dominated in", Column::words, 12});
     for (const ShadowRow& row : shadowRowsOf(tradeoff))
@@ -165,7 +165,7 @@ std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
 }
 
 std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff) {
-    const auto shown = figures(Measure::shaded, Measure::differing);
+    const auto shown = metrics(Measure::shaded, Measure::differing);
     output::Table table = headOf(shown);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (tradeoff.rows[i].measured.has(Measure::shaded))
@@ -200,21 +200,21 @@ output::Table csvTable(const Tradeoff& tradeoff) {
     addMeasure("ms_max", Measure::ms_max);
     add("runs", [&](const auto&, auto) { return fmt::format("{}", tradeoff.runs); });
     using Part = std::pair<const char*, double Spread::*>;
-    for (std::size_t f = 0; f < errorFigures.size(); ++f)
+    for (std::size_t f = 0; f < errorMetrics.size(); ++f)
         for (const auto& [end, part] :
              {Part{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}})
-            add(fmt::format("{}{}", errorFigures[f].name, end), [f, of = part](const TradeoffRow& row, auto) {
+            add(fmt::format("{}{}", errorMetrics[f].name, end), [f, of = part](const TradeoffRow& row, auto) {
                 return fmt::format("{}", spreadOf(row, errorMeasure(f)).*of);
             });
-    for (std::size_t f = 0; f < errorFigures.size(); ++f)
-        add(fmt::format("front_{}", errorFigures[f].name),
+    for (std::size_t f = 0; f < errorMetrics.size(); ++f)
+        add(fmt::format("front_{}", errorMetrics[f].name),
             [front = frontOf(tradeoff, f)](const auto&, std::size_t index) {
                 return std::ranges::count(front, index) > 0 ? "1" : "0";
             });
-    for (std::size_t f = 0; f < shadowFigures.size(); ++f)
-        addMeasure(fmt::format("shadow_{}", shadowFigures[f].name), Measure::shadow_error + f);
-    for (std::size_t f = 0; f < sampleFigures.size(); ++f)
-        addMeasure(fmt::format("samples_{}", sampleFigures[f].name), Measure::shaded + f);
+    for (std::size_t f = 0; f < shadowMetrics.size(); ++f)
+        addMeasure(fmt::format("shadow_{}", shadowMetrics[f].name), Measure::shadow_error + f);
+    for (std::size_t f = 0; f < sampleMetrics.size(); ++f)
+        addMeasure(fmt::format("samples_{}", sampleMetrics[f].name), Measure::shaded + f);
     // 0 for another renderer, whose bytes are not known.
     for (const auto& [name, measure] : {std::pair{"image_bytes", Measure::image_bytes},
                                         {"buffer_bytes", Measure::buffer_bytes},

@@ -15,7 +15,7 @@ namespace diptych::tradeoff {
 output::Table sweepTable(const Tradeoff& tradeoff);
 
 // The Pareto front of time and one error, for a page.
-output::Table frontTable(const Tradeoff& tradeoff, std::size_t figure);
+output::Table frontTable(const Tradeoff& tradeoff, std::size_t metric);
 
 // A row with an evaluated sun shadow. Dominated: another has no more error and no more time (or memory), and
 // less of one of them.

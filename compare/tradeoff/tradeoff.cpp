@@ -62,7 +62,7 @@ std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> pa
     return rows;
 }
 
-std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path) {
+std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t metric, std::optional<Path> path) {
     const std::vector<std::size_t> rows = rowsOf(tradeoff, path);
     std::vector<experiment::TimeError> points;
     for (const std::size_t i : rows) {
@@ -70,7 +70,7 @@ std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, s
         // Disturbances only slow frames down. Median minus least estimates the noise without depending on
         // one outlier, as the greatest time would.
         points.push_back(
-            {row[Measure::ms], row[errorMeasure(figure)], row[Measure::ms] - row[Measure::ms_min]});
+            {row[Measure::ms], row[errorMeasure(metric)], row[Measure::ms] - row[Measure::ms_min]});
     }
     std::vector<std::size_t> front;
     for (const std::size_t i : paretoFront(points)) front.push_back(rows[i]);

@@ -19,22 +19,22 @@ namespace diptych::tradeoff {
 
 using experiment::Change;
 using experiment::changesOf;
-using experiment::errorFigures;
+using experiment::errorMetrics;
 using experiment::Errors;
 using experiment::groupsOf;
 using experiment::inWords;
 using experiment::Measure;
-using experiment::sampleFigures;
+using experiment::sampleMetrics;
 using experiment::SampleShares;
 using experiment::ShadowErrors;
-using experiment::shadowFigures;
+using experiment::shadowMetrics;
 using experiment::SkipGroup;
 using experiment::Spread;
 using experiment::SweepSkip;
 
-// The measure of an error, an index in errorFigures.
-constexpr Measure errorMeasure(std::size_t figure) {
-    return Measure::flip + figure;
+// The measure of an error, an index in errorMetrics.
+constexpr Measure errorMeasure(std::size_t metric) {
+    return Measure::flip + metric;
 }
 
 // One Settings of a sweep, with the first camera. Times of another renderer are those of its whole command,
@@ -74,7 +74,7 @@ std::string inWords(const TradeoffRow& row, const Settings& given);
 // Indices of one path's rows, or of all rows but external ones; frontOf(): those on the Pareto front of
 // time and one error.
 std::vector<std::size_t> rowsOf(const Tradeoff& tradeoff, std::optional<Path> path);
-std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t figure, std::optional<Path> path = {});
+std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t metric, std::optional<Path> path = {});
 std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // with rows, in enumeration order
 
 // Time of a row's second timing block over its first: median, least and greatest over the rows. Shows

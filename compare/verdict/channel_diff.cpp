@@ -29,20 +29,20 @@ bool isBeyondItsBits(const ChannelDiff& channel) {
 Criterion criterionOf(const ChannelDiff& channel, std::optional<std::uint64_t> beyond,
                       const Measurement& measurement) {
     if (const auto& pixels = channel.unexplained_pixels)
-        return {.figure = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
+        return {.metric = "pixels unexplained", .measured = static_cast<double>(*pixels), .pixels = *pixels};
     if (const auto& use = isBeyondItsBits(channel) ? channel.encoding_use : channel.device_use)
-        return {.figure = "times the bounds", .measured = use->used, .limit = 1, .pixels = use->beyond};
+        return {.metric = "times the bounds", .measured = use->used, .limit = 1, .pixels = use->beyond};
     if (const auto& f = channel.footprints) {
         if (f->used >= f->flip / detailFlip)
-            return {.figure = "times the bounds", .measured = f->used, .limit = 1, .pixels = f->beyond};
-        return {.figure = "flip of detail",
+            return {.metric = "times the bounds", .measured = f->used, .limit = 1, .pixels = f->beyond};
+        return {.metric = "flip of detail",
                 .measured = f->flip,
                 .limit = detailFlip,
                 .pixels = channel.stats.different,
                 .differing = true};
     }
     const bool most = channel.tolerance.most_pixels;
-    return {.figure = !most                  ? "max"
+    return {.metric = !most                  ? "max"
                       : channel.certain_p999 ? "p99.9 of the excess"
                                              : "p99.9",
             .measured = most ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
@@ -87,7 +87,7 @@ std::string faultOf(const ChannelDiff& channel) {
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.most_pixels
                ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", share, limit,
-                             c.figure, measured,
+                             c.metric, measured,
                              channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
                                                     "and the encoding's change"
                                                   : "")
@@ -295,7 +295,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
         images.granted = grantedMean(channel.granted);
     const Measurement measurement(images);
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
-    channel.figures = measurement.all();
+    channel.metrics = measurement.all();
     const Rule* const rule = ruleFor(rules, mode.name);
     // A rule on `granted` applies in addition to the derived tolerance.
     const bool derived = !rule || boundsOnly(rule->fail, "granted");

@@ -56,7 +56,7 @@ struct ChannelDiff {
     std::shared_ptr<const Image> shown_error;
     std::string shown_error_name;
     double shown_error_top = 1;
-    std::vector<std::pair<std::string, double>> figures;  // all defined metrics
+    std::vector<std::pair<std::string, double>> metrics;  // all defined metrics
     std::string rule;  // deciding rule, "tolerances.json, rule 3: flip <= 0.02"; empty: tolerance
     std::optional<Criterion> criterion;  // the deciding one; empty if not compared, or a rule has no bound
 };

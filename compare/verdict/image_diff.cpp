@@ -218,12 +218,12 @@ Rule ruleOf(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
     const std::optional<double> value = (*channel.measurement)(quantity);
     const bool defined = options.failing || value;
     if (!defined) {
-        rule.because = fmt::format("{} is not defined for this channel", quantity.figure);
-        quantity.figure = "max";
+        rule.because = fmt::format("{} is not defined for this channel", quantity.metric);
+        quantity.metric = "max";
     }
     const auto bound = [&](double limit) { return Condition{Condition::Kind::bound, quantity, limit, {}}; };
-    const double equal = !isBetterIfMore(quantity.figure) ? 0
-                         : quantity.figure == "ssim"      ? 1
+    const double equal = !isBetterIfMore(quantity.metric) ? 0
+                         : quantity.metric == "ssim"      ? 1
                                                           : metrics::infinity;
     rule.fail = bound(needsEquality(options, channel) ? equal : options.tolerance);
     if (options.failing)
@@ -299,7 +299,7 @@ void addNotes(ImageDiff& diff, const ImageDiffOptions& options) {
                                              s.nonfinite_test));
         const bool by_flip =
             std::ranges::any_of(std::array{"flip", "flip_median", "flip_max"},
-                                [&](const char* figure) { return boundsFigure(channel->rule.fail, figure); });
+                                [&](const char* metric) { return boundsMetric(channel->rule.fail, metric); });
         if (const std::uint64_t unseen = by_flip ? channel->measurement->unseenDifferent() : 0; unseen > 0)
             diff.notes.push_back(fmt::format(
                 "{}: FLIP cannot see {} that {} (negative, or beyond its exposures): error 1 each",
@@ -368,24 +368,24 @@ void checkBlackness(ImageDiff& diff, const ImageDiffOptions& options) {
 
 }  // namespace
 
-std::string figureOfMetric(const std::string& name) {
+std::string metricOfMetric(const std::string& name) {
     static const std::map<std::string, std::string> others{{"relative", "relative_max"},
                                                            {"angular", "angle_max"},
                                                            {"angle", "angle_max"},
                                                            {"ulp", "ulp_max"},
                                                            {"relmse", "relative_mse"}};
     if (const auto other = others.find(name); other != others.end()) return other->second;
-    if (findFigure(name)) return name;
-    throw std::runtime_error(fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp, {}",
-                                         name,
-                                         fmt::join(figures() | std::views::transform(&Figure::name), ", ")));
+    if (findMetric(name)) return name;
+    throw std::runtime_error(
+        fmt::format("--metric {}: unknown metric; use one of relative, angular, ulp, {}", name,
+                    fmt::join(allMetrics() | std::views::transform(&Metric::name), ", ")));
 }
 
 DecidingErrors decidingErrors(const ImageDiff& diff, const ImageChannelDiff& channel) {
     const MatchedChannel& pair = channel.pair;
-    const auto decides = [&](const char* figure) {
-        return std::ranges::any_of(figures(), [&](const Figure& f) {
-            return f.name.starts_with(figure) && boundsFigure(channel.rule.fail, f.name);
+    const auto decides = [&](const char* metric) {
+        return std::ranges::any_of(allMetrics(), [&](const Metric& f) {
+            return f.name.starts_with(metric) && boundsMetric(channel.rule.fail, f.name);
         });
     };
     if (decides("flip"))

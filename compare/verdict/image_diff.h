@@ -16,7 +16,7 @@
 namespace diptych {
 
 struct ImageDiffOptions {
-    std::string metric = "flip";        // decides for channels without a rule; as from figureOfMetric()
+    std::string metric = "flip";        // decides for channels without a rule; as from metricOfMetric()
     bool metric_given = false;          // by the user
     double tolerance = 0;               // largest value that passes; for psnr and ssim the smallest
     std::optional<double> warn;         // values beyond it give a warning
@@ -76,8 +76,8 @@ bool isOwnRule(const Rule& rule);
 // Throws std::runtime_error, one line, if a file cannot be read, sizes differ, or no channel is shared.
 ImageDiff diffImages(const std::string& reference, const std::string& test, const ImageDiffOptions& options);
 
-// The metric for --metric NAME: figures() and "relative" (relative_max), "angular" (angle_max), "ulp"
+// The metric for --metric NAME: metrics() and "relative" (relative_max), "angular" (angle_max), "ulp"
 // (ulp_max). Throws std::runtime_error naming all.
-std::string figureOfMetric(const std::string& name);
+std::string metricOfMetric(const std::string& name);
 
 }  // namespace diptych

@@ -17,7 +17,7 @@ using Value = std::optional<double>;
 
 // A metric and the function that returns its value.
 struct Row {
-    Figure figure;
+    Metric metric;
     Value (*value)(const Measurement&);
 };
 
@@ -79,23 +79,23 @@ const std::array rows{
 
 }  // namespace
 
-std::span<const Figure> figures() {
+std::span<const Metric> allMetrics() {
     static const auto table = [] {
-        std::array<Figure, rows.size()> all{};
-        std::ranges::transform(rows, all.begin(), &Row::figure);
+        std::array<Metric, rows.size()> all{};
+        std::ranges::transform(rows, all.begin(), &Row::metric);
         return all;
     }();
     return table;
 }
 
-const Figure* findFigure(std::string_view name) {
-    const auto found = std::ranges::find(figures(), name, &Figure::name);
-    return found == figures().end() ? nullptr : &*found;
+const Metric* findMetric(std::string_view name) {
+    const auto found = std::ranges::find(allMetrics(), name, &Metric::name);
+    return found == allMetrics().end() ? nullptr : &*found;
 }
 
 bool isBetterIfMore(std::string_view name) {
-    const Figure* const figure = findFigure(name);
-    return figure && figure->more_is_better;
+    const Metric* const metric = findMetric(name);
+    return metric && metric->more_is_better;
 }
 
 bool Measurement::isVector() const {
@@ -103,15 +103,15 @@ bool Measurement::isVector() const {
 }
 
 std::optional<double> Measurement::operator()(const Quantity& quantity) const {
-    if (quantity.figure == FAILING) return shareOf(pixelsAbove(quantity.above));
-    const auto row = std::ranges::find(rows, quantity.figure, [](const Row& r) { return r.figure.name; });
+    if (quantity.metric == FAILING) return shareOf(pixelsAbove(quantity.above));
+    const auto row = std::ranges::find(rows, quantity.metric, [](const Row& r) { return r.metric.name; });
     return row == rows.end() ? Value() : row->value(*this);
 }
 
 std::vector<std::pair<std::string, double>> Measurement::all() const {
     std::vector<std::pair<std::string, double>> values;
     for (const Row& row : rows)
-        if (const Value value = row.value(*this)) values.emplace_back(row.figure.name, *value);
+        if (const Value value = row.value(*this)) values.emplace_back(row.metric.name, *value);
     return values;
 }
 
@@ -205,7 +205,7 @@ namespace {
 void countPixels(Criterion& criterion, const Measurement& measurement) {
     if (criterion.above) {
         criterion.pixels = measurement.pixelsAbove(*criterion.above);
-    } else if (criterion.figure == "max" || criterion.figure == "p99" || criterion.figure == "p999") {
+    } else if (criterion.metric == "max" || criterion.metric == "p99" || criterion.metric == "p999") {
         criterion.pixels = measurement.pixelsAbove(criterion.limit);
     } else {
         criterion.pixels = measurement.stats().different;
@@ -227,7 +227,7 @@ Decision decide(const Rule& rule, const Measurement& measurement) {
             decision.reason += shareText(*bound);
         }
     }
-    if (boundsFigure(rule.fail, FAILING)) return decision;
+    if (boundsMetric(rule.fail, FAILING)) return decision;
     const auto failAt = [&](std::uint64_t pixels, const char* what) {
         if (pixels == 0) return;
         const std::string why = fmt::format("{} at {}", what, counted(pixels, "pixel"));
@@ -235,7 +235,7 @@ Decision decide(const Rule& rule, const Measurement& measurement) {
         decision.level = Level::fail;
     };
     failAt(measurement.plain().nonfinite_different, "NaN or infinite values differ");
-    if (boundsFigure(rule.fail, "ssim"))
+    if (boundsMetric(rule.fail, "ssim"))
         failAt(measurement.unseenDifferent(), "values that SSIM cannot see (negative) differ");
     return decision;
 }

@@ -27,8 +27,9 @@ using Json = nlohmann::json;
 
 using Presets = std::map<std::string, Json>;
 
-std::string figureNames() {
-    return fmt::format("{}, {}", fmt::join(figures() | std::views::transform(&Figure::name), ", "), FAILING);
+std::string metricNames() {
+    return fmt::format("{}, {}", fmt::join(allMetrics() | std::views::transform(&Metric::name), ", "),
+                       FAILING);
 }
 
 double numberOf(const Json& value, const std::string& what) {
@@ -36,10 +37,10 @@ double numberOf(const Json& value, const std::string& what) {
     return value.get<double>();
 }
 
-Condition bound(const std::string& figure, const Json& value) {
-    const double limit = numberOf(value, figure);
-    if (!(limit >= 0)) fail(fmt::format("{} {} is negative; give 0 or more", figure, limit));
-    return {Condition::Kind::bound, {figure, 0}, limit, {}};
+Condition bound(const std::string& metric, const Json& value) {
+    const double limit = numberOf(value, metric);
+    if (!(limit >= 0)) fail(fmt::format("{} {} is negative; give 0 or more", metric, limit));
+    return {Condition::Kind::bound, {metric, 0}, limit, {}};
 }
 
 // { "above": error, "share": fraction of the pixels }
@@ -74,8 +75,8 @@ private:
         if (key == "all" || key == "any") return group(key, value);
         if (key == "preset") return preset(value);
         if (key == FAILING) return share(value);
-        if (findFigure(key)) return bound(key, value);
-        fail(fmt::format("unknown metric {}; use one of {}, all, any, preset", oneLine(key), figureNames()));
+        if (findMetric(key)) return bound(key, value);
+        fail(fmt::format("unknown metric {}; use one of {}, all, any, preset", oneLine(key), metricNames()));
     }
 
     Condition group(const std::string& key, const Json& value) {
@@ -114,7 +115,7 @@ Rule readRule(const Json& json, const Presets& presets) {
     rule.fail = ConditionReader(presets).read(json, {"channel", "scene", "because", "warn"});
     if (json.contains("warn")) rule.warn = ConditionReader(presets).read(json["warn"]);
     if (rule.fail.kind == Condition::Kind::all && rule.fail.parts.empty() && !rule.warn)
-        fail(fmt::format("sets no limit; use one of {}", figureNames()));
+        fail(fmt::format("sets no limit; use one of {}", metricNames()));
     return rule;
 }
 
@@ -141,15 +142,15 @@ std::vector<Rule> readDocument(const Json& document, const std::string& name) {
 }
 
 std::string quantityText(const Quantity& quantity) {
-    return quantity.figure == FAILING ? fmt::format("share of pixels above {:g}", quantity.above)
-                                      : quantity.figure;
+    return quantity.metric == FAILING ? fmt::format("share of pixels above {:g}", quantity.above)
+                                      : quantity.metric;
 }
 
 std::optional<std::string> boundViolation(const Condition& c, const Measured& measured) {
     const std::optional<double> value = measured(c.quantity);
     const std::string what = quantityText(c.quantity);
     if (!value) return fmt::format("{} is not defined for this channel", what);
-    const bool least = isBetterIfMore(c.quantity.figure);
+    const bool least = isBetterIfMore(c.quantity.metric);
     if (least ? *value >= c.limit : *value <= c.limit) return {};
     return fmt::format("{} {} {} {}", what, digitsApart(*value, c.limit, 4), least ? "is below" : "exceeds",
                        digitsApart(c.limit, *value, 4));
@@ -202,11 +203,11 @@ std::optional<Criterion> decidingBound(const Condition& condition, const Measure
     if (condition.kind == Condition::Kind::bound) {
         const std::optional<double> value = measured(condition.quantity);
         if (!value) return {};
-        const bool share = condition.quantity.figure == FAILING;
-        return Criterion{.figure = quantityText(condition.quantity),
+        const bool share = condition.quantity.metric == FAILING;
+        return Criterion{.metric = quantityText(condition.quantity),
                          .measured = *value,
                          .limit = condition.limit,
-                         .least = isBetterIfMore(condition.quantity.figure),
+                         .least = isBetterIfMore(condition.quantity.metric),
                          .above = share ? std::optional(condition.quantity.above) : std::nullopt};
     }
     std::optional<Criterion> deciding;
@@ -218,28 +219,28 @@ std::optional<Criterion> decidingBound(const Condition& condition, const Measure
     return deciding;
 }
 
-bool boundsFigure(const Condition& condition, std::string_view figure) {
+bool boundsMetric(const Condition& condition, std::string_view metric) {
     return condition.kind == Condition::Kind::bound
-               ? condition.quantity.figure == figure
+               ? condition.quantity.metric == metric
                : std::ranges::any_of(condition.parts,
-                                     [&](const auto& part) { return boundsFigure(part, figure); });
+                                     [&](const auto& part) { return boundsMetric(part, metric); });
 }
 
-bool boundsOnly(const Condition& condition, std::string_view figure) {
+bool boundsOnly(const Condition& condition, std::string_view metric) {
     return condition.kind == Condition::Kind::bound
-               ? condition.quantity.figure == figure
+               ? condition.quantity.metric == metric
                : !condition.parts.empty() && std::ranges::all_of(condition.parts, [&](const auto& part) {
-                     return boundsOnly(part, figure);
+                     return boundsOnly(part, metric);
                  });
 }
 
-std::optional<double> boundOn(const Condition& condition, std::string_view figure) {
+std::optional<double> boundOn(const Condition& condition, std::string_view metric) {
     if (condition.kind == Condition::Kind::bound)
-        return condition.quantity.figure == figure ? std::optional(condition.limit) : std::nullopt;
+        return condition.quantity.metric == metric ? std::optional(condition.limit) : std::nullopt;
     if (condition.kind == Condition::Kind::any) return {};
     std::optional<double> least;
     for (const Condition& part : condition.parts)
-        if (const auto bound = boundOn(part, figure)) least = std::min(*bound, least.value_or(*bound));
+        if (const auto bound = boundOn(part, metric)) least = std::min(*bound, least.value_or(*bound));
     return least;
 }
 
@@ -247,7 +248,7 @@ std::string conditionText(const Condition& condition) {
     if (condition.kind == Condition::Kind::all) return joined(condition, " and ");
     if (condition.kind == Condition::Kind::any) return joined(condition, " or ");
     return fmt::format("{} {} {:g}", quantityText(condition.quantity),
-                       isBetterIfMore(condition.quantity.figure) ? ">=" : "<=", condition.limit);
+                       isBetterIfMore(condition.quantity.metric) ? ">=" : "<=", condition.limit);
 }
 
 std::string_view nameOf(Level level) {

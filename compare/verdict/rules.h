@@ -15,20 +15,20 @@
 namespace diptych {
 
 // A metric of two images of a channel, which a rule may bound.
-struct Figure {
+struct Metric {
     std::string_view name;
     bool more_is_better;       // psnr, ssim: a bound is the smallest value that passes
     std::string_view meaning;  // formula, unit and source, one line
 };
-std::span<const Figure> figures();
-const Figure* findFigure(std::string_view name);  // nullptr if unknown
+std::span<const Metric> allMetrics();
+const Metric* findMetric(std::string_view name);  // nullptr if unknown
 bool isBetterIfMore(std::string_view name);
 
 inline constexpr const char* FAILING = "failing";
 
 // A metric, or the fraction of pixels, 0 to 1, whose error in the channel's error kind exceeds `above`.
 struct Quantity {
-    std::string figure;  // FAILING for the fraction
+    std::string metric;  // FAILING for the fraction
     double above = 0;
 };
 // Returns the measured value of a quantity; empty if it is undefined for the channel (flip of an id).
@@ -38,7 +38,7 @@ using Measured = std::function<std::optional<double>(const Quantity&)>;
 struct Criterion {
     // A metric of rules.h, "p99.9", "pixels unexplained", "times the bounds", "flip of detail", "pixels
     // NaN or infinite", "p99.9 of the excess" (certainErrors()).
-    std::string figure;
+    std::string metric;
     double measured = 0;
     double limit = 0;               // largest value that passes; with `least` the smallest
     bool least = false;             // for psnr and ssim
@@ -76,11 +76,11 @@ std::optional<std::string> violation(const Condition& condition, const Measured&
 std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured);
 
 // Whether any part of the condition bounds the metric.
-bool boundsFigure(const Condition& condition, std::string_view figure);
+bool boundsMetric(const Condition& condition, std::string_view metric);
 // Whether all parts of the condition do, and there is one.
-bool boundsOnly(const Condition& condition, std::string_view figure);
+bool boundsOnly(const Condition& condition, std::string_view metric);
 // The smallest upper bound on the metric that always applies; empty if there is none.
-std::optional<double> boundOn(const Condition& condition, std::string_view figure);
+std::optional<double> boundOn(const Condition& condition, std::string_view metric);
 
 // "max <= 0.0037 and (flip <= 0.02 or psnr >= 40)"
 std::string conditionText(const Condition& condition);

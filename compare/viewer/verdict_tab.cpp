@@ -16,7 +16,7 @@
 namespace diptych::viewer {
 namespace {
 
-std::string figure(double value) {
+std::string metric(double value) {
     return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "infinite";
 }
 
@@ -65,11 +65,11 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
     // The criterion, as on the terminal and the page.
     const auto& decided = channel.criterion;
     ImGui::TableNextColumn();
-    wrapped(decided ? decided->figure : "");
+    wrapped(decided ? decided->metric : "");
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(decided ? figure(decided->measured).c_str() : "");
+    ImGui::TextUnformatted(decided ? metric(decided->measured).c_str() : "");
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(decided ? ((decided->least ? ">= " : "") + figure(decided->limit)).c_str() : "");
+    ImGui::TextUnformatted(decided ? ((decided->least ? ">= " : "") + metric(decided->limit)).c_str() : "");
     ImGui::TableNextColumn();
     const bool failed = channel.verdict == Verdict::fail;
     ImGui::TextColored(failed     ? bad

@@ -95,7 +95,7 @@ struct Error {
 };
 
 // `dielectric`: diffuse base plus layer. `metal`, `layer`: specular lobe alone.
-struct Figures {
+struct Metrics {
     Error metal, layer, dielectric, points;
     void add(const AreaCase& c) {
         points.add(c.points[1], c.reference[1], c.sky);
@@ -111,11 +111,11 @@ struct Figures {
 
 template <class Key>
 std::string tableOf(const std::vector<AreaCase>& cases, const char* name, const Key& key) {
-    std::map<std::string, Figures> rows;
+    std::map<std::string, Metrics> rows;
     for (const AreaCase& c : cases) rows[key(c)].add(c);
     std::string text = fmt::format(
         "| {} | metal | a dielectric's layer | dielectric | representative |\n|---|---|---|---|---|\n", name);
-    for (const auto& [label, figures] : rows) text += fmt::format("| {} | {} |\n", label, figures.row());
+    for (const auto& [label, metrics] : rows) text += fmt::format("| {} | {} |\n", label, metrics.row());
     return text;
 }
 
@@ -131,8 +131,8 @@ std::string roughnessAndAngle(const AreaCase& c) {
 TEST(AreaError, IsBoundedByTheFit) {
     Probes probes;
     const std::vector<AreaCase> cases = measured(probes);
-    std::map<std::string, Figures> groups;
-    Figures all;
+    std::map<std::string, Metrics> groups;
+    Metrics all;
     for (const AreaCase& c : cases) {
         const LtcCell cell = ltcTable().at(c.roughness, std::cos(c.angle * reference::pi / 180));
         const LtcLobe& lobe = c.dielectric ? cell.layer : cell.even;
@@ -142,10 +142,10 @@ TEST(AreaError, IsBoundedByTheFit) {
         groups[roughnessAndAngle(c)].add(c);
         all.add(c);
     }
-    for (const auto& [name, figures] : groups) {
-        EXPECT_LE(figures.dielectric.mean(), 0.055) << name;
-        EXPECT_LE(figures.layer.mean(), name.ends_with("85") ? 0.08 : 0.055) << name;
-        EXPECT_LE(figures.metal.mean(), name.ends_with("85") ? 0.16 : 0.055) << name;
+    for (const auto& [name, metrics] : groups) {
+        EXPECT_LE(metrics.dielectric.mean(), 0.055) << name;
+        EXPECT_LE(metrics.layer.mean(), name.ends_with("85") ? 0.08 : 0.055) << name;
+        EXPECT_LE(metrics.metal.mean(), name.ends_with("85") ? 0.16 : 0.055) << name;
     }
     EXPECT_LT(all.metal.mean(), 0.1 * all.points.mean())
         << "a representative point is as good: the table is not worth its while";

@@ -17,7 +17,7 @@
 
 namespace diptych::error_spread {
 
-using Figures = std::map<std::string, double>;
+using Metrics = std::map<std::string, double>;
 
 // 61 x 41 pixels, 2001 of them covered. The ranks 0.99 x 2001 = 1980.99 and 0.999 x 2001 = 1998.999 are
 // not integers: rounding down or counting from 0 selects another pixel. Pixel spreadPixel(i) has the i-th
@@ -102,7 +102,7 @@ inline Errors errorsOf(const Spread& s) {
 }
 
 // Metrics of one kind of pixel error.
-inline Figures ofPixels(const std::vector<double>& errors) {
+inline Metrics ofPixels(const std::vector<double>& errors) {
     return {{"max", errorOfRank(errors, counted)},
             {"mean", meanOf(errors)},
             {"rmse", rootMeanSquareOf(errors)},

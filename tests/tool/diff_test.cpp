@@ -278,7 +278,7 @@ TEST(DiffCommand, WhatIsAskedForAndNotThereIsSaid) {
 }
 
 // Every value is in the column of its own heading.
-TEST(DiffCommand, TheTableHasAColumnForEachFigure) {
+TEST(DiffCommand, TheTableHasAColumnForEachMetric) {
     const Folder folder;
     writePng(folder / "a.png", grey(100));
     writePng(folder / "b.png", grey(151));  // 0.2 of 1: 20 log10(5) = 13.98 dB

@@ -174,7 +174,7 @@ Primitive bendingLeaf() {
 }
 
 // Animations of the scene, and what they use.
-constexpr int figures = 0, surroundings = 1;
+constexpr int metrics = 0, surroundings = 1;
 constexpr AnimatedPart T = AnimatedPart::translation, R = AnimatedPart::rotation, S = AnimatedPart::scale,
                        W = AnimatedPart::weights;
 constexpr Interpolation step = Interpolation::step, linear = Interpolation::linear,
@@ -193,7 +193,7 @@ void addTentacle(Stage& b) {
                  skin, tentacle);
     for (std::size_t j = 1; j < 8; ++j)
         b.animate(
-            figures, b.joint(tentacle, j), R, cubic, {0, 2},
+            metrics, b.joint(tentacle, j), R, cubic, {0, 2},
             {{0, 0, 0, 0}, rotation(0, Z), {0, 0, 0.5f, 0}, {0.5f, 0, 0, 0}, rotation(22, X), {0, 0, 0, 0}});
 }
 
@@ -216,7 +216,7 @@ int addFlag(Stage& b) {
                  cloth, flag, box);
     for (std::size_t j = 0; j < 3; ++j)
         b.animate(
-            figures, b.joint(flag, j), R, linear, {0, 0.5f, 1, 1.5f, 2},
+            metrics, b.joint(flag, j), R, linear, {0, 0.5f, 1, 1.5f, 2},
             {rotation(j == 1 ? 40 : -30, X), rotation(j == 1 ? -25 : 20, X), rotation(j == 1 ? -40 : 30, X),
              rotation(j == 1 ? 25 : -20, X), rotation(j == 1 ? 40 : -30, X)});
     return box;
@@ -255,15 +255,15 @@ void motion(Builder& builder) {
     const int clay = b.material("clay", {{0.75f, 0.4f, 0.25f}, 0, 0.5f});
     const int bones = b.addChain("bone", 2, 0.7, b.addNode("column root", -1, at(-3.3, 0, 0)));
     b.addSkinned("column", bound(column(0.25, 1.4, 12), 2, 1, upperOfTwo), clay, bones);
-    b.animate(figures, b.joint(bones, 1), R, linear, {0, 1, 2},
+    b.animate(metrics, b.joint(bones, 1), R, linear, {0, 1, 2},
               {rotation(0, Z), negated(rotation(-60, Z)), rotation(40, X)});
-    b.animate(figures, b.joint(bones, 1), S, linear, {0, 0.75f, 2}, {{1, 1, 1}, {0.5f, 2, 0.5f}, {1, 1, 1}});
+    b.animate(metrics, b.joint(bones, 1), S, linear, {0, 0.75f, 2}, {{1, 1, 1}, {0.5f, 2, 0.5f}, {1, 1, 1}});
     addTentacle(b);
 
     const int porcelain = b.material("ball", {glm::vec3(1), 0, 0.4f});
     b.last().normal_texture = weave;
     const int ball = b.addMorphed("ball", morphingBall(weave), porcelain, {-0.8, 0.6, 0});
-    b.animate(figures, ball, W, cubic, {0, 1, 2},
+    b.animate(metrics, ball, W, cubic, {0, 1, 2},
               {{0, 0}, {0, 0}, {2, 1}, {0, 0}, {1, 0.5f}, {0, 1}, {0, 0}, {0.25f, 1}, {0, 0}});
 
     const int bark = b.material("mirrored column", {{0.5f, 0.45f, 0.6f}, 0, 0.45f});
@@ -271,12 +271,12 @@ void motion(Builder& builder) {
     const int mirror = b.addNode("mirrored root", -1, at(0.5, 0, 0) * scaled(-1, 1, 1));
     const int mirrored = b.addChain("mirrored bone", 2, 0.7, mirror);
     b.addSkinned("mirrored column", bound(column(0.25, 1.4, 12), 2, 1, upperOfTwo), bark, mirrored);
-    b.animate(figures, b.joint(mirrored, 1), R, linear, {0, 1, 2},
+    b.animate(metrics, b.joint(mirrored, 1), R, linear, {0, 1, 2},
               {rotation(0, Z), rotation(-60, Z), rotation(40, X)});
 
     const int stone = b.material("facets", {{0.3f, 0.45f, 0.7f}, 0.2f, 0.4f});
     const int facets = b.addMorphed("facets", morphingFacets(), stone, {1.6, 0.7, 0});
-    b.animate(figures, facets, W, step, {0, 0.5f, 1.25f}, {{0}, {1}, {-0.5f}});
+    b.animate(metrics, facets, W, step, {0, 0.5f, 1.25f}, {{0}, {1}, {-0.5f}});
     const int box = addFlag(b);
 
     const int green = b.material("leaf", {glm::vec3(1), 0, 0.6f});
@@ -284,7 +284,7 @@ void motion(Builder& builder) {
     b.last().alpha_mode = AlphaMode::mask;
     b.last().double_sided = true;
     const int bending = b.addMorphed("leaf", bendingLeaf(), green, {1.1, 0, 1.3});
-    b.animate(figures, bending, W, linear, {0, 1, 2}, {{0}, {1.2f}, {-0.6f}});
+    b.animate(metrics, bending, W, linear, {0, 1, 2}, {{0}, {1.2f}, {-0.6f}});
     addSurroundings(b, box);
     b.sun({-0.5, -1.2, -0.8}, {0.9f, 0.95f, 1}, 2.5f);
     builder.scene = std::move(b.scene);

@@ -49,7 +49,7 @@ const std::vector<Example> examples = {
     {"a command", {"X(calibrate)", "calibrateCommand", "\"calibrate\""}},
     {"a column of results", {"X(registers", "Measure::registers", "\"registers\": {"}},
     {"an output format", {"std::string inCsv"}},
-    {"a figure", {"mae"}},
+    {"a metric", {"mae"}},
 };
 
 // The program's sources; tests and documentation are not part of a recipe.
@@ -211,10 +211,10 @@ TEST(Recipes, AFileThatIsMissingOrTooManyIsFound) {
         EXPECT_NE(at, std::string::npos) << from;
         return recipeFaults(other.replace(at, from.size(), to), named);
     };
-    EXPECT_EQ(edited("| a figure | 4 | ", "| a figure | 5 | `compare/rules.h`, "),
-              Faults{"a figure: the recipe names compare/rules.h, which does not mention mae"});
-    EXPECT_EQ(edited("| a figure | 4 | ", "| a figure | 3 | "), Faults{"a figure: says 3 files and names 4"});
-    EXPECT_EQ(edited("| a figure | ", "| a number | ").size(), 2u) << "an unknown row, and a missing one";
+    EXPECT_EQ(edited("| a metric | 4 | ", "| a metric | 5 | `compare/rules.h`, "),
+              Faults{"a metric: the recipe names compare/rules.h, which does not mention mae"});
+    EXPECT_EQ(edited("| a metric | 4 | ", "| a metric | 3 | "), Faults{"a metric: says 3 files and names 4"});
+    EXPECT_EQ(edited("| a metric | ", "| a number | ").size(), 2u) << "an unknown row, and a missing one";
     EXPECT_EQ(recipeFaults("no table", named).size(), examples.size());
 }
 

@@ -11,7 +11,7 @@ using namespace bench;
 namespace {
 
 // 1e9 of everything per second, fully used, and no launch time.
-constexpr GpuFigures plainGpu{"plain", 1, 1, 1, 1, 1, 1};
+constexpr GpuRates plainGpu{"plain", 1, 1, 1, 1, 1, 1};
 constexpr EstimateAssumptions exactly{.reached = 1,
                                       .light_flops = 100,
                                       .fragment_flops = 10,
@@ -41,7 +41,7 @@ double demanded(const PassWork& work, std::string_view name) {
     return -1;
 }
 
-TEST(BenchEstimate, EachDemandIsItsUnitsOverItsFigure) {
+TEST(BenchEstimate, EachDemandIsItsUnitsOverItsMetric) {
     PassWork work = busyPass();
     EXPECT_NEAR(demanded(work, "memory"), 5 + 6 + 8, 1e-12);
     EXPECT_NEAR(demanded(work, "triangles"), 2, 1e-12);
@@ -56,7 +56,7 @@ TEST(BenchEstimate, EachDemandIsItsUnitsOverItsFigure) {
 // Arithmetic time: waves of 64 threads times their cycles, over the cycles of all SIMD units. The data
 // sheet's FLOPS and the assumed utilization do not count.
 TEST(BenchEstimate, ArithmeticIsTheCompilersWhereItSaysAny) {
-    GpuFigures gpu = plainGpu;
+    GpuRates gpu = plainGpu;
     gpu.simd_cycles = 2;
     PassWork work = busyPass();
     work.lights = 6'400'000;
@@ -75,13 +75,13 @@ TEST(BenchEstimate, ArithmeticIsTheCompilersWhereItSaysAny) {
 }
 
 TEST(BenchEstimate, AGpuIsOfTheFamilyThatItsDeviceNames) {
-    GpuFigures gpu = plainGpu;
+    GpuRates gpu = plainGpu;
     EXPECT_FALSE(isOfFamily(gpu, "Null hardware (RADV NAVI31)")) << "of none";
     gpu.family = "navi31";
     EXPECT_TRUE(isOfFamily(gpu, "Null hardware (RADV NAVI31)"));
     EXPECT_TRUE(isOfFamily(gpu, "AMD Radeon RX 7900 XTX (RADV NAVI31)"));
     EXPECT_FALSE(isOfFamily(gpu, "AMD Radeon RX 7600 (RADV NAVI33)"));
-    for (const GpuFigures& known : estimatedGpus()) EXPECT_EQ(known.family.empty(), known.simd_cycles == 0);
+    for (const GpuRates& known : estimatedGpus()) EXPECT_EQ(known.family.empty(), known.simd_cycles == 0);
 }
 
 TEST(BenchEstimate, AFrameIsTheSumOfTheLongestDemands) {
@@ -99,12 +99,12 @@ TEST(BenchEstimate, AFrameIsTheSumOfTheLongestDemands) {
         << "half of a figure takes twice as long";
 }
 
-TEST(BenchEstimate, FiguresOfGpusAreThere) {
+TEST(BenchEstimate, MetricsOfGpusAreThere) {
     ASSERT_FALSE(estimatedGpus().empty());
-    for (const GpuFigures& gpu : estimatedGpus())
-        for (const double figure :
+    for (const GpuRates& gpu : estimatedGpus())
+        for (const double metric :
              {gpu.bytes, gpu.triangles, gpu.outputs, gpu.texels, gpu.draw_flops, gpu.compute_flops})
-            EXPECT_GT(figure, 0) << gpu.name;
+            EXPECT_GT(metric, 0) << gpu.name;
 }
 
 }  // namespace

@@ -293,7 +293,7 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
     EXPECT_EQ(tableOf(many).size(), 1u) << "no usual change";
 }
 
-TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
+TEST(ChooseWords, MetricsAreTimeErrorAndMemory) {
     ChoiceReport report;
     report.words = report.commands = {"one", "other"};
     report.choice.candidates.resize(2);
@@ -302,9 +302,9 @@ TEST(ChooseWords, FiguresAreTimeErrorAndMemory) {
     judged.measured[Measure::flip] = 0.0125;
     judged.measured[Measure::memory] = 3u << 20;
     report.choice.chosen = 0;
-    const std::string figures = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
-    EXPECT_NE(inText(blocksOf(report)).find("\none\n" + figures + "\n"), std::string::npos);
-    EXPECT_NE(inHtml(blocksOf(report)).find(figures), std::string::npos);
+    const std::string metrics = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
+    EXPECT_NE(inText(blocksOf(report)).find("\none\n" + metrics + "\n"), std::string::npos);
+    EXPECT_NE(inHtml(blocksOf(report)).find(metrics), std::string::npos);
     report.choice.chosen = 1;
     EXPECT_NE(inText(blocksOf(report)).find("\nother\nnot timed\n"), std::string::npos);
 }

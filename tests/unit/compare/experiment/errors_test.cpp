@@ -93,11 +93,11 @@ TEST(ExperimentErrors, AreThoseOfTheReport) {
     EXPECT_LT(errors.errors[0], 1);
     // Evaluating a single metric gives the same value.
     const ErrorsAgainst against(a);
-    for (std::size_t figure = 0; figure < errorFigures.size(); ++figure) {
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
         ErrorsOfCameras all, one;
         all.add(errors);
-        one.add(against.forFigure(figure, test));
-        EXPECT_EQ(one.errors()[figure], all.errors()[figure]) << errorFigures[figure].name;
+        one.add(against.forMetric(metric, test));
+        EXPECT_EQ(one.errors()[metric], all.errors()[metric]) << errorMetrics[metric].name;
     }
     const FrameErrors none = errorsBetween(a, a);
     EXPECT_EQ(none.errors, (Errors{0, 0, 0}));

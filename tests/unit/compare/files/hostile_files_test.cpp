@@ -272,11 +272,11 @@ TEST(HostileShards, AManifestOutsideItsBoundsIsNoReportOfAShard) {
 // tradeoff: absurd counts give one line; an invalid scene, or one whose file is a link, is named.
 TEST(HostileShards, TradeoffsAreCheckedAsReportsAre) {
     const fs::path root = folder();
-    const Json figures{{"ms", {{"median", 1}}}, {"errors", {{"flip", 0.5}}}};
+    const Json metrics{{"ms", {{"median", 1}}}, {"errors", {{"flip", 0.5}}}};
     const Json tradeoff{{"schema", 1},
                         {"software", softwareName},
                         {"device", {{"name", "a CPU"}}},
-                        {"rows", Json::array({figures})},
+                        {"rows", Json::array({metrics})},
                         {"fronts", Json::array({{{"error", "flip"}, {"path", nullptr}, {"rows", {0}}}})},
                         {"files", {"row-001.png", "../secret.png"}}};
     Json plan{{"asked", Json::object()}};

@@ -111,8 +111,8 @@ void makeOutputs(const tradeoff::Tradeoff& whole) {
     inCsv(csvTable(whole));
     tradeoffJson(whole);
     tradeoffEnd(whole);
-    for (std::size_t figure = 0; figure < tradeoff::errorFigures.size(); ++figure)
-        tradeoffPlot(whole, figure, {}, PlotPlace::file);
+    for (std::size_t metric = 0; metric < tradeoff::errorMetrics.size(); ++metric)
+        tradeoffPlot(whole, metric, {}, PlotPlace::file);
 }
 
 // Through merge, and as a checkpointed row of a sweep, with all outputs made from it.

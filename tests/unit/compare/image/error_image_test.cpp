@@ -113,9 +113,9 @@ Legend legendOf(const Report& report, const std::filesystem::path& out, const st
                 const std::string& stage = "<figure><div class=\"stage\">") {
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
-    const std::size_t card = page.find("id=\"c0-" + channel + "\""), figure = page.find(stage, card),
-                      end = page.find("</figure>", figure);
-    const std::string text = page.substr(figure, end - figure);
+    const std::size_t card = page.find("id=\"c0-" + channel + "\""), element = page.find(stage, card),
+                      end = page.find("</figure>", element);
+    const std::string text = page.substr(element, end - element);
     Legend legend;
     std::smatch found;
     EXPECT_TRUE(std::regex_search(text, found, std::regex("src=\"([^\"]*)\""))) << text;

@@ -168,7 +168,7 @@ TEST(ReferenceEnvironment, ALambertianPlaneUnderAConstantSkyIsItsAlbedo) {
     expectConfident(constantSky(2), s, 2 * 0.6, samplingError);
 }
 
-TEST(ReferenceEnvironment, TheWhiteFurnacesFigures) {
+TEST(ReferenceEnvironment, TheWhiteFurnacesMetrics) {
     expectConfident(constantSky(1), mirror(0.5, 0), 0.9158, samplingError);
     expectConfident(constantSky(1), mirror(1, 0), 0.3069, samplingError);
     // The narrowest lobe loses almost nothing: its albedo, summed over half vectors, is 0.99998.

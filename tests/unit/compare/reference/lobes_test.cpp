@@ -103,7 +103,7 @@ double hemisphere(const Surface& s, int steps) {
 }
 
 // White furnace: values for GGX with F = 1 and height-correlated Smith masking, seen straight on.
-TEST(ReferenceLobes, TheWhiteFurnacesFigures) {
+TEST(ReferenceLobes, TheWhiteFurnacesMetrics) {
     EXPECT_NEAR(hemisphere(mirror(0.5, 0), 400), 0.9158, 5e-5);
     EXPECT_NEAR(hemisphere(mirror(1, 0), 400), 0.3069, 5e-5);
     for (const double roughness : {0.045, 0.2, 0.6, 1.0})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The distribution of errors over magnitude and image, and its presentation on the page.
-#include "compare/report/error_figures.h"
+#include "compare/report/error_metrics.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
 #include "tests/support/report_builder.h"
@@ -140,17 +140,17 @@ std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr)
 }
 
 TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
-    const std::string largest = judgedCard({.figure = "max", .measured = 0.25, .limit = 0.002});
+    const std::string largest = judgedCard({.metric = "max", .measured = 0.25, .limit = 0.002});
     EXPECT_NE(largest.find(">limit 0.002, beyond the left edge<"), std::string::npos) << largest;
     EXPECT_NE(largest.find("<rect class=\"part past\""), std::string::npos);
     EXPECT_NE(largest.find("</i>beyond the limit"), std::string::npos) << "in the difference's legend";
-    const std::string within = judgedCard({.figure = "p999", .measured = 0.25, .limit = 50});
+    const std::string within = judgedCard({.metric = "p999", .measured = 0.25, .limit = 50});
     EXPECT_NE(within.find(">limit 50, beyond the right edge<"), std::string::npos) << within;
     EXPECT_EQ(within.find("<rect class=\"part past\""), std::string::npos);
-    for (const char* figure : {"mean", "flip", "relative_max", "angle_max"}) {
-        const std::string other = judgedCard({.figure = figure, .measured = 0.25, .limit = 0.002});
+    for (const char* metric : {"mean", "flip", "relative_max", "angle_max"}) {
+        const std::string other = judgedCard({.metric = metric, .measured = 0.25, .limit = 0.002});
         EXPECT_NE(other.find("class=\"part part7\""), std::string::npos) << "no colour says that it passes";
-        EXPECT_NE(other.find(fmt::format("the limit applies to {}, not to these errors", figure)),
+        EXPECT_NE(other.find(fmt::format("the limit applies to {}, not to these errors", metric)),
                   std::string::npos)
             << other;
         EXPECT_EQ(other.find("class=\"budget\""), std::string::npos);
@@ -161,7 +161,7 @@ TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
 TEST(ReportErrors, TheWorstPixelsAreOfTheImageThatIsDrawn) {
     Image flip(4, 3, 1, 0.0f);
     flip.at(1, 2) = 0.125f;
-    const std::string card = judgedCard({.figure = "flip", .measured = 0.25, .limit = 0.002}, &flip);
+    const std::string card = judgedCard({.metric = "flip", .measured = 0.25, .limit = 0.002}, &flip);
     EXPECT_NE(card.find("<h4>Worst pixels, by FLIP</h4>"), std::string::npos) << card;
     EXPECT_NE(card.find("data-pixel=\"1,2\">1, 2</a><span>0.125</span>"), std::string::npos) << card;
     EXPECT_NE(card.find(">FLIP</text>"), std::string::npos);
@@ -170,7 +170,7 @@ TEST(ReportErrors, TheWorstPixelsAreOfTheImageThatIsDrawn) {
     EXPECT_NE(card.find("the limit applies to flip, not to these errors"), std::string::npos)
         << "it is a mean";
     EXPECT_EQ(
-        judgedCard({.figure = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
+        judgedCard({.metric = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
         std::string::npos)
         << "nothing of it is worst";
 }

@@ -40,7 +40,7 @@ TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
     // A rule's metric is not the largest error.
     for (ChannelDiff& channel : report.comparisons[0].channels)
         if (channel.mode->name == "roughness")
-            channel.criterion = {.figure = "mean", .measured = 0.125, .limit = 0.5};
+            channel.criterion = {.metric = "mean", .measured = 0.125, .limit = 0.5};
     writeReport(report, out, {});
     EXPECT_NE(rowOf(contentsOf(out / "index.html"), "roughness")
                   .find("<td class=\"soft by\">mean</td><td class=\"n\">0.125</td><td class=\"n\">0.5</td>"),

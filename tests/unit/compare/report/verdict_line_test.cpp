@@ -30,12 +30,12 @@ Report reportWith(std::vector<Frame> frames, const CompareOptions& options) {
 }
 
 TEST(Criterion, SaysHowMuchOfItsLimitIsUsed) {
-    EXPECT_EQ(usedOf({.figure = "max", .measured = 1, .limit = 4}), 0.25);
-    EXPECT_EQ(usedOf({.figure = "psnr", .measured = 80, .limit = 40, .least = true}), 0.5);
-    EXPECT_EQ(usedOf({.figure = "max", .measured = 0, .limit = 0}), 0);
-    EXPECT_EQ(usedOf({.figure = "max", .measured = 1, .limit = 0}), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(usedOf({.metric = "max", .measured = 1, .limit = 4}), 0.25);
+    EXPECT_EQ(usedOf({.metric = "psnr", .measured = 80, .limit = 40, .least = true}), 0.5);
+    EXPECT_EQ(usedOf({.metric = "max", .measured = 0, .limit = 0}), 0);
+    EXPECT_EQ(usedOf({.metric = "max", .measured = 1, .limit = 0}), std::numeric_limits<double>::infinity());
     constexpr double endless = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(usedOf({.figure = "psnr", .measured = endless, .limit = endless, .least = true}), 1);
+    EXPECT_EQ(usedOf({.metric = "psnr", .measured = endless, .limit = endless, .least = true}), 1);
 }
 
 TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
@@ -49,15 +49,15 @@ TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
 // Among bounds that must all be met, the most used one decides; among alternatives, the least used one.
 TEST(Criterion, IsTheBoundThatDecides) {
     const Measured measured = [](const Quantity& q) -> std::optional<double> {
-        return q.figure == "max" ? 0.5 : q.figure == "mean" ? 0.1 : 30;
+        return q.metric == "max" ? 0.5 : q.metric == "mean" ? 0.1 : 30;
     };
-    const auto bound = [](const char* figure, double limit) {
-        return Condition{Condition::Kind::bound, {figure, 0}, limit, {}};
+    const auto bound = [](const char* metric, double limit) {
+        return Condition{Condition::Kind::bound, {metric, 0}, limit, {}};
     };
     const Condition all{Condition::Kind::all, {}, 0, {bound("max", 1), bound("mean", 0.11)}},
         any{Condition::Kind::any, {}, 0, {bound("max", 0.1), bound("psnr", 40)}};
-    EXPECT_EQ(decidingBound(all, measured)->figure, "mean");
-    EXPECT_EQ(decidingBound(any, measured)->figure, "psnr");
+    EXPECT_EQ(decidingBound(all, measured)->metric, "mean");
+    EXPECT_EQ(decidingBound(any, measured)->metric, "psnr");
     EXPECT_TRUE(decidingBound(any, measured)->least);
     EXPECT_FALSE(decidingBound({Condition::Kind::all, {}, 0, {}}, measured).has_value());
 }
@@ -71,7 +71,7 @@ TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
         if (!explained) frames[1].through_gbuffer.at(Channel::lit).at(1, 2) = 0.5f;
         const Report report = reportOf(frames);
         const Criterion& criterion = channelIn(report, Channel::lit).criterion.value();
-        EXPECT_EQ(criterion.figure, "pixels unexplained");
+        EXPECT_EQ(criterion.metric, "pixels unexplained");
         EXPECT_EQ(criterion.measured, explained ? 0 : 1);
         EXPECT_EQ(criterion.limit, 0);
         EXPECT_EQ(criterion.share, explained ? 0 : 1) << "of one covered pixel";
@@ -104,7 +104,7 @@ TEST(Criterion, CountsThePixelsBeyond) {
     frames[0].channels.at(Channel::metallic).at(0, 2) = 0.6f;
     const Report report = reportOf(frames);
     const ChannelDiff& metallic = channelIn(report, Channel::metallic);
-    EXPECT_EQ(metallic.criterion->figure, "max");
+    EXPECT_EQ(metallic.criterion->metric, "max");
     EXPECT_EQ(metallic.criterion->pixels, 1u);
     EXPECT_EQ(metallic.criterion->share, 0.25);
     EXPECT_EQ(metallic.reason, "max 0.1 exceeds 0.001961 at 25 % of the pixels");

@@ -115,8 +115,8 @@ TEST(TradeoffShadow, RowsAreInTheOrderOfTheirErrorAndMarkedWhereOthersBeatThem) 
     const std::string text = inText(shadowBlocks(sweep)), page = inHtml(shadowBlocks(sweep));
     EXPECT_NE(text.find("time, memory"), std::string::npos) << text;
     EXPECT_NE(page.find("time, memory"), std::string::npos) << page;
-    for (const experiment::NamedMeasure& figure : shadowFigures)
-        EXPECT_NE(page.find(figure.title), std::string::npos) << figure.title;
+    for (const experiment::NamedMeasure& metric : shadowMetrics)
+        EXPECT_NE(page.find(metric.title), std::string::npos) << metric.title;
 }
 
 TEST(TradeoffShadow, WithoutADifferenceThereIsNoTable) {

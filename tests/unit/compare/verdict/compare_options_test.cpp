@@ -135,13 +135,13 @@ TEST(Measurement, NothingPassesANan) {
     EXPECT_EQ(one({"flip", 0}), 1.0 / 256) << "error 1 there, counted, not spread";
     EXPECT_EQ(other({"flip", 0}), 1.0 / 256) << "in the reference, too";
     EXPECT_EQ(one({"failing", 1e30}), 1.0 / 256);
-    for (const Figure& figure : figures()) {
+    for (const Metric& metric : allMetrics()) {
         Rule rule;
-        const double worst = figure.more_is_better ? -std::numeric_limits<double>::infinity() : 1e300;
-        rule.fail = {Condition::Kind::bound, {std::string(figure.name), 0}, worst, {}};
+        const double worst = metric.more_is_better ? -std::numeric_limits<double>::infinity() : 1e300;
+        rule.fail = {Condition::Kind::bound, {std::string(metric.name), 0}, worst, {}};
         if (!same(rule.fail.quantity)) continue;
-        EXPECT_EQ(decide(rule, same).level, Level::pass) << figure.name;
-        EXPECT_EQ(decide(rule, one).level, Level::fail) << figure.name;
+        EXPECT_EQ(decide(rule, same).level, Level::pass) << metric.name;
+        EXPECT_EQ(decide(rule, one).level, Level::fail) << metric.name;
     }
     Rule share;
     share.fail = {Condition::Kind::bound, {"failing", 0}, 0.004, {}};

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 Measured of(std::map<std::string, double> values) {
     return [values](const Quantity& q) -> std::optional<double> {
-        const auto found = values.find(q.figure);
+        const auto found = values.find(q.metric);
         return found == values.end() ? std::nullopt : std::optional(found->second);
     };
 }
@@ -100,7 +100,7 @@ TEST(Rules, WhatIsNanOrNotDefinedNeverHolds) {
 TEST(Rules, AShareOfPixelsMayFail) {
     const Rule rule = onlyRule(
         {{"channel", "lit"}, {"failing", {{"above", 0.02}, {"share", 0.001}}}, {"because", "5 of 255"}});
-    EXPECT_EQ(rule.fail.quantity.figure, "failing");
+    EXPECT_EQ(rule.fail.quantity.metric, "failing");
     EXPECT_EQ(rule.fail.quantity.above, 0.02);
     EXPECT_EQ(decide(rule, of({{"failing", 0.001}})).level, Level::pass);
     EXPECT_EQ(decide(rule, of({{"failing", 0.002}})).reason,
@@ -158,12 +158,12 @@ TEST(Rules, FaultsWordByWord) {
 }
 
 // The JSON schema for editors has the same metrics.
-TEST(Rules, TheSchemaNamesEveryFigure) {
+TEST(Rules, TheSchemaNamesEveryMetric) {
     std::ifstream stream(DIPTYCH_SOURCE_DIR "/compare/verdict/tolerances.schema.json");
     const Json schema = Json::parse(stream);
     std::string names = "^(";
-    for (const Figure& figure : figures())
-        names += std::string(names.size() > 2 ? "|" : "") + std::string(figure.name);
+    for (const Metric& metric : allMetrics())
+        names += std::string(names.size() > 2 ? "|" : "") + std::string(metric.name);
     const Json& patterns = schema["$defs"]["bounds"]["patternProperties"];
     EXPECT_TRUE(patterns.contains(names + ")$")) << names << ")$";
     for (const char* key : {"all", "any", "preset", "failing"})

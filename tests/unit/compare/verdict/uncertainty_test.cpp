@@ -163,7 +163,7 @@ TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
     const ChannelDiff fails = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));
     EXPECT_EQ(fails.verdict, Verdict::fail);
     ASSERT_TRUE(fails.criterion && fails.shown_error);
-    EXPECT_EQ(fails.criterion->figure, "p99.9 of the excess") << "the column p99.9 is of all of the error";
+    EXPECT_EQ(fails.criterion->metric, "p99.9 of the excess") << "the column p99.9 is of all of the error";
     EXPECT_NE(fails.reason.find("p99.9 of the excess is"), std::string::npos) << fails.reason;
     EXPECT_EQ(fails.shown_error->data[0], 0);
     EXPECT_NEAR(fails.shown_error->data[1], 0.25 - 2.29 * 0.01 / 2, 1e-6);

@@ -73,7 +73,7 @@ void expectSame(const StandardMetrics& a, const StandardMetrics& b) {
     EXPECT_EQ(a.ssim, b.ssim);
 }
 
-TEST(ImageRows, EightBitsAndFloatsHaveTheSameFigures) {
+TEST(ImageRows, EightBitsAndFloatsHaveTheSameMetrics) {
     for (const Wide size : sizes)
         for (const int components : {1, 3}) {
             SCOPED_TRACE(name(size) + " of " + std::to_string(components));

@@ -69,7 +69,7 @@ TEST(Ltc, EveryCellIsInItsRange) {
 // The stored error is that of the stored fit. Stored magnitude and Fresnel terms are the lobe's, by
 // another quadrature for lobes wide enough for rings. Directions are sampled by the lobe without F, so a
 // layer's error is known to half a percent.
-TEST(Ltc, StoredFiguresAreTheLobes) {
+TEST(Ltc, StoredMetricsAreTheLobes) {
     for (const auto& [i, j] : some)
         for (const Fitted& f : bothLobes(i, j)) {
             const Transform t = f.transform();

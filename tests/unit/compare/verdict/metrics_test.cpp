@@ -13,7 +13,7 @@ using namespace error_spread;
 
 namespace {
 
-Figures standardFigures(const Errors& e) {
+Metrics standardMetrics(const Errors& e) {
     const double mse = rootMeanSquareOf(e.components) * rootMeanSquareOf(e.components);
     return {{"mse", mse},
             {"mae", meanOf(e.components)},
@@ -28,12 +28,12 @@ Figures standardFigures(const Errors& e) {
 }
 
 // Relative errors are computed in float32.
-double boundOf(const std::string& figure, double value) {
-    return (figure.starts_with("relative_m") || figure.starts_with("relative_p") ? 0x1p-22 : 1e-12) *
+double boundOf(const std::string& metric, double value) {
+    return (metric.starts_with("relative_m") || metric.starts_with("relative_p") ? 0x1p-22 : 1e-12) *
            std::abs(value);
 }
 
-void expectFigures(const Measurement& m, const Figures& expected, const std::set<std::string>& elsewhere) {
+void expectMetrics(const Measurement& m, const Metrics& expected, const std::set<std::string>& elsewhere) {
     std::set<std::string> found;
     for (const auto& [name, value] : m.all()) {
         found.insert(name);
@@ -45,9 +45,9 @@ void expectFigures(const Measurement& m, const Figures& expected, const std::set
     for (const auto& [name, value] : expected) EXPECT_TRUE(found.contains(name)) << name;
 }
 
-TEST(Figures, NoTwoOfTheSpreadAreAlike) {
+TEST(Metrics, NoTwoOfTheSpreadAreAlike) {
     const Errors e = errorsOf(spread());
-    Figures all = standardFigures(e);
+    Metrics all = standardMetrics(e);
     for (const auto& [errorKind, errors] : {std::pair{"absolute", &e.absolute}, {"angular", &e.angles}})
         for (const auto& [name, value] : ofPixels(*errors)) all[std::string(errorKind) + " " + name] = value;
     for (const auto& [a, x] : all)
@@ -62,7 +62,7 @@ TEST(Figures, NoTwoOfTheSpreadAreAlike) {
                           1e-5 * errorOfRank(*errors, rank));
 }
 
-TEST(Figures, OfAChannelFollowTheirDefinitions) {
+TEST(Metrics, OfAChannelFollowTheirDefinitions) {
     const Spread s = spread();
     const Errors e = errorsOf(s);
     for (const auto& [errorKind, errors] : {std::pair{ErrorKind::absolute, &e.absolute},
@@ -70,7 +70,7 @@ TEST(Figures, OfAChannelFollowTheirDefinitions) {
                                             {ErrorKind::angular, &e.angles}}) {
         const ChannelStats stats =
             channelStats(errorKind, ChannelKind::vector, s.reference, s.test, s.covered);
-        const Figures expected = ofPixels(*errors);
+        const Metrics expected = ofPixels(*errors);
         for (const auto& [name, value] : {std::pair{"max", stats.max},
                                           {"mean", stats.mean},
                                           {"rmse", stats.rmse},
@@ -97,20 +97,20 @@ double longestApart(const Spread& s) {
     return most;
 }
 
-TEST(Figures, AreGivenByTheirNames) {
+TEST(Metrics, AreGivenByTheirNames) {
     const Spread s = spread();
     const Errors e = errorsOf(s);
-    Figures vectors = standardFigures(e);
-    vectors.merge(Figures{{"angle_max", errorOfRank(e.angles, counted)},
+    Metrics vectors = standardMetrics(e);
+    vectors.merge(Metrics{{"angle_max", errorOfRank(e.angles, counted)},
                           {"angle_mean", meanOf(e.angles)},
                           {"length_max", longestApart(s)}});
     vectors.merge(ofPixels(e.angles));
     const Measurement angular(
         {ErrorKind::angular, ChannelKind::vector, false, s.reference, s.test, &s.covered});
-    expectFigures(angular, vectors, {});
+    expectMetrics(angular, vectors, {});
 
     // For absolute errors, mean and RMSE are over components, as in other programs.
-    Figures colors = standardFigures(e), pixels = ofPixels(e.absolute);
+    Metrics colors = standardMetrics(e), pixels = ofPixels(e.absolute);
     pixels["mean"] = meanOf(e.components);
     pixels["rmse"] = rootMeanSquareOf(e.components);
     colors.merge(pixels);
@@ -118,10 +118,10 @@ TEST(Figures, AreGivenByTheirNames) {
         {ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
     ASSERT_NE(absolute.flip(), nullptr);
     const HdrFlipResult& flip = *absolute.flip();
-    colors.merge(Figures{{"flip", flip.mean}, {"flip_median", flip.weighted_median}, {"flip_max", flip.max}});
+    colors.merge(Metrics{{"flip", flip.mean}, {"flip_median", flip.weighted_median}, {"flip_max", flip.max}});
     EXPECT_NE(flip.mean, flip.weighted_median);
     EXPECT_LT(flip.weighted_median, flip.max);
-    expectFigures(absolute, colors, {"ssim"});
+    expectMetrics(absolute, colors, {"ssim"});
 
     // Statistics that were computed before are used, whatever the metric.
     ChannelStats known =
@@ -132,7 +132,7 @@ TEST(Figures, AreGivenByTheirNames) {
         EXPECT_NEAR(given({name, 0}).value_or(-1), value, 1e-12 * value) << name;
 }
 
-TEST(Figures, OfPlainMetricsArePixelsToo) {
+TEST(Metrics, OfPlainMetricsArePixelsToo) {
     const Spread s = spread();
     const StandardMetrics m =
         standardMetrics(s.reference, s.test, ChannelKind::color, Range::linear, s.covered);
@@ -141,7 +141,7 @@ TEST(Figures, OfPlainMetricsArePixelsToo) {
 }
 
 // FLIP uses the exposure range and the display's pixels per degree.
-TEST(Figures, FlipIsToldItsOptions) {
+TEST(Metrics, FlipIsToldItsOptions) {
     const Spread s = spread();
     const auto mean = [&](const HdrFlipOptions& flip, bool display) {
         return Measurement({ErrorKind::absolute, ChannelKind::color, display, s.reference, s.test, &s.covered,
@@ -158,7 +158,7 @@ TEST(Figures, FlipIsToldItsOptions) {
 }
 
 // A fraction of failing pixels: an error equal to the bound passes.
-TEST(Figures, AShareIsOfTheCountedPixelsBeyond) {
+TEST(Metrics, AShareIsOfTheCountedPixelsBeyond) {
     const Spread s = spread();
     const Measurement m({ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
     for (const std::size_t i : {std::size_t{0}, std::size_t{1000}, counted - 2, counted - 1})

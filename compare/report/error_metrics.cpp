@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/report/error_figures.h"
+#include "compare/report/error_metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,7 @@ using namespace error_spread;
 
 namespace {
 
-Figures printedFigures() {
+Metrics printedMetrics() {
     return ofPixels(errorsOf(spread()).absolute);
 }
 
@@ -75,10 +75,10 @@ std::string withoutTags(const std::string& html) {
 
 const std::size_t worstPlace = spreadPixel(counted - 1);
 
-TEST(PrintedFigures, ReportJsonHasThemUnderTheirKeys) {
+TEST(PrintedMetrics, ReportJsonHasThemUnderTheirKeys) {
     const auto report = nlohmann::json::parse(reportJson(spreadReport(), nullptr));
     const auto channel = roughnessIn(report["comparisons"][0]["channels"]);
-    for (const auto& [name, value] : printedFigures())
+    for (const auto& [name, value] : printedMetrics())
         EXPECT_NEAR(channel[name].get<double>(), value, 1e-12) << name;
     EXPECT_EQ(report["comparisons"][0]["covered_pixels"], counted);
     EXPECT_EQ(channel["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
@@ -86,10 +86,10 @@ TEST(PrintedFigures, ReportJsonHasThemUnderTheirKeys) {
     EXPECT_EQ(channel["worst_values"]["test"][0], magnitudeOf(counted - 1) + stepOf(counted - 1));
 }
 
-TEST(PrintedFigures, TheTableHasThemUnderTheirHeads) {
+TEST(PrintedMetrics, TheTableHasThemUnderTheirHeads) {
     const std::string table = reportTable(spreadReport());
     const auto cells = byHead(lineWith(table, "channel"), lineWith(table, "roughness"));
-    const Figures expected = printedFigures();
+    const Metrics expected = printedMetrics();
     for (const auto& [head, name] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
         EXPECT_EQ(cells.at(head), page::number(expected.at(name))) << table;
     EXPECT_NE(table.find(fmt::format("worst at {},{}", worstPlace % wide, worstPlace / wide)),
@@ -97,16 +97,16 @@ TEST(PrintedFigures, TheTableHasThemUnderTheirHeads) {
         << table;
 }
 
-TEST(PrintedFigures, ThePageHasThemBesideTheirNames) {
+TEST(PrintedMetrics, ThePageHasThemBesideTheirNames) {
     const Report report = spreadReport();
     const std::filesystem::path out = folder() / "report";
     writeReport(report, out, {});
     const std::string page = contentsOf(out / "index.html");
-    const Figures expected = printedFigures();
+    const Metrics expected = printedMetrics();
     const std::string card = page.substr(page.find("id=\"c0-roughness\""));
-    for (const auto& [name, figure] :
+    for (const auto& [name, metric] :
          {std::pair{"max", "max"}, {"mean", "mean"}, {"rmse", "rmse"}, {"p99", "p99"}, {"p99.9", "p999"}})
-        EXPECT_NE(card.find(fmt::format("<dt>{}</dt><dd>{}</dd>", name, page::number(expected.at(figure)))),
+        EXPECT_NE(card.find(fmt::format("<dt>{}</dt><dd>{}</dd>", name, page::number(expected.at(metric)))),
                   std::string::npos)
             << name;
     // The overview's heads and cells have the same order.
@@ -117,8 +117,8 @@ TEST(PrintedFigures, ThePageHasThemBesideTheirNames) {
                                   std::regex("max of tolerance"), "used"),
                "roughness " + withoutTags(page.substr(page.find("</td>", row),
                                                       page.find("</tr>", row) - page.find("</td>", row))));
-    for (const auto& [name, figure] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
-        EXPECT_EQ(cells.at(name), page::number(expected.at(figure))) << name;
+    for (const auto& [name, metric] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
+        EXPECT_EQ(cells.at(name), page::number(expected.at(metric))) << name;
     EXPECT_NE(card.find(fmt::format("<dt>forward_plus at {},{}</dt><dd>{}</dd>", worstPlace % wide,
                                     worstPlace / wide,
                                     static_cast<float>(magnitudeOf(counted - 1) + stepOf(counted - 1)))),
@@ -130,11 +130,11 @@ TEST(PrintedFigures, ThePageHasThemBesideTheirNames) {
         << "the ring is around its centre";
 }
 
-TEST(PrintedFigures, JunitNamesThem) {
+TEST(PrintedMetrics, JunitNamesThem) {
     const std::filesystem::path out = folder() / "report";
     writeReport(spreadReport(), out, {});
     const std::string junit = contentsOf(out / "junit.xml");
-    const Figures expected = printedFigures();
+    const Metrics expected = printedMetrics();
     EXPECT_NE(
         junit.find(fmt::format("max {} mean {} p99.9 {} (absolute), worst at {},{}",
                                page::number(expected.at("max")), page::number(expected.at("mean")),
@@ -145,7 +145,7 @@ TEST(PrintedFigures, JunitNamesThem) {
 
 // Errors against the reference: deferred has the spread, forward+ three quarters of it. Deferred against
 // forward+ is smaller.
-TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
+TEST(PrintedMetrics, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
     const Spread s = spread();
     Image nearer = s.reference;
     for (std::size_t i = 0; i < nearer.data.size(); ++i)
@@ -169,17 +169,17 @@ TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
     const std::string table = page.substr(page.find(">errors</th>"));
     for (const auto& [name, errors] :
          {std::pair{"deferred", deferred}, {"forward_plus", forward}, {"between", between}}) {
-        const Figures expected = ofPixels(errors);
+        const Metrics expected = ofPixels(errors);
         const auto& found = name == std::string("between") ? json["between"] : json["error"][name];
-        for (const auto& [figure, value] : expected)
-            EXPECT_NEAR(found[figure].get<double>(), value, 1e-12) << name << " " << figure;
+        for (const auto& [metric, value] : expected)
+            EXPECT_NEAR(found[metric].get<double>(), value, 1e-12) << name << " " << metric;
         EXPECT_NEAR(found["relative_rmse"].get<double>(), expected.at("rmse"), 1e-12) << name;
     }
-    for (const auto& [name, figure] :
+    for (const auto& [name, metric] :
          {std::pair{"mean", "mean"}, {"p99", "p99"}, {"p99.9", "p999"}, {"max", "max"}}) {
         std::string row;
         for (const auto& errors : {deferred, forward, between})
-            row += fmt::format(" {}", page::number(ofPixels(errors).at(figure)));
+            row += fmt::format(" {}", page::number(ofPixels(errors).at(metric)));
         const std::size_t at = table.find(fmt::format("<td class=\"soft wide\">{}</td>", name));
         std::istringstream cells(withoutTags(table.substr(at, table.find("</tr>", at) - at)));
         std::string found, cell;
@@ -189,7 +189,7 @@ TEST(PrintedFigures, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
     }
 }
 
-TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
+TEST(PrintedMetrics, OfTwoFilesStandUnderTheirKeysAndHeads) {
     const std::filesystem::path here = folder();
     const Spread s = spread();
     Image kept = s.test;  // files have no background: uncounted pixels are equal
@@ -206,7 +206,7 @@ TEST(PrintedFigures, OfTwoFilesStandUnderTheirKeysAndHeads) {
     pixels.resize(everywhere);
     components.resize(3 * everywhere);
     // ceil(0.99 x 2501) = 2476, ceil(0.999 x 2501) = 2499.
-    const Figures expected{{"max", errorOfRank(pixels, everywhere)},
+    const Metrics expected{{"max", errorOfRank(pixels, everywhere)},
                            {"mean", meanOf(components)},
                            {"rmse", rootMeanSquareOf(components)},
                            {"p99", errorOfRank(pixels, 2476)},
